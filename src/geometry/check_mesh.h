@@ -1,0 +1,19 @@
+/// The contract of a Surface, checked before any mesh structure sees the triangles.
+#pragma once
+
+#include <vector>
+
+#include "palpation/geometry/triangle_mesh.h"
+
+namespace palpation {
+
+/// What the checks find out on their way.
+struct Connectivity {
+  Triangles neighbours;             ///< the face across the edge from corner i to corner i+1, or -1
+  std::vector<int> face_of_vertex;  ///< the lowest
+};
+
+/// Throws InvalidMesh, naming the first element at fault, its position and the rule of surface.h that it breaks.
+Connectivity check_mesh(const TriangleMesh& mesh);
+
+}  // namespace palpation

@@ -1,0 +1,15 @@
+/// Flat surfaces and their chart.
+#pragma once
+
+#include "geometry/surface_state.h"
+#include "palpation/geometry/chart.h"
+
+namespace palpation {
+
+/// Whether all vertices are in one plane to 1e-9 of the diameter and all faces look the same way.
+Plane find_plane(const TriangleMesh& mesh, double diameter);
+
+/// The frame of chart.h, for a mesh in that plane.
+Chart lay_flat(const TriangleMesh& mesh, const Plane& plane, double diameter);
+
+}  // namespace palpation

@@ -1,0 +1,46 @@
+/// What the copies of a Surface share.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geometry/check_mesh.h"
+#include "geometry/half_edge_mesh.h"
+#include "palpation/geometry/surface.h"
+
+namespace palpation {
+
+class ClosestPoint;
+
+/// The plane of a flat surface.
+struct Plane {
+  bool is_plane = false;
+  Vec3 normal = Vec3::UnitZ();
+};
+
+/// All but the last group is fixed when the constructor is done. What is mutable is made at first use, each under its own flag.
+struct Surface::State {
+  TriangleMesh mesh;
+  Connectivity connectivity;
+  HalfEdgeMesh half_edges;
+  std::vector<std::vector<int>> border_loops;
+  Topology topology;
+  Field face_areas;
+  double area = 0.0;
+  double diameter = 0.0;
+  Plane plane;
+
+  mutable std::once_flag vertex_areas_once, vertex_normals_once, chart_once, closest_point_once;
+  mutable Field vertex_areas;
+  mutable Points vertex_normals;
+  mutable Chart chart;
+  mutable std::shared_ptr<const ClosestPoint> closest_point;
+
+  mutable std::mutex computed_guard;
+  mutable std::set<std::string> computed;
+};
+
+}  // namespace palpation
