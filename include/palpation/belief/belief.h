@@ -1,0 +1,114 @@
+/// The field after the touches: an exact Gaussian-process posterior over a surface (Garg et al. 2016, equations 1 and 2).
+///
+///     K + D = L L',  V = L^-1 K(sites, vertices),  mean = c + V' L^-1 (y - c),  variance = signal^2 (1 - sum V^2) + (what not knowing c adds)
+///
+/// where K is the matrix of correlations and D the noise of each site over the signal's variance: nothing else is ever added to the diagonal. A constant
+/// of unknown value is integrated out (universal kriging).
+///
+/// A value: conditioning makes another belief. Copies share the rows of L and V they have in common, which are only ever appended, so "suppose I touched
+/// there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point operations.
+///
+/// Laws: (1) the order of readings does not matter beyond rounding; (2) variance never grows by conditioning, and does not depend on the readings unless
+/// they are standardized; (3) variance is that of the field, never containing noise, and never below s / (s + |k|^2) signal^2, s the least noise in D.
+/// Without any reading the answer is the prior's: mean 0 (or the constant's mean), variance of the field about its constant.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "palpation/belief/palpation.h"
+#include "palpation/belief/prior.h"
+#include "palpation/belief/sites.h"
+
+namespace palpation {
+
+/// Mean and variance of the field (never of a reading: the noise is not in it), one value per place.
+struct Marginals {
+  Eigen::VectorXd mean;
+  Eigen::VectorXd variance;
+};
+
+struct BeliefOptions {
+  double noise_sd = 0.0;            ///< of a reading whose own variance is not given
+  bool noise_is_relative = false;   ///< noise_sd is a fraction of the kernel's signal_sd
+  bool standardize = false;         ///< the kernel's signal_sd and the constant's sd are multiples of the readings' standard deviation, and the constant's
+                                    ///< mean is the readings' mean: outputs z-scored, as GPy does
+};
+
+class Belief {
+ public:
+  /// Throws InvalidInput unless noise_sd is finite and not negative.
+  Belief(Prior prior, const BeliefOptions& options);
+
+  const Prior& prior() const { return prior_; }
+  const BeliefOptions& options() const { return options_; }
+  const std::vector<Palpation>& palpations() const { return palpations_; }
+  int site_count() const { return static_cast<int>(sites_.size()); }
+
+  /// The belief after more touches. Throws as gather_sites and merge, and NumericalError naming the site and its pivot where K + D is not positive
+  /// definite in double precision (two sites all but coincide, without noise).
+  Belief condition_on(std::span<const Palpation> more) const;
+
+  Marginals at_vertices() const;
+  Marginals at(std::span<const SurfacePoint> points) const;
+
+  /// Log density of the readings; restricted to what does not depend on the constant where that is unknown (REML, without the term log|H'H|/2).
+  double log_marginal_likelihood() const;
+
+  /// The noise variance of a reading whose own is not given, reading units squared.
+  double noise_variance() const;
+  /// The field's prior standard deviation in reading units.
+  double signal_sd() const;
+
+ private:
+  friend class CovarianceWith;
+  struct Rows;  // consecutive rows of L and V
+
+  int row_count() const;
+  Eigen::VectorXd solve_lower(Eigen::VectorXd right_side) const;
+  void restate_readings();
+  void keep_rows(int count);
+  void append_rows();
+  Eigen::MatrixXd factor_of_new_sites(int first) const;
+  void restate_constant();
+  double site_variance(int site) const;
+
+  Prior prior_;
+  BeliefOptions options_;
+  std::vector<Palpation> palpations_;
+  std::vector<Site> sites_;
+  std::vector<double> readings_;   // merged, one per site
+  std::vector<double> diagonal_;   // D
+  double spread_ = 1.0;            // of the readings, if standardized
+  double centre_ = 0.0;            // prior mean of the constant
+
+  std::vector<std::shared_ptr<const Rows>> rows_;
+  Eigen::VectorXd ones_;           // L^-1 1
+  Eigen::VectorXd whitened_;       // L^-1 (y - origin)
+  double origin_ = 0.0;
+  Field explained_;                // sum V^2 at the vertices
+  Field covered_;                  // |k|^2: squared correlations with the sites
+  Field v_ones_;                   // V' L^-1 1
+  Field v_whitened_;               // V' L^-1 (y - origin)
+  double constant_precision_ = 0.0;  // posterior precision of c over the signal's; 0: c is not known at all, infinite: known
+  double constant_ = 0.0;          // posterior mean of c
+};
+
+/// Posterior covariance of the field between one vertex and others: the row that a hypothetical touch there would add.
+class CovarianceWith {
+ public:
+  /// Keeps a reference: the belief must outlive it.
+  CovarianceWith(const Belief& belief, int vertex);
+
+  /// For `count` consecutive vertices from `first`, written to `out`.
+  void operator()(int first, int count, double* out) const;
+
+ private:
+  const Belief& belief_;
+  Vec3 coordinates_;
+  std::vector<double> column_;  // of V
+  double residual_ones_;        // 1 - V' L^-1 1
+};
+
+}  // namespace palpation

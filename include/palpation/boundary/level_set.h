@@ -1,0 +1,37 @@
+/// Where a field on a surface reaches a level. The rule is half open: a vertex is inside when its value is at least the level.
+///
+/// The lines come from VTK's contour filter, fed only the triangles that the level crosses; they are joined into loops by their shared
+/// points, and closed along the border of the tissue, so that every loop bounds the inside, which lies on its left seen from outside. What
+/// encloses nothing (a peak or a ridge that only just reaches the level) makes no loop. Where two pieces meet at a vertex exactly at the
+/// level, a loop may pass it twice.
+#pragma once
+
+#include <vector>
+
+#include "palpation/boundary/region.h"
+#include "palpation/geometry/surface.h"
+
+namespace palpation {
+
+/// A closed line on the surface, its first point not repeated. Consecutive points share a face. `on_border[i]` tells that the piece from
+/// point i to point i + 1 runs along the border of the tissue, not along the level.
+struct LevelLoop {
+  std::vector<SurfacePoint> points;
+  std::vector<bool> on_border;
+};
+
+/// All loops of { field >= level }: by falling length, then by the first point's face. Empty if no vertex is inside; the borders themselves
+/// if all are (so none on a closed surface). Throws InvalidInput unless field has one finite value a vertex and level is finite.
+std::vector<LevelLoop> level_loops(const Surface& surface, const Field& field, double level);
+
+/// The part of the tissue where field >= level, as a region of the surface's chart. Throws as level_loops, and as Surface::chart.
+Region superlevel_region(const Surface& surface, const Field& field, double level);
+
+/// Its area on the tissue, m2, summed over the triangles without polygons: the slow path's twin, and right on any surface.
+double superlevel_area(const Surface& surface, const Field& field, double level);
+
+/// The area on the tissue, m2, of a region of the surface's chart: the chart's own area. Throws InvalidInput where the chart is not
+/// isometric.
+double surface_area(const Surface& surface, const Region& region);
+
+}  // namespace palpation

@@ -1,0 +1,52 @@
+/// A simulated phantom: equation (4) of Garg et al. 2016 on any surface.
+///
+///     Y(x) = low + (high - low) / (1 + exp(-slope d(x) - ln(f / (1 - f)))) + bias x1 (high - low) + noise,
+///
+/// d the signed distance to the true outline (positive inside), f the level's fraction, x1 running from 0 to 1 along the bias axis over the
+/// tissue. The shift by f makes the true outline the contour at low + f (high - low); at f = 1/2 it is the paper's formula as printed.
+#pragma once
+
+#include <vector>
+
+#include "palpation/base/random.h"
+#include "palpation/belief/palpation.h"
+#include "palpation/geometry/surface.h"
+#include "palpation/world/tumour.h"
+
+namespace palpation {
+
+struct StiffnessModel {
+  double low = 7.0;   ///< reading on healthy tissue
+  double high = 9.0;  ///< reading deep inside a tumour
+  double slope_per_m = 1400.0;
+  double noise = 0.0;             ///< standard deviation as a fraction of high - low
+  double bias = 0.0;              ///< the paper's beta
+  Vec3 bias_axis = Vec3::Zero();  ///< zero: the longest side of the tissue's bounding box
+  double fraction = 0.5;          ///< of the level, in (0, 1)
+};
+
+class Phantom {
+ public:
+  /// Throws InvalidInput if the model is not finite, high <= low, slope <= 0, noise < 0, the fraction is outside (0, 1) or the bias axis at
+  /// a right angle to the whole tissue, and as signed_distance.
+  Phantom(Surface surface, std::vector<Tumour> tumours, const StiffnessModel& model);
+
+  /// Free of noise and bias, at the vertices: its superlevel set at true_level() is the true region.
+  const Field& truth() const { return truth_; }
+  double true_level() const;
+
+  /// A reading: bias and noise included; its noise variance is left to the field. Inside a face the signed distance is linear. Every touch
+  /// draws one normal, even without noise, so that runs at several noise levels feel the same fluctuations.
+  Palpation touch(const SurfacePoint& where, Random& random) const;
+
+ private:
+  double stiffness(double signed_distance_m) const;
+
+  Surface surface_;
+  StiffnessModel model_;
+  Field distance_;
+  Field bias_;  // x1 in [0, 1] at the vertices
+  Field truth_;
+};
+
+}  // namespace palpation

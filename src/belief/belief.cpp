@@ -1,0 +1,344 @@
+#include "palpation/belief/belief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "belief/rows.h"
+#include "palpation/base/error.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+constexpr int kTilesAtOnce = 64;
+/// Below this noise 1 - v'v loses digits at a site that the form of site_variance keeps.
+constexpr double kSmallNoise = 1e-4;
+
+int tile_count(const Surface& surface) { return (surface.vertex_count() + kLanes - 1) / kLanes; }
+
+double mean_of(const Eigen::VectorXd& values) {
+  const double origin = values[0];
+  return origin + (values.array() - origin).sum() / static_cast<double>(values.size());
+}
+
+Eigen::VectorXd used_readings(std::span<const Palpation> palpations) {
+  std::vector<double> used;
+  for (const Palpation& palpation : palpations) {
+    if (palpation.set_aside.empty()) used.push_back(palpation.reading);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(used.data(), static_cast<Eigen::Index>(used.size()));
+}
+
+}  // namespace
+
+Belief::Belief(Prior prior, const BeliefOptions& options) : prior_(std::move(prior)), options_(options) {
+  require(std::isfinite(options.noise_sd) && options.noise_sd >= 0.0, "Belief", "noise_sd = " + text_of(options.noise_sd),
+          "must be finite and not negative");
+  restate_readings();
+  keep_rows(0);
+  restate_constant();
+}
+
+double Belief::signal_sd() const { return prior_.kernel().signal_sd * spread_; }
+
+double Belief::noise_variance() const {
+  const double sd = options_.noise_is_relative ? options_.noise_sd * signal_sd() : options_.noise_sd;
+  return sd * sd;
+}
+
+int Belief::row_count() const { return rows_.empty() ? 0 : rows_.back()->first + rows_.back()->count; }
+
+Belief Belief::condition_on(std::span<const Palpation> more) const {
+  Belief next = *this;
+  next.palpations_.insert(next.palpations_.end(), more.begin(), more.end());
+  next.restate_readings();
+  int unchanged = 0;
+  const int known = std::min(row_count(), next.site_count());
+  while (unchanged < known && next.diagonal_[unchanged] == diagonal_[unchanged] && next.readings_[unchanged] == readings_[unchanged]) {
+    ++unchanged;
+  }
+  if (unchanged < row_count()) next.keep_rows(unchanged);
+  next.append_rows();
+  next.restate_constant();
+  return next;
+}
+
+/// Sites, their merged readings and the diagonal D.
+void Belief::restate_readings() {
+  sites_ = gather_sites(prior_, palpations_);
+  if (options_.standardize && !sites_.empty()) {
+    const Eigen::VectorXd readings = used_readings(palpations_);
+    centre_ = mean_of(readings);
+    const double spread = std::sqrt((readings.array() - centre_).square().mean());
+    spread_ = spread > 0.0 ? spread : 1.0;
+  }
+  const double signal_variance = signal_sd() * signal_sd();
+  const double plain_ratio = options_.noise_is_relative ? options_.noise_sd * options_.noise_sd : noise_variance() / signal_variance;
+  readings_.clear();
+  diagonal_.clear();
+  for (const Site& site : sites_) {
+    const MergedReading merged = merge(site, noise_variance());
+    readings_.push_back(merged.mean);
+    diagonal_.push_back(site.known.empty() ? plain_ratio / static_cast<double>(site.plain.size()) : merged.variance / signal_variance);
+  }
+  if (row_count() == 0 && !sites_.empty()) {
+    origin_ = options_.standardize || prior_.constant().sd > 0.0 ? readings_.front() : 0.0;
+  }
+}
+
+/// Forgets the rows from the first one that does not lie in a block before `count`, and restates the sums over the rest.
+void Belief::keep_rows(int count) {
+  while (!rows_.empty() && row_count() > count) rows_.pop_back();
+  const int vertices = prior_.surface().vertex_count();
+  explained_ = covered_ = v_ones_ = v_whitened_ = Field::Zero(vertices);
+  ones_.conservativeResize(row_count());
+  whitened_.conservativeResize(row_count());
+  for (int vertex = 0; vertex < vertices; ++vertex) {
+    const Vec3 x = prior_.coordinates(vertex);
+    for (const auto& rows : rows_) {
+      for (int row = 0; row < rows->count; ++row) {
+        const double v = rows->value(row, vertex);
+        const double k = correlation(prior_.kernel(), x - sites_[rows->first + row].coordinates);
+        explained_[vertex] += v * v;
+        covered_[vertex] += k * k;
+        v_ones_[vertex] += v * ones_[rows->first + row];
+        v_whitened_[vertex] += v * whitened_[rows->first + row];
+      }
+    }
+  }
+}
+
+/// The rows of L for the sites from `first` on: row-append Cholesky, which is as accurate as factoring anew.
+Eigen::MatrixXd Belief::factor_of_new_sites(int first) const {
+  const int count = site_count() - first;
+  Eigen::MatrixXd correlations(site_count(), count);
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i <= first + j; ++i) {
+      correlations(i, j) = correlation(prior_.kernel(), sites_[i].coordinates - sites_[first + j].coordinates);
+    }
+    correlations(first + j, j) += diagonal_[first + j];
+  }
+  for (const auto& rows : rows_) {
+    auto right_side = correlations.middleRows(rows->first, rows->count);
+    right_side.noalias() -= rows->factor.leftCols(rows->first) * correlations.topRows(rows->first);
+    rows->factor.rightCols(rows->count).triangularView<Eigen::Lower>().solveInPlace(right_side);
+  }
+  Eigen::MatrixXd factor(count, site_count());
+  factor.leftCols(first) = correlations.topRows(first).transpose();
+  for (int row = 0; row < count; ++row) {
+    for (int column = 0; column <= row; ++column) {
+      const double rest = correlations(first + column, row) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
+      if (column < row) {
+        factor(row, first + column) = rest / factor(column, first + column);
+      } else if (rest > 0.0 && std::isfinite(rest)) {
+        factor(row, first + column) = std::sqrt(rest);
+      } else {
+        throw NumericalError("Belief: site " + std::to_string(first + row) + " leaves the pivot " + text_of(rest) +
+                             ", so the covariance is not positive definite in double precision: sites all but coincide, and the noise (" +
+                             text_of(diagonal_[first + row]) + " of the signal's variance) does not part them");
+      }
+    }
+    factor.row(row).tail(count - row - 1).setZero();
+  }
+  return factor;
+}
+
+/// Rows of L and V for all sites that have none yet, and their share of the sums, in one pass over the vertices.
+void Belief::append_rows() {
+  const int first = row_count();
+  const int count = site_count() - first;
+  if (count == 0) return;
+  auto fresh = std::make_shared<Rows>();
+  fresh->first = first;
+  fresh->count = count;
+  fresh->factor = factor_of_new_sites(first);
+  const auto& factor = fresh->factor;
+
+  ones_.conservativeResize(site_count());
+  whitened_.conservativeResize(site_count());
+  for (int row = 0; row < count; ++row) {
+    const auto before = factor.row(row).head(first + row);
+    const double pivot = factor(row, first + row);
+    ones_[first + row] = (1.0 - before.dot(ones_.head(first + row))) / pivot;
+    whitened_[first + row] = (readings_[first + row] - origin_ - before.dot(whitened_.head(first + row))) / pivot;
+  }
+
+  const Surface& surface = prior_.surface();
+  fresh->v = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(tile_count(surface)) * count * kLanes);
+  const int stride = static_cast<int>(factor.cols());
+  for_ranges(tile_count(surface), kTilesAtOnce, [&](int first_tile, int last_tile) {
+    for (int tile = first_tile; tile < last_tile; ++tile) {
+      double* rows = fresh->tile(tile);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const int vertex = std::min(tile * kLanes + lane, surface.vertex_count() - 1);
+        const bool real = tile * kLanes + lane == vertex;
+        const Vec3 x = prior_.coordinates(vertex);
+        for (int row = 0; row < count; ++row) {
+          const double k = correlation(prior_.kernel(), x - sites_[first + row].coordinates);
+          rows[row * kLanes + lane] = k;
+          if (real) covered_[vertex] += k * k;
+        }
+      }
+      for (const auto& block : rows_) subtract_product(factor.data() + block->first, stride, block->tile(tile), block->count, rows, count);
+      solve_triangle(factor.data() + first, stride, rows, count);
+      for (int lane = 0; lane < kLanes && tile * kLanes + lane < surface.vertex_count(); ++lane) {
+        const int vertex = tile * kLanes + lane;
+        for (int row = 0; row < count; ++row) {
+          const double v = rows[row * kLanes + lane];
+          explained_[vertex] += v * v;
+          v_ones_[vertex] += v * ones_[first + row];
+          v_whitened_[vertex] += v * whitened_[first + row];
+        }
+      }
+    }
+  });
+  rows_.push_back(std::move(fresh));
+}
+
+/// Posterior of the constant: prior N(centre, sd^2) and L^-1 (y - c) white.
+void Belief::restate_constant() {
+  const double prior_sd = prior_.constant().sd * (options_.standardize ? spread_ : 1.0);
+  if (prior_sd == 0.0) {
+    constant_precision_ = std::numeric_limits<double>::infinity();
+    constant_ = centre_;
+    return;
+  }
+  const double ratio = signal_sd() / prior_sd;
+  const double prior_precision = ratio * ratio;
+  constant_precision_ = prior_precision + ones_.squaredNorm();
+  constant_ = constant_precision_ > 0.0
+                  ? origin_ + (prior_precision * (centre_ - origin_) + ones_.dot(whitened_)) / constant_precision_
+                  : centre_;
+}
+
+Eigen::VectorXd Belief::solve_lower(Eigen::VectorXd right_side) const {
+  for (const auto& rows : rows_) {
+    auto part = right_side.segment(rows->first, rows->count);
+    part.noalias() -= rows->factor.leftCols(rows->first) * right_side.head(rows->first);
+    rows->factor.rightCols(rows->count).triangularView<Eigen::Lower>().solveInPlace(part);
+  }
+  return right_side;
+}
+
+/// 1 - v'v at a site without its cancellation: d (1 - d |L^-1 e|^2), d the site's noise.
+double Belief::site_variance(int site) const {
+  const double d = diagonal_[site];
+  return d * (1.0 - d * solve_lower(Eigen::VectorXd::Unit(site_count(), site)).squaredNorm());
+}
+
+Marginals Belief::at_vertices() const {
+  const int vertices = prior_.surface().vertex_count();
+  Eigen::VectorXd unexplained = 1.0 - explained_.array();
+  for (int site = 0; site < site_count(); ++site) {
+    if (diagonal_[site] >= kSmallNoise) continue;
+    for (int corner = 0; corner < 3; ++corner) {
+      if (sites_[site].where.barycentric[corner] != 1.0) continue;
+      unexplained[prior_.surface().triangle(sites_[site].where.face)[corner]] = site_variance(site);
+    }
+  }
+  // Since K >= k k', the variance is at least s / (s + |k|^2).
+  const double least_noise = diagonal_.empty() ? 1.0 : *std::min_element(diagonal_.begin(), diagonal_.end());
+  const double signal_variance = signal_sd() * signal_sd();
+  const bool constant_unsure = std::isfinite(constant_precision_) && constant_precision_ > 0.0;
+  Marginals result{Eigen::VectorXd(vertices), Eigen::VectorXd(vertices)};
+  for (int vertex = 0; vertex < vertices; ++vertex) {
+    const double floor = site_count() == 0 ? 1.0 : least_noise > 0.0 ? least_noise / (least_noise + covered_[vertex]) : 0.0;
+    double variance = std::clamp(unexplained[vertex], floor, 1.0);
+    const double residual = 1.0 - v_ones_[vertex];
+    if (constant_unsure) variance += residual * residual / constant_precision_;
+    result.variance[vertex] = signal_variance * variance;
+    result.mean[vertex] = constant_ + (v_whitened_[vertex] - (constant_ - origin_) * v_ones_[vertex]);
+  }
+  return result;
+}
+
+Marginals Belief::at(std::span<const SurfacePoint> points) const {
+  const int count = static_cast<int>(points.size());
+  const double signal_variance = signal_sd() * signal_sd();
+  const bool constant_unsure = std::isfinite(constant_precision_) && constant_precision_ > 0.0;
+  Marginals result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  for_ranges(count, 16, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Vec3 x = prior_.coordinates(points[i]);
+      Eigen::VectorXd k(site_count());
+      int same_site = -1;
+      for (int site = 0; site < site_count(); ++site) {
+        k[site] = correlation(prior_.kernel(), x - sites_[site].coordinates);
+        if (x == sites_[site].coordinates) same_site = site;
+      }
+      const Eigen::VectorXd v = solve_lower(k);
+      double variance = std::clamp(1.0 - v.squaredNorm(), 0.0, 1.0);
+      if (same_site >= 0 && diagonal_[same_site] < kSmallNoise) variance = site_variance(same_site);
+      const double residual = 1.0 - v.dot(ones_);
+      if (constant_unsure) variance += residual * residual / constant_precision_;
+      result.variance[i] = signal_variance * variance;
+      result.mean[i] = constant_ + (v.dot(whitened_) - (constant_ - origin_) * v.dot(ones_));
+    }
+  });
+  return result;
+}
+
+double Belief::log_marginal_likelihood() const {
+  const double signal_variance = signal_sd() * signal_sd();
+  const int n = site_count();
+  if (n == 0) return 0.0;
+  const double prior_sd = prior_.constant().sd * (options_.standardize ? spread_ : 1.0);
+  double log_determinant = n * std::log(signal_variance);
+  for (const auto& rows : rows_) {
+    for (int row = 0; row < rows->count; ++row) log_determinant += 2.0 * std::log(rows->factor(row, rows->first + row));
+  }
+  double free_readings = n;
+  double square = 0.0;
+  if (std::isinf(prior_sd)) {
+    square = (whitened_ - (constant_ - origin_) * ones_).squaredNorm();
+    log_determinant += std::log(constant_precision_ / signal_variance);
+    free_readings -= 1.0;
+  } else {
+    const Eigen::VectorXd centred = whitened_ - (centre_ - origin_) * ones_;
+    square = centred.squaredNorm();
+    if (prior_sd > 0.0) {
+      const double projection = centred.dot(ones_);
+      square -= projection * projection / constant_precision_;
+      log_determinant += std::log(constant_precision_ * prior_sd * prior_sd / signal_variance);
+    }
+  }
+  double result = -0.5 * (square / signal_variance + log_determinant + free_readings * std::log(2.0 * std::numbers::pi));
+  for (const Site& site : sites_) result += scatter_log_likelihood(site, noise_variance());
+  return result;
+}
+
+CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belief), coordinates_(belief.prior_.coordinates(vertex)) {
+  require(vertex >= 0 && vertex < belief.prior_.surface().vertex_count(), "CovarianceWith", "vertex " + std::to_string(vertex),
+          "is not on the surface");
+  column_.reserve(static_cast<std::size_t>(belief.site_count()));
+  for (const auto& rows : belief.rows_) {
+    for (int row = 0; row < rows->count; ++row) column_.push_back(rows->value(row, vertex));
+  }
+  residual_ones_ = 1.0 - belief.v_ones_[vertex];
+}
+
+void CovarianceWith::operator()(int first, int count, double* out) const {
+  const Prior& prior = belief_.prior_;
+  const double signal_variance = belief_.signal_sd() * belief_.signal_sd();
+  const double precision = belief_.constant_precision_;
+  const double constant_share = std::isfinite(precision) && precision > 0.0 ? residual_ones_ / precision : 0.0;
+  for (int tile = first / kLanes; tile * kLanes < first + count; ++tile) {
+    double covariance[kLanes] = {};
+    for (const auto& rows : belief_.rows_) {
+      subtract_product(column_.data() + rows->first, 0, rows->tile(tile), rows->count, covariance, 1);
+    }
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int vertex = tile * kLanes + lane;
+      if (vertex < first || vertex >= first + count) continue;
+      const double prior_correlation = correlation(prior.kernel(), prior.coordinates(vertex) - coordinates_);
+      out[vertex - first] =
+          signal_variance * (prior_correlation + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
+    }
+  }
+}
+
+}  // namespace palpation

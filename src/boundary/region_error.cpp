@@ -1,0 +1,84 @@
+#include "palpation/boundary/region_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "boundary/nearest_segment.h"
+#include "palpation/base/error.h"
+
+namespace palpation {
+
+namespace {
+
+constexpr int kSamples = 4000;
+
+void add_segments(const Ring& ring, std::vector<Segment>& segments) {
+  for (std::size_t i = 0; i < ring.size(); ++i) segments.push_back({ring[i], ring[(i + 1) % ring.size()]});
+}
+
+std::vector<Segment> boundary_of(const Region& region) {
+  std::vector<Segment> segments;
+  for (const PolygonWithHoles& polygon : region.polygons()) {
+    add_segments(polygon.outer, segments);
+    for (const Ring& hole : polygon.holes) add_segments(hole, segments);
+  }
+  return segments;
+}
+
+/// Distances from one boundary to another.
+struct Gap {
+  double greatest = 0.0;
+  double integral = 0.0;  ///< along the boundary
+  double length = 0.0;
+};
+
+/// Each segment in equal pieces, none longer than asked; the integral by the trapezoidal rule.
+Gap gap(const std::vector<Segment>& boundary, const NearestSegment& other) {
+  Gap total;
+  for (const Segment& segment : boundary) total.length += (segment.to - segment.from).norm();
+  const double piece_length = std::max(total.length / kSamples, std::numeric_limits<double>::min());
+  int hint = 0;
+  for (const Segment& segment : boundary) {
+    const double length = (segment.to - segment.from).norm();
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / piece_length)));
+    double last = other.distance(segment.from, hint);
+    total.greatest = std::max(total.greatest, last);
+    for (int piece = 1; piece <= pieces; ++piece) {
+      const double part = static_cast<double>(piece) / pieces;
+      const double here = other.distance((1.0 - part) * segment.from + part * segment.to, hint);
+      total.greatest = std::max(total.greatest, here);
+      total.integral += 0.5 * (last + here) * length / pieces;
+      last = here;
+    }
+  }
+  return total;
+}
+
+void add_distances(const Region& estimate, const Region& truth, RegionError& error) {
+  const std::vector<Segment> a = boundary_of(estimate);
+  const std::vector<Segment> b = boundary_of(truth);
+  const Gap from_a = gap(a, NearestSegment(b));
+  const Gap from_b = gap(b, NearestSegment(a));
+  error.hausdorff_m = std::max(from_a.greatest, from_b.greatest);
+  // Rounded to doubles, the tiniest of regions has a boundary of no length: then there is one distance only.
+  const double length = from_a.length + from_b.length;
+  error.mean_distance_m = length > 0.0 ? (from_a.integral + from_b.integral) / length : *error.hausdorff_m;
+}
+
+}  // namespace
+
+RegionError compare(const Surface& surface, const Region& estimate, const Region& truth) {
+  require(surface.chart().isometric, "compare", "a chart that distorts areas and lengths", "is no measure of the tissue");
+  const OverlapAreas areas = overlap_areas(estimate, truth);
+  RegionError error;
+  error.missed_m2 = areas.only_b_m2;
+  error.extra_m2 = areas.only_a_m2;
+  error.symmetric_difference_m2 = error.missed_m2 + error.extra_m2;
+  if (estimate.empty() && truth.empty()) return error;
+  error.dice = 2.0 * areas.both_m2 / (2.0 * areas.both_m2 + error.symmetric_difference_m2);
+  if (!estimate.empty() && !truth.empty()) add_distances(estimate, truth, error);
+  return error;
+}
+
+}  // namespace palpation

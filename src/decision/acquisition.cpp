@@ -1,0 +1,100 @@
+#include "palpation/decision/acquisition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "decision/scoring.h"
+#include "palpation/base/error.h"
+#include "palpation/base/random.h"
+
+namespace palpation {
+namespace {
+
+void check_gamma(const char* function, double gamma) {
+  require(gamma >= 0.0 && gamma <= 1.0, function, "gamma = " + text_of(gamma), "must lie in [0, 1]");
+}
+
+void check_width(const char* function, double width) {
+  require(std::isfinite(width) && width >= 0.0, function, "width = " + text_of(width), "must be finite and not negative");
+}
+
+}  // namespace
+
+Pointwise evr() {
+  return {.score = [](double, double stddev, const Level&) { return stddev; }, .grows_with_stddev = true};
+}
+
+Pointwise ucb(double gamma, Scaling scaling) {
+  check_gamma("ucb", gamma);
+  return {.score = [gamma](double mean, double stddev, const Level&) { return gamma * mean + (1.0 - gamma) * stddev; },
+          .grows_with_stddev = true,
+          .units = scaling == Scaling::Raw ? Units::Readings : Units::OverGreatestMean};
+}
+
+Pointwise ils_ucb(double gamma, Scaling scaling) {
+  check_gamma("ils_ucb", gamma);
+  return {.score = [gamma](double mean, double stddev,
+                           const Level& level) { return (1.0 - gamma) * stddev - gamma * std::abs(mean - level.value); },
+          .grows_with_stddev = true,
+          .units = scaling == Scaling::Raw ? Units::Readings : Units::OverGreatestDistance};
+}
+
+Pointwise straddle(double width) {
+  check_width("straddle", width);
+  return {.score = [width](double mean, double stddev, const Level& level) { return width * stddev - std::abs(mean - level.value); },
+          .grows_with_stddev = true};
+}
+
+Pointwise lse_ambiguity(double width) {
+  check_width("lse_ambiguity", width);
+  return {.score =
+              [width](double mean, double stddev, const Level& level) {
+                return std::min(mean + width * stddev - level.value, level.value - (mean - width * stddev));
+              },
+          .grows_with_stddev = true};
+}
+
+Whole random_scores(std::uint64_t seed) {
+  return {.scores = [seed](const Belief& belief, const Level&) {
+    Random random(seed ^ (0x9e3779b97f4a7c15u * (belief.palpations().size() + 1)));
+    Field scores(belief.prior().surface().vertex_count());
+    for (double& score : scores) score = random.uniform();
+    return scores;
+  }};
+}
+
+PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& level, const Marginals& marginals, std::span<const int> candidates)
+    : acquisition_(acquisition), level_(level) {
+  if (acquisition.units == Units::Readings) return;
+  mean_origin_ = acquisition.units == Units::OverGreatestDistance ? level.value : 0.0;
+  double greatest_stddev = 0.0;
+  double greatest_mean = 0.0;
+  for (int vertex : candidates) {
+    greatest_stddev = std::max(greatest_stddev, std::sqrt(marginals.variance[vertex]));
+    greatest_mean = std::max(greatest_mean, std::abs(marginals.mean[vertex] - mean_origin_));
+  }
+  if (greatest_stddev > 0.0) stddev_unit_ = greatest_stddev;
+  if (greatest_mean > 0.0) mean_unit_ = greatest_mean;
+}
+
+double PointwiseScorer::operator()(double mean, double variance) const {
+  const double scaled_mean = acquisition_.units == Units::Readings ? mean : mean_origin_ + (mean - mean_origin_) / mean_unit_;
+  const double result = acquisition_.score(scaled_mean, std::sqrt(variance) / stddev_unit_, level_);
+  require(!std::isnan(result), "Acquisition", "the score at mean " + text_of(mean) + ", variance " + text_of(variance), "must not be NaN");
+  return result;
+}
+
+Field score(const Acquisition& acquisition, const Belief& belief, const Level& level) {
+  if (const auto* whole = std::get_if<Whole>(&acquisition)) return whole->scores(belief, level);
+  const Marginals marginals = belief.at_vertices();
+  std::vector<int> all(static_cast<std::size_t>(marginals.mean.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const PointwiseScorer scorer(std::get<Pointwise>(acquisition), level, marginals, all);
+  Field scores(marginals.mean.size());
+  for (Eigen::Index vertex = 0; vertex < scores.size(); ++vertex) scores[vertex] = scorer(marginals.mean[vertex], marginals.variance[vertex]);
+  return scores;
+}
+
+}  // namespace palpation

@@ -1,0 +1,26 @@
+/// A pointwise acquisition with its units frozen.
+#pragma once
+
+#include <span>
+
+#include "palpation/decision/acquisition.h"
+
+namespace palpation {
+
+class PointwiseScorer {
+ public:
+  /// Keeps a reference to the acquisition.
+  PointwiseScorer(const Pointwise& acquisition, const Level& level, const Marginals& marginals, std::span<const int> candidates);
+
+  /// Throws InvalidInput if the score is NaN.
+  double operator()(double mean, double variance) const;
+
+ private:
+  const Pointwise& acquisition_;
+  Level level_;
+  double stddev_unit_ = 1.0;
+  double mean_origin_ = 0.0;
+  double mean_unit_ = 1.0;
+};
+
+}  // namespace palpation

@@ -1,0 +1,192 @@
+#include "palpation/exploration/exploration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "palpation/base/error.h"
+#include "palpation/certainty/expected_error.h"
+#include "palpation/certainty/level_estimate.h"
+#include "palpation/decision/tour.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kOutlierSd = 4.0;
+constexpr int kFewReadings = 10;
+constexpr double kEnoughEvidence = 3.0;
+/// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
+constexpr double kDistinct_m = 1e-12;
+
+/// A belief to start from: what is learned has no value yet, so the priors' medians stand in.
+Belief unlearned(const Surface& surface, const FieldModel& field) {
+  Kernel kernel = field.kernel;
+  if (field.learn_length) kernel.length_m = field.length_median_m;
+  if (field.learn_signal) kernel.signal_sd = 1.0;
+  BeliefOptions options = field.belief;
+  if (field.learn_noise) options.noise_sd = 0.1 * kernel.signal_sd;
+  if (field.learns()) options.standardize = options.noise_is_relative = false;
+  return Belief(Prior(surface, field.metric, kernel, field.constant), options);
+}
+
+double median(std::vector<double> values) {
+  const std::size_t middle = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(middle), values.end());
+  return values[middle];
+}
+
+std::vector<double> used_readings(std::span<const Palpation> palpations) {
+  std::vector<double> readings;
+  for (const Palpation& palpation : palpations) {
+    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
+  }
+  return readings;
+}
+
+/// The vertex that a palpation touched, or -1.
+int touched_vertex(const Surface& surface, const Palpation& palpation) {
+  for (int corner = 0; corner < 3; ++corner) {
+    if (palpation.where.barycentric[corner] == 1.0) return surface.triangle(palpation.where.face)[corner];
+  }
+  return -1;
+}
+
+}  // namespace
+
+bool shows_contrast(std::span<const double> readings, double signal_evidence) {
+  if (signal_evidence > kEnoughEvidence) return true;
+  if (readings.size() < kFewReadings) return false;
+  const double middle = median({readings.begin(), readings.end()});
+  std::vector<double> deviations;
+  for (double reading : readings) deviations.push_back(std::abs(reading - middle));
+  const double robust_sd = 1.4826 * median(deviations);
+  return *std::max_element(readings.begin(), readings.end()) - middle > kOutlierSd * robust_sd;
+}
+
+Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed, Reach reach)
+    : surface_(std::move(surface)),
+      field_(std::move(field)),
+      level_rule_(level),
+      plan_(std::move(plan)),
+      random_(seed),
+      reachable_(static_cast<std::size_t>(surface_.vertex_count()), reach.vertices.empty()),
+      touch_once_(reach.touch_once),
+      belief_(unlearned(surface_, field_)),
+      marginals_(belief_.at_vertices()) {
+  require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
+  require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches), "must not be negative");
+  require(plan_.stop_error_m2 >= 0.0, "Plan", "stop_error_m2 = " + text_of(plan_.stop_error_m2), "must not be negative or NaN");
+  require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule", "fraction = " + text_of(level_rule_.fraction), "must lie in (0, 1)");
+  for (int vertex : reach.vertices) {
+    require(vertex >= 0 && vertex < surface_.vertex_count(), "Reach", "vertex " + std::to_string(vertex), "is not on the surface");
+    reachable_[vertex] = true;
+  }
+  if (level_rule_.known) level_ = Level{*level_rule_.known, 0.0};
+  if (touch_once_ && plan_.batch.least_spacing_m == 0.0) plan_.batch.least_spacing_m = kDistinct_m;
+  contrast_seen_ = !plan_.safe_start || !field_.learns();
+  plan_next();
+}
+
+std::vector<int> Exploration::next() const { return next_; }
+
+void Exploration::record(std::span<const Palpation> palpations) {
+  std::vector<bool> answered(static_cast<std::size_t>(surface_.vertex_count()), false);
+  for (const Palpation& palpation : palpations) {
+    if (const int vertex = touched_vertex(surface_, palpation); vertex >= 0) answered[vertex] = true;
+  }
+  for (int stop : next_) {
+    if (!answered[stop]) reachable_[stop] = false;
+  }
+  learn_from(palpations);
+}
+
+void Exploration::take_up(std::span<const Palpation> palpations) { learn_from(palpations); }
+
+void Exploration::learn_from(std::span<const Palpation> palpations) {
+  ++batch_;
+  for (const Palpation& palpation : palpations) {
+    batch_ = std::max(batch_, palpation.batch + 1);
+    const int vertex = touched_vertex(surface_, palpation);
+    if (touch_once_ && vertex >= 0) reachable_[vertex] = false;
+  }
+  std::vector<Palpation> all = belief_.palpations();
+  all.insert(all.end(), palpations.begin(), palpations.end());
+  belief_ = field_.learns() ? fitted(all) : belief_.condition_on(palpations);
+  marginals_ = belief_.at_vertices();
+  if (belief_.site_count() > 0 && !level_rule_.known) level_ = level_from_range(marginals_, level_rule_.fraction);
+  if (!palpations.empty()) probe_ = palpations.back().where;
+  plan_next();
+}
+
+/// A new belief with the hyperparameters that the readings teach.
+Belief Exploration::fitted(std::span<const Palpation> palpations) {
+  Belief fresh = unlearned(surface_, field_);
+  if (gather_sites(fresh.prior(), palpations).size() < 2) return fresh.condition_on(palpations);
+  LearnOptions options;
+  options.length_median_m = field_.length_median_m;
+  if (!field_.learn_length) options.length_m = field_.kernel.length_m;
+  if (!field_.learn_signal) options.signal_sd = field_.kernel.signal_sd;
+  if (!field_.learn_noise) options.noise_sd = field_.belief.noise_sd;
+  const Learned learned = learn(fresh.prior(), palpations, learned_, options);
+  learned_ = learned.values;
+  if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(palpations), learned.signal_evidence);
+
+  Kernel kernel = field_.kernel;
+  kernel.length_m = learned_.length_m;
+  kernel.signal_sd = learned_.signal_sd;
+  const Prior prior(surface_, field_.metric, kernel, field_.constant);
+  return Belief(prior, {.noise_sd = learned_.noise_sd}).condition_on(palpations);
+}
+
+/// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length instead.
+Acquisition Exploration::acquisition_in_force() const { return contrast_seen_ && level_ ? plan_.acquisition : Acquisition(evr()); }
+
+std::vector<int> Exploration::candidates() const {
+  std::vector<int> vertices;
+  for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) {
+    if (reachable_[vertex]) vertices.push_back(vertex);
+  }
+  return vertices;
+}
+
+Field Exploration::acquisition_field() const { return score(acquisition_in_force(), belief_, level_.value_or(Level{})); }
+
+std::vector<int> Exploration::in_tour_order(std::vector<int> stops) const {
+  if (stops.empty()) return stops;
+  const Vec3 start = probe_ ? surface_.position(*probe_) : surface_.vertex(*std::min_element(stops.begin(), stops.end()));
+  const auto place = [&](Eigen::Index i) { return i == 0 ? start : surface_.vertex(stops[static_cast<std::size_t>(i - 1)]); };
+  Eigen::MatrixXd distance(stops.size() + 1, stops.size() + 1);
+  for (Eigen::Index i = 0; i < distance.rows(); ++i) {
+    for (Eigen::Index j = 0; j < distance.cols(); ++j) distance(i, j) = (place(i) - place(j)).norm();
+  }
+  std::vector<int> ordered;
+  for (int stop : shortest_tour(distance)) ordered.push_back(stops[stop]);
+  return ordered;
+}
+
+void Exploration::plan_next() {
+  next_.clear();
+  stop_reason_.clear();
+  if (batch_ == 0 && plan_.initial_count > 0) {
+    next_ = in_tour_order(initial_design(surface_, plan_.initial, plan_.initial_count, candidates(), random_));
+    if (next_.empty()) stop_reason_ = "nothing left to touch";
+    return;
+  }
+  const int done = plan_.initial_count > 0 ? batch_ - 1 : batch_;
+  if (done >= plan_.batches) {
+    stop_reason_ = "budget";
+    return;
+  }
+  if (plan_.stop_error_m2 > 0.0 && level_ && contrast_seen_ && belief_.site_count() > 0 &&
+      expected_error(surface_, marginals_, *level_).symmetric_difference_m2() <= plan_.stop_error_m2) {
+    stop_reason_ = "expected error";
+    return;
+  }
+  Belief believed = belief_;
+  if (!contrast_seen_) believed = unlearned(surface_, field_).condition_on(belief_.palpations());
+  next_ = in_tour_order(choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), plan_.batch).vertices);
+  if (next_.empty()) stop_reason_ = "nothing left to touch";
+}
+
+}  // namespace palpation

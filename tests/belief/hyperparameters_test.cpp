@@ -1,0 +1,120 @@
+#include "palpation/belief/hyperparameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "belief/tissue.h"
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+TEST(Likelihood, IsTheBeliefsOwn) {
+  const Surface tissue = plane(20, 40);
+  Random random(1);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
+  readings.push_back(readings[5]);  // a repeated touch
+  readings.back().reading += 0.1;
+  readings[7].noise_variance = 0.3;
+  for (const double constant_sd : {0.0, 4.0, kUnknown}) {
+    const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3}, {.sd = constant_sd});
+    const double ours = likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
+    const double beliefs = Belief(prior, {.noise_sd = 0.2}).condition_on(readings).log_marginal_likelihood();
+    EXPECT_NEAR(ours, beliefs, 1e-8);
+  }
+}
+
+TEST(Likelihood, HasTheGradientOfItsDifferences) {
+  const Surface tissue = plane(20, 40);
+  Random random(2);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 25, random);
+  for (int i = 0; i < 3; ++i) {
+    readings.push_back(readings[5]);
+    readings.back().reading += 0.1 * i;
+    readings.back().noise_variance = i == 2 ? 0.02 : std::nan("");  // a place with both kinds of noise
+  }
+  for (const KernelFamily family : {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52}) {
+    for (const double constant_sd : {0.0, 4.0, kUnknown}) {
+      const Prior prior(tissue, Metric::Chart, {.family = family}, {.sd = constant_sd});
+      const std::vector<Site> sites = gather_sites(prior, readings);
+      const Hyperparameters at{0.0045, 0.9, 0.15};
+      const auto moved = [&](int parameter, double by) {
+        Hyperparameters there = at;
+        if (parameter == 0) there.length_m *= std::exp(by);
+        if (parameter == 1) there.signal_sd *= std::exp(by);
+        if (parameter == 2) there.noise_sd *= std::exp(by);
+        return likelihood_gradient(prior, sites, there).value;
+      };
+      const Vec3 gradient = likelihood_gradient(prior, sites, at).gradient;
+      for (int parameter = 0; parameter < 3; ++parameter) {
+        // Central differences at step 1e-4: truncation 1e-8 x third derivative, rounding 1e-12 / 1e-4.
+        EXPECT_NEAR(gradient[parameter], (moved(parameter, 1e-4) - moved(parameter, -1e-4)) / 2e-4, 2e-5) << parameter;
+      }
+    }
+  }
+}
+
+TEST(Learn, FindsAnOptimum) {
+  const Surface tissue = plane(40, 80);
+  Random random(3);
+  const std::vector<Palpation> readings = bumpy_readings(tissue, 100, random);
+  const Prior prior(tissue, Metric::Chart, {});
+  const Learned learned = learn(prior, readings, {}, {});
+  const auto posterior = [&](const Hyperparameters& at) {
+    const double l = std::log(at.length_m / 0.0035) / 0.4;
+    const double r = (2.0 * std::log(at.noise_sd / at.signal_sd) - std::log(0.02)) / 2.0;
+    return likelihood_gradient(prior, gather_sites(prior, readings), at).value - 0.5 * (l * l + r * r);
+  };
+  EXPECT_NEAR(posterior(learned.values), learned.log_posterior, 1e-8);
+  for (const double factor : {0.97, 1.03}) {
+    Hyperparameters near = learned.values;
+    near.length_m *= factor;
+    EXPECT_LT(posterior(near), learned.log_posterior);
+    near = learned.values;
+    near.noise_sd *= factor;
+    EXPECT_LT(posterior(near), learned.log_posterior);
+  }
+  EXPECT_GT(learned.signal_evidence, 20.0);
+  // The bump is 2 high with a noise of 0.05.
+  EXPECT_NEAR(learned.values.noise_sd, 0.05, 0.03);
+}
+
+TEST(Learn, KeepsWhatIsFixed) {
+  const Surface tissue = plane(40, 80);
+  Random random(4);
+  const std::vector<Palpation> readings = bumpy_readings(tissue, 50, random);
+  const Learned learned = learn(Prior(tissue, Metric::Chart, {}), readings, {}, {.length_m = 0.004, .noise_sd = 0.05});
+  EXPECT_EQ(learned.values.length_m, 0.004);
+  EXPECT_EQ(learned.values.noise_sd, 0.05);
+  EXPECT_GT(learned.values.signal_sd, 0.3);
+}
+
+TEST(Learn, SeesNoFieldInNoise) {
+  const Surface tissue = plane(40, 80);
+  Random random(5);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
+  for (Palpation& palpation : readings) palpation.reading = 7.0 + 0.3 * random.normal();
+  EXPECT_LT(learn(Prior(tissue, Metric::Chart, {}), readings, {}, {}).signal_evidence, 3.0);
+}
+
+TEST(Learn, SurvivesReadingsThatAreAllTheSame) {
+  const Surface tissue = plane(20, 40);
+  Random random(6);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 20, random);
+  for (Palpation& palpation : readings) palpation.reading = 7.0;
+  const Learned learned = learn(Prior(tissue, Metric::Chart, {}), readings, {}, {});
+  EXPECT_TRUE(std::isfinite(learned.values.length_m));
+  EXPECT_GT(learned.values.signal_sd, 0.0);
+}
+
+TEST(Learn, NeedsTwoPlaces) {
+  const Surface tissue = plane(20, 40);
+  const std::vector<Palpation> one{touch(tissue, 3, 7.0), touch(tissue, 3, 7.1)};
+  EXPECT_THROW(learn(Prior(tissue, Metric::Chart, {}), one, {}, {}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace palpation

@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include "belief/tissue.h"
+#include "palpation/base/error.h"
+#include "palpation/certainty/expected_error.h"
+#include "palpation/certainty/level_estimate.h"
+
+namespace palpation {
+namespace {
+
+Marginals marginals_of(std::vector<double> mean, std::vector<double> variance) {
+  return {Eigen::Map<Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size())),
+          Eigen::Map<Eigen::VectorXd>(variance.data(), static_cast<Eigen::Index>(variance.size()))};
+}
+
+TEST(LevelFromRange, IsTheFractionBetweenLeastAndGreatestMean) {
+  const Marginals marginals = marginals_of({7.0, 9.0, 8.5, 7.5}, {1, 1, 1, 1});
+  EXPECT_DOUBLE_EQ(level_from_range(marginals, 0.5).value, 8.0);
+  EXPECT_DOUBLE_EQ(level_from_range(marginals, 0.7).value, 8.4);
+  EXPECT_FALSE(level_from_range(marginals, 0.7).stddev.has_value());
+  EXPECT_THROW(level_from_range(marginals, 0.0), InvalidInput);
+}
+
+TEST(ProbabilityInside, IsThatOfANormal) {
+  const Field p = probability_inside(marginals_of({8.0, 9.0, 7.0, 8.0, 9.0, 7.0}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}), {8.0, std::nullopt});
+  EXPECT_DOUBLE_EQ(p[0], 0.5);
+  EXPECT_NEAR(p[1], 0.8413447460685429, 1e-15);  // Phi(1)
+  EXPECT_NEAR(p[2], 0.15865525393145707, 1e-15);
+  EXPECT_EQ(p[3], 1.0);  // at the level and sure of it: inside, by the half-open rule
+  EXPECT_EQ(p[4], 1.0);
+  EXPECT_EQ(p[5], 0.0);
+  EXPECT_NEAR(probability_inside(marginals_of({9.0}, {0.5}), {8.0, std::sqrt(0.5)})[0], 0.8413447460685429, 1e-15);
+}
+
+TEST(ExpectedError, AddsUpTheAreaThatMayBeWrong) {
+  const Surface square = plane(2, 2);  // 25 x 50 mm, four vertices
+  const Marginals marginals = marginals_of({9.0, 9.0, 7.0, 7.0}, {1.0, 1.0, 1.0, 1.0});
+  const ExpectedError error = expected_error(square, marginals, {8.0, std::nullopt});
+  const double tail = 0.15865525393145707;
+  EXPECT_NEAR(error.symmetric_difference_m2(), tail * 0.025 * 0.050, 1e-15);
+  EXPECT_NEAR(error.extra_m2 + error.missed_m2, error.symmetric_difference_m2(), 1e-18);
+}
+
+}  // namespace
+}  // namespace palpation

@@ -1,0 +1,170 @@
+#include "palpation/exploration/exploration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "belief/tissue.h"
+#include "palpation/base/error.h"
+#include "palpation/world/phantom.h"
+
+namespace palpation {
+namespace {
+
+Phantom disk_phantom(const Surface& tissue, double noise) {
+  return Phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = noise});
+}
+
+Probe probe_of(const Phantom& phantom, Random& random) {
+  return [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); };
+}
+
+TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  Exploration exploration(tissue, {}, {}, {.batches = 3}, 1);
+  Random random(1);
+  std::vector<std::size_t> sizes;
+  run(exploration, probe_of(phantom, random), [&](const Tour& tour) { sizes.push_back(tour.palpations.size()); });
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{16, 10, 10, 10}));
+  EXPECT_EQ(exploration.stop_reason(), "budget");
+  EXPECT_EQ(exploration.belief().palpations().size(), 46u);
+  EXPECT_EQ(exploration.belief().palpations().back().batch, 3);
+}
+
+TEST(Exploration, AnswersTheSameUntilSomethingIsRecorded) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  Exploration exploration(tissue, {}, {}, {}, 1);
+  const std::vector<int> first = exploration.next();
+  EXPECT_EQ(exploration.next(), first);
+  Random random(1);
+  exploration.record(travel(tissue, first, std::nullopt, probe_of(phantom, random), 0.0).palpations);
+  EXPECT_NE(exploration.next(), first);
+}
+
+TEST(Exploration, IsRepeatable) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.10);
+  const auto stops = [&] {
+    Exploration exploration(tissue, {}, {}, {.initial = Design::Random, .batches = 4}, 7);
+    Random random(3);
+    run(exploration, probe_of(phantom, random));
+    return exploration.marginals();
+  };
+  EXPECT_TRUE(stops().mean == stops().mean);
+}
+
+TEST(Exploration, FindsTheDiskAndItsLevel) {
+  const Surface tissue = plane(51, 101);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  Exploration exploration(tissue, {}, {}, {.acquisition = straddle(), .batches = 9}, 2);
+  Random random(2);
+  run(exploration, probe_of(phantom, random));
+  EXPECT_TRUE(exploration.contrast_seen());
+  EXPECT_NEAR(exploration.level()->value, 8.0, 0.3);
+  double wrong = 0.0;
+  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
+    const bool inside = exploration.marginals().mean[vertex] >= exploration.level()->value;
+    if (inside != (phantom.truth()[vertex] >= 8.0)) wrong += tissue.vertex_areas()[vertex];
+  }
+  EXPECT_LT(wrong, 0.10 * 1.227e-4);  // a tenth of the disk's 122.7 mm2
+}
+
+TEST(Exploration, ExploresByVarianceUntilThereIsContrast) {
+  const Surface tissue = plane(26, 51);
+  const Phantom healthy(tissue, {}, {.noise = 0.05});
+  Exploration exploration(tissue, {}, {}, {.batches = 4}, 1);
+  Random random(1);
+  run(exploration, probe_of(healthy, random));
+  EXPECT_FALSE(exploration.contrast_seen());
+  // Fifty-six touches of 25 x 50 mm, spread evenly, leave no vertex farther than about 4.5 mm from one.
+  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
+    double nearest = 1.0;
+    for (const Palpation& palpation : exploration.belief().palpations()) {
+      nearest = std::min(nearest, (tissue.position(palpation.where) - tissue.vertex(vertex)).norm());
+    }
+    EXPECT_LT(nearest, 0.0045);
+  }
+}
+
+TEST(Exploration, ForgetsStopsWithoutContact) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  Random random(1);
+  // No contact on the left half.
+  const Probe half = [&](const SurfacePoint& where, const Vec3&) -> std::optional<Palpation> {
+    if (tissue.position(where).x() < 0.0125) return std::nullopt;
+    return phantom.touch(where, random);
+  };
+  Exploration exploration(tissue, {}, {}, {.batches = 6}, 1);
+  std::multiset<int> asked;
+  while (!exploration.next().empty()) {
+    const std::vector<int> stops = exploration.next();
+    asked.insert(stops.begin(), stops.end());
+    exploration.record(travel(tissue, stops, std::nullopt, half, 0.0).palpations);
+  }
+  for (int vertex : asked) {
+    if (tissue.vertex(vertex).x() < 0.0125) {
+      EXPECT_EQ(asked.count(vertex), 1u);
+    }
+  }
+}
+
+TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
+  const Surface tissue = plane(4, 5);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  Exploration exploration(tissue, {}, {}, {.initial_count = 4, .batch = {.size = 5}, .batches = 10}, 1, {.touch_once = true});
+  Random random(1);
+  run(exploration, probe_of(phantom, random));
+  EXPECT_EQ(exploration.stop_reason(), "nothing left to touch");
+  EXPECT_EQ(exploration.belief().palpations().size(), 20u);
+}
+
+TEST(Exploration, StopsAtTheExpectedErrorThatWasAskedFor) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.02);
+  Exploration exploration(tissue, {}, {.known = 8.0}, {.acquisition = straddle(), .batches = 40, .stop_error_m2 = 10e-6}, 1);
+  Random random(1);
+  run(exploration, probe_of(phantom, random));
+  EXPECT_EQ(exploration.stop_reason(), "expected error");
+}
+
+TEST(Exploration, TakesUpReadingsMadeElsewhere) {
+  const Surface tissue = plane(26, 51);
+  Random random(4);
+  Exploration exploration(tissue, {}, {}, {.batches = 3}, 1);
+  exploration.take_up(bumpy_readings(tissue, 30, random));
+  EXPECT_EQ(exploration.belief().palpations().size(), 30u);
+  EXPECT_EQ(exploration.next().size(), 10u);
+}
+
+TEST(Travel, ReadsOnTheWayOncePerMillimetre) {
+  const Surface tissue = plane(26, 51);  // 1 mm cells
+  const Phantom phantom = disk_phantom(tissue, 0.0);
+  Random random(1);
+  const std::vector<int> stops{0, 25};  // along the border, 25 mm apart
+  const Tour tour = travel(tissue, stops, std::nullopt, probe_of(phantom, random), 0.001);
+  EXPECT_NEAR(tour.length_m, 0.025, 1e-12);
+  ASSERT_EQ(tour.palpations.size(), 26u);
+  EXPECT_EQ(tour.palpations[0].kind, TouchKind::Stop);
+  EXPECT_EQ(tour.palpations[1].kind, TouchKind::Way);
+  EXPECT_EQ(tour.palpations[25].kind, TouchKind::Stop);
+  for (int i = 0; i < 26; ++i) EXPECT_NEAR(tissue.position(tour.palpations[i].where).x(), 0.001 * i, 1e-12);
+  EXPECT_NEAR((tour.palpations[7].travel - Vec3::UnitX()).norm(), 0.0, 1e-9);
+}
+
+TEST(ShowsContrast, NeedsAnOutlierOrASmoothField) {
+  Random random(1);
+  std::vector<double> noise;
+  for (int i = 0; i < 25; ++i) noise.push_back(7.0 + 0.1 * random.normal());
+  EXPECT_FALSE(shows_contrast(noise, 0.0));
+  EXPECT_TRUE(shows_contrast(noise, 5.0));
+  noise.push_back(9.0);
+  EXPECT_TRUE(shows_contrast(noise, 0.0));
+  EXPECT_FALSE(shows_contrast(std::vector<double>{7.0, 7.01, 9.0}, 0.0));  // three readings say nothing
+}
+
+}  // namespace
+}  // namespace palpation

@@ -1,0 +1,67 @@
+#include "palpation/exploration/waypoint.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "belief/tissue.h"
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+TEST(Waypoints, StandOffAndPressAlongTheNormal) {
+  const Surface tissue = plane(26, 51);
+  const std::vector<SurfacePoint> targets{tissue.at_vertex(0), tissue.at_vertex(100)};
+  const std::vector<Waypoint> poses = waypoints(tissue, targets, {.standoff_m = 0.005, .indent_m = 0.002});
+  ASSERT_EQ(poses.size(), 2u);
+  for (const Waypoint& pose : poses) {
+    EXPECT_NEAR((pose.normal - Vec3::UnitZ()).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((pose.approach - pose.position - Vec3(0, 0, 0.005)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((pose.position - pose.indented - Vec3(0, 0, 0.002)).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((pose.rotation.col(2) + Vec3::UnitZ()).norm(), 0.0, 1e-15);  // its z into the tissue
+    EXPECT_NEAR(pose.rotation.determinant(), 1.0, 1e-14);
+    EXPECT_NEAR(pose.expected_force_n, 0.16, 1e-15);  // 0.08 N/mm x 2 mm
+  }
+}
+
+TEST(Waypoints, AreInTheRobotsFrame) {
+  const Surface tissue = plane(26, 51);
+  Robot robot;
+  robot.from_tissue.topLeftCorner<3, 3>() = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  robot.from_tissue.topRightCorner<3, 1>() = Vec3(0.1, -0.2, 0.3);
+  const std::vector<SurfacePoint> targets{tissue.at_vertex(77)};
+  const Waypoint pose = waypoints(tissue, targets, robot).front();
+  const Vec3 expected = robot.from_tissue.topLeftCorner<3, 3>() * tissue.vertex(77) + Vec3(0.1, -0.2, 0.3);
+  EXPECT_NEAR((pose.position - expected).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((pose.rotation.col(2) + pose.normal).norm(), 0.0, 1e-15);
+  const Eigen::Vector4d q = quaternion(pose.rotation);
+  EXPECT_NEAR((Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix() - pose.rotation).norm(), 0.0, 1e-14);
+}
+
+TEST(Waypoints, TurnByTheLeastRotation) {
+  // Two flat halves that meet at 90 degrees along the y axis.
+  TriangleMesh roof;
+  roof.vertices.resize(6, 3);
+  roof.vertices << 0, 0, 0, 0, 1, 0, -1, 0, -1, -1, 1, -1, 1, 0, -1, 1, 1, -1;
+  roof.vertices *= 0.01;
+  roof.triangles.resize(4, 3);
+  roof.triangles << 2, 0, 1, 2, 1, 3, 0, 4, 5, 0, 5, 1;
+  const Surface surface(roof);
+  const std::vector<SurfacePoint> targets{surface.at_vertex(2), surface.at_vertex(5)};
+  const std::vector<Waypoint> poses = waypoints(surface, targets, {});
+  const Eigen::AngleAxisd turn(poses[1].rotation * poses[0].rotation.transpose());
+  const double least = std::acos(poses[0].rotation.col(2).dot(poses[1].rotation.col(2)));
+  EXPECT_NEAR(turn.angle(), least, 1e-9);
+}
+
+TEST(Robot, RefusesATransformThatIsNotRigid) {
+  Robot robot;
+  robot.from_tissue(0, 0) = 1.1;
+  EXPECT_THROW(check(robot), InvalidInput);
+  robot.from_tissue(0, 0) = -1.0;  // mirrored
+  EXPECT_THROW(check(robot), InvalidInput);
+}
+
+}  // namespace
+}  // namespace palpation
