@@ -1,0 +1,18 @@
+/// Regions as well-known text, the format of boundary.wkt: chart coordinates in metres.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "palpation/boundary/region.h"
+
+namespace palpation {
+
+/// "MULTIPOLYGON (((x y, ...), (hole)), ...)" with the shortest digits that read back as the same doubles, or "MULTIPOLYGON EMPTY".
+std::string to_wkt(const Region& region);
+
+/// One POLYGON or MULTIPOLYGON with two coordinates a point; each ring has at least four points and ends where it began. Throws IoError
+/// with the byte, or with what Region says against the rings.
+Region read_wkt(const std::filesystem::path& path);
+
+}  // namespace palpation

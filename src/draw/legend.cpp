@@ -1,0 +1,75 @@
+#include "draw/legend.h"
+
+#include <algorithm>
+
+#include "draw/look.h"
+
+namespace palpation::draw {
+namespace {
+
+constexpr double kGap_px = 38.0;
+constexpr double kBeforeWords_px = 10.0;
+constexpr TextStyle kWords{.size_px = 18.0};
+
+std::vector<LegendEntry> entries_of(const Outcome& outcome) {
+  std::vector<LegendEntry> entries;
+  if (outcome.has_curve("estimate")) entries.push_back({"estimated boundary", {kEstimateLine}, {}});
+  if (outcome.has_curve("truth")) entries.push_back({"true boundary", {kTruthLine}, {}});
+  if (outcome.has_curve("band_inner") || outcome.has_curve("band_outer")) entries.push_back({"band of the boundary", {kBandLine}, {}});
+  const auto add_touch = [&](const Touch& example, const std::string& words, auto&& belongs) {
+    const bool occurs = std::any_of(outcome.touches.begin(), outcome.touches.end(), belongs);
+    if (occurs) entries.push_back({words, {}, look_of(example, /*radius_px=*/6.5)});
+  };
+  add_touch({.initial = true}, "first touches", [](const Touch& t) { return t.initial && !t.set_aside && !t.on_the_way; });
+  add_touch({}, "chosen touches", [](const Touch& t) { return !t.initial && !t.set_aside && !t.on_the_way; });
+  add_touch({.on_the_way = true}, "read on the way", [](const Touch& t) { return t.on_the_way && !t.set_aside; });
+  add_touch({.set_aside = true}, "set aside", [](const Touch& t) { return t.set_aside; });
+  return entries;
+}
+
+double sample_width_px(const LegendEntry& entry) { return entry.touch ? 16.0 : 66.0; }
+
+double width_px(const LegendEntry& entry) { return sample_width_px(entry) + kBeforeWords_px + text_width_px(entry.words, kWords); }
+
+double width_px(const std::vector<LegendEntry>& row) {
+  double width = row.empty() ? 0.0 : kGap_px * static_cast<double>(row.size() - 1);
+  for (const LegendEntry& entry : row) width += width_px(entry);
+  return width;
+}
+
+void draw_entry(Sheet& sheet, const Pixel& place, const LegendEntry& entry) {
+  const double sample = sample_width_px(entry);
+  for (const LineStyle& line : entry.lines) sheet.line(place, place + Pixel(sample, 0.0), line);
+  if (entry.touch) {
+    const Pixel centre = place + Pixel(sample / 2.0, 0.0);
+    sheet.disc(centre, entry.touch->radius_px + 1.0, kGrey);
+    sheet.disc(centre, entry.touch->radius_px, entry.touch->rim);
+    sheet.disc(centre, entry.touch->radius_px * entry.touch->core_share, entry.touch->core);
+  }
+  sheet.text(place + Pixel(sample + kBeforeWords_px, 0.0), entry.words, kWords);
+}
+
+}  // namespace
+
+std::vector<std::vector<LegendEntry>> legend_rows(const Outcome& outcome, double most_px) {
+  std::vector<std::vector<LegendEntry>> rows;
+  for (const LegendEntry& entry : entries_of(outcome)) {
+    const bool fits = !rows.empty() && width_px(rows.back()) + kGap_px + width_px(entry) <= most_px;
+    if (!fits) rows.emplace_back();
+    rows.back().push_back(entry);
+  }
+  return rows;
+}
+
+void draw_legend(Sheet& sheet, const std::vector<std::vector<LegendEntry>>& rows, double bottom_px) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double height = bottom_px + kLegendRow_px * (static_cast<double>(rows.size() - i) - 0.5);
+    Pixel place((sheet.width_px() - width_px(rows[i])) / 2.0, height);
+    for (const LegendEntry& entry : rows[i]) {
+      draw_entry(sheet, place, entry);
+      place.x() += width_px(entry) + kGap_px;
+    }
+  }
+}
+
+}  // namespace palpation::draw

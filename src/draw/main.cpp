@@ -1,0 +1,118 @@
+// palpate-draw: pictures from the files of a run.
+//
+//   palpate-draw OUT_DIR                       reads surface.vtp, boundary.vtp, measurements.csv, trace.csv and summary.json in OUT_DIR,
+//   writes picture.png
+//                                              and, if the trace has at least two rows, convergence.png beside them
+//   palpate-draw --curves CURVES.csv OUT.png   draws curves with standard errors: first column x, then `name` and optionally `name_se` for
+//   each curve
+//
+// Exit codes: 0 done; 2 wrong usage; 3 a file is missing or malformed; 4 nothing can be drawn or written here.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "draw/chart.h"
+#include "draw/offscreen.h"
+#include "draw/outcome.h"
+#include "draw/picture.h"
+#include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
+
+namespace {
+
+using namespace palpation;
+using namespace palpation::draw;
+namespace fs = std::filesystem;
+
+constexpr int kWrongUsage = 2;
+constexpr int kInputAtFault = 3;
+constexpr int kMachineAtFault = 4;
+
+struct Wish {
+  std::vector<std::string> paths;
+  bool curves = false;
+  std::string title, x_label, y_label;
+  bool logarithmic_y = false;
+  Spread spread = Spread::Bars;
+  int width_px = 1100;
+  int height_px = 760;
+};
+
+void draw_outcome(const fs::path& folder) {
+  const Outcome outcome = read_outcome(folder);
+  write_atomically(folder / "picture.png", picture_of(outcome));
+  if (!outcome.trace) return;
+  const std::optional<Chart> chart = convergence_of(*outcome.trace);
+  if (chart) write_atomically(folder / "convergence.png", picture_of(*chart));
+}
+
+void draw_curves(const Wish& wish) {
+  Chart chart = chart_of(Table(wish.paths[0]));
+  chart.title = wish.title;
+  if (!wish.x_label.empty()) chart.x_label = wish.x_label;
+  chart.y_label = wish.y_label;
+  chart.logarithmic_y = wish.logarithmic_y;
+  chart.spread = wish.spread;
+  chart.width_px = wish.width_px;
+  chart.height_px = wish.height_px;
+  write_atomically(fs::path(wish.paths[1]), picture_of(chart));
+}
+
+int fulfil(const Wish& wish) {
+  const std::size_t paths_wanted = wish.curves ? 2 : 1;
+  if (wish.paths.size() != paths_wanted) {
+    std::fprintf(stderr, "palpate-draw: %s\n", wish.curves ? "--curves takes a table and the picture to write" : "give one output folder");
+    return kWrongUsage;
+  }
+  silence_graphics_libraries();
+  if (wish.curves) {
+    draw_curves(wish);
+  } else {
+    draw_outcome(wish.paths[0]);
+  }
+  return 0;
+}
+
+int fulfil_or_explain(const Wish& wish) {
+  const auto explain = [](const std::exception& error, int code) {
+    std::fprintf(stderr, "palpate-draw: %s\n", error.what());
+    return code;
+  };
+  try {
+    return fulfil(wish);
+  } catch (const NoGraphics& error) {
+    return explain(error, kMachineAtFault);
+  } catch (const WriteError& error) {
+    return explain(error, kMachineAtFault);
+  } catch (const Error& error) {
+    return explain(error, kInputAtFault);
+  } catch (const std::exception& error) {
+    return explain(error, kMachineAtFault);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Draws picture.png and convergence.png from the files in an output folder of palpate; or curves from a table.",
+               "palpate-draw");
+  Wish wish;
+  const std::map<std::string, Spread> spreads = {{"bars", Spread::Bars}, {"band", Spread::Band}, {"none", Spread::None}};
+  app.add_option("paths", wish.paths, "OUT_DIR; with --curves: CURVES.csv OUT.png")->required();
+  app.add_flag("--curves", wish.curves,
+               "Draw a table: first column x, then `name` and optionally `name_se` (standard error) for each curve");
+  app.add_option("--title", wish.title, "Title of the chart");
+  app.add_option("--x-label", wish.x_label, "Label of the x axis (default: the first column's name)");
+  app.add_option("--y-label", wish.y_label, "Label of the y axis");
+  app.add_flag("--log-y", wish.logarithmic_y, "Logarithmic y axis");
+  app.add_option("--spread", wish.spread, "How standard errors are shown: bars, band or none")->transform(CLI::Transformer(spreads));
+  app.add_option("--width", wish.width_px, "Width of the chart in pixels")->check(CLI::Range(300, 8000));
+  app.add_option("--height", wish.height_px, "Height of the chart in pixels")->check(CLI::Range(200, 8000));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+  return fulfil_or_explain(wish);
+}

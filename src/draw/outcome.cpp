@@ -1,0 +1,226 @@
+#include "draw/outcome.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
+
+namespace palpation::draw {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) { throw IoError(path.string() + ": " + reason); }
+
+vtkSmartPointer<vtkPolyData> read_polydata(const fs::path& path) {
+  if (!fs::is_regular_file(path)) fail(path, "no such file");
+  vtkNew<vtkXMLPolyDataReader> reader;
+  if (reader->CanReadFile(path.c_str()) == 0) fail(path, "not a VTK polygon file");
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (reader->GetErrorCode() != 0) fail(path, "not readable as a VTK polygon file");
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> read_surface(const fs::path& path) {
+  vtkSmartPointer<vtkPolyData> surface = read_polydata(path);
+  if (surface->GetNumberOfPolys() == 0) fail(path, "no triangles");
+  vtkCellArray* triangles = surface->GetPolys();
+  vtkIdType size = 0;
+  const vtkIdType* corners = nullptr;
+  for (vtkIdType cell = 0; cell < triangles->GetNumberOfCells(); ++cell) {
+    triangles->GetCellAtId(cell, size, corners);
+    const bool sound = size == 3 && std::all_of(corners, corners + size,
+                                                [&](vtkIdType corner) { return corner >= 0 && corner < surface->GetNumberOfPoints(); });
+    if (!sound) fail(path, "cell " + std::to_string(cell) + " is no triangle of the file's points");
+  }
+  return surface;
+}
+
+std::vector<Vec3> points_of(vtkPolyData& lines, vtkIdType size, const vtkIdType* corners, const fs::path& path) {
+  std::vector<Vec3> points;
+  for (vtkIdType i = 0; i < size; ++i) {
+    if (corners[i] < 0 || corners[i] >= lines.GetNumberOfPoints()) fail(path, "a line names a point that does not exist");
+    points.emplace_back(Vec3::Zero());
+    lines.GetPoint(corners[i], points.back().data());
+  }
+  return points;
+}
+
+std::vector<Curve> read_curves(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  const vtkSmartPointer<vtkPolyData> lines = read_polydata(path);
+  auto* kinds = vtkStringArray::SafeDownCast(lines->GetCellData()->GetAbstractArray("kind_name"));
+  if (lines->GetNumberOfLines() > 0 && kinds == nullptr) fail(path, "no cell array of strings named kind_name");
+  std::vector<Curve> curves;
+  vtkIdType size = 0;
+  const vtkIdType* corners = nullptr;
+  for (vtkIdType cell = 0; cell < lines->GetNumberOfLines(); ++cell) {
+    lines->GetLines()->GetCellAtId(cell, size, corners);
+    curves.push_back({kinds->GetValue(cell), points_of(*lines, size, corners, path)});
+  }
+  return curves;
+}
+
+std::vector<Touch> read_touches(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  const Table table(path);
+  const std::vector<double> x = table.numbers("x");
+  const std::vector<double> y = table.numbers("y");
+  const std::vector<double> z = table.numbers("z");
+  const std::vector<double> batch = table.numbers("batch");
+  const std::vector<std::string> kind = table.texts("kind");
+  const std::vector<std::string> reason = table.texts("set_aside");
+  std::vector<Touch> touches;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 position(x[i], y[i], z[i]);
+    if (!position.allFinite()) continue;
+    touches.push_back({.position = position, .initial = batch[i] == 0.0, .on_the_way = kind[i] == "way", .set_aside = !reason[i].empty()});
+  }
+  return touches;
+}
+
+std::optional<double> number_in(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+std::optional<ErrorNumbers> error_in(const Json& summary) {
+  const auto found = summary.find("error");
+  if (found == summary.end() || !found->is_object()) return std::nullopt;
+  return ErrorNumbers{.symmetric_difference_mm2 = number_in(*found, "symmetric_difference_mm2"),
+                      .missed_mm2 = number_in(*found, "missed_mm2"),
+                      .extra_mm2 = number_in(*found, "extra_mm2"),
+                      .percent_of_search_area = number_in(*found, "percent_of_search_area"),
+                      .dice = number_in(*found, "dice")};
+}
+
+Summary read_summary(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  const Json json = Json::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) fail(path, "not a JSON object");
+  Summary summary{.level = number_in(json, "level"),
+                  .area_mm2 = number_in(json, "area_mm2"),
+                  .expected_error_mm2 = number_in(json, "expected_error_mm2"),
+                  .measurements = number_in(json, "measurements"),
+                  .error = error_in(json),
+                  .reading_unit = ""};
+  const auto unit = json.find("reading_unit");
+  if (unit != json.end() && unit->is_string()) summary.reading_unit = unit->get<std::string>();
+  return summary;
+}
+
+std::optional<Table> read_trace(const fs::path& path) {
+  if (!fs::exists(path)) return std::nullopt;
+  return Table(path);
+}
+
+struct Corners {
+  std::array<vtkIdType, 3> vertices{};
+  std::array<Vec3, 3> places;
+};
+
+Corners corners_of(vtkPolyData& surface, vtkIdType triangle) {
+  Corners corners;
+  vtkIdType size = 0;
+  const vtkIdType* vertices = nullptr;
+  surface.GetPolys()->GetCellAtId(triangle, size, vertices);
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners.vertices[i] = vertices[i];
+    surface.GetPoint(vertices[i], corners.places[i].data());
+  }
+  return corners;
+}
+
+bool box_contains(const Corners& corners, const Vec3& place) {
+  const Vec3 lowest = corners.places[0].cwiseMin(corners.places[1]).cwiseMin(corners.places[2]);
+  const Vec3 highest = corners.places[0].cwiseMax(corners.places[1]).cwiseMax(corners.places[2]);
+  const double slack = 1e-6 * (highest - lowest).norm();
+  return (place.array() >= lowest.array() - slack).all() && (place.array() <= highest.array() + slack).all();
+}
+
+// Areas of the triangles that a place makes with the sides opposite to the corners: barycentric weights once divided by their sum.
+Vec3 opposite_areas(const Corners& corners, const Vec3& place) {
+  const auto& [a, b, c] = corners.places;
+  return {(b - place).cross(c - place).norm(), (c - place).cross(a - place).norm(), (a - place).cross(b - place).norm()};
+}
+
+// The field, linear in the triangle that holds a place of the surface; NaN off the surface. A plain search: VTK's static cell locator takes
+// gigabytes where the surface is flat.
+double value_at(vtkPolyData& surface, vtkDataArray& field, const Vec3& place) {
+  double least_excess = std::numeric_limits<double>::infinity();
+  double value = std::nan("");
+  for (vtkIdType triangle = 0; triangle < surface.GetNumberOfPolys(); ++triangle) {
+    const Corners corners = corners_of(surface, triangle);
+    if (!box_contains(corners, place)) continue;
+    const Vec3 areas = opposite_areas(corners, place);
+    const double excess = areas.sum() - opposite_areas(corners, corners.places[0]).sum();
+    if (excess >= least_excess || areas.sum() == 0.0) continue;
+    least_excess = excess;
+    const auto at = [&](std::size_t i) { return field.GetComponent(corners.vertices[i], 0); };
+    value = areas.dot(Vec3(at(0), at(1), at(2))) / areas.sum();
+  }
+  return value;
+}
+
+std::vector<Vec3> places_along(const std::vector<Curve>& curves, const std::string& kind, std::size_t wanted) {
+  std::vector<Vec3> all;
+  for (const Curve& curve : curves) {
+    if (curve.kind == kind) all.insert(all.end(), curve.points.begin(), curve.points.end());
+  }
+  std::vector<Vec3> some;
+  const std::size_t step = 1 + all.size() / wanted;
+  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+  return some;
+}
+
+}  // namespace
+
+vtkDataArray* Outcome::field(const std::string& name) const {
+  vtkDataArray* array = surface->GetPointData()->GetArray(name.c_str());
+  const bool usable = array != nullptr && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() == surface->GetNumberOfPoints();
+  return usable ? array : nullptr;
+}
+
+bool Outcome::has_curve(const std::string& kind) const {
+  return std::any_of(curves.begin(), curves.end(), [&](const Curve& curve) { return curve.kind == kind; });
+}
+
+std::optional<double> Outcome::level_along(const std::string& kind, const std::string& name) const {
+  constexpr std::size_t kSamples = 40;
+  vtkDataArray* values = field(name);
+  if (values == nullptr) return std::nullopt;
+  std::vector<double> found;
+  for (const Vec3& place : places_along(curves, kind, kSamples)) {
+    const double value = value_at(*surface, *values, place);
+    if (std::isfinite(value)) found.push_back(value);
+  }
+  if (found.empty()) return std::nullopt;
+  const auto low = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 20);
+  std::nth_element(found.begin(), low, found.end());
+  return *low;
+}
+
+Outcome read_outcome(const fs::path& folder) {
+  return {.surface = read_surface(folder / "surface.vtp"),
+          .curves = read_curves(folder / "boundary.vtp"),
+          .touches = read_touches(folder / "measurements.csv"),
+          .trace = read_trace(folder / "trace.csv"),
+          .summary = read_summary(folder / "summary.json")};
+}
+
+}  // namespace palpation::draw

@@ -1,0 +1,57 @@
+/// What a run left in its output folder, as far as a picture shows it.
+#pragma once
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "draw/table.h"
+#include "palpation/base/types.h"
+
+namespace palpation::draw {
+
+struct Touch {
+  Vec3 position = Vec3::Zero();  ///< metres
+  bool initial = false;          ///< of the design, before anything was known
+  bool on_the_way = false;       ///< read while sliding to the next stop
+  bool set_aside = false;        ///< not believed
+};
+
+struct Curve {
+  std::string kind;          ///< "estimate", "truth", "band_inner", "band_outer", ...
+  std::vector<Vec3> points;  ///< metres; the first is repeated at the end
+};
+
+struct ErrorNumbers {
+  std::optional<double> symmetric_difference_mm2, missed_mm2, extra_mm2, percent_of_search_area, dice;
+};
+
+struct Summary {
+  std::optional<double> level, area_mm2, expected_error_mm2, measurements;
+  std::optional<ErrorNumbers> error;
+  std::string reading_unit;  ///< empty if nobody said
+};
+
+struct Outcome {
+  vtkSmartPointer<vtkPolyData> surface;  ///< metres, with named arrays at the points
+  std::vector<Curve> curves;
+  std::vector<Touch> touches;
+  std::optional<Table> trace;
+  Summary summary;
+
+  /// The field of that name, or null.
+  vtkDataArray* field(const std::string& name) const;
+  bool has_curve(const std::string& kind) const;
+  /// The level whose contours the curves of a kind are. Where a curve follows the border of the tissue the field lies above the level, so
+  /// this is a low quantile of the field along the curves.
+  std::optional<double> level_along(const std::string& kind, const std::string& field) const;
+};
+
+/// Reads surface.vtp, and boundary.vtp, measurements.csv, trace.csv and summary.json where they exist. Throws IoError with path and reason.
+Outcome read_outcome(const std::filesystem::path& folder);
+
+}  // namespace palpation::draw

@@ -1,0 +1,152 @@
+#include "io/polygon_soup.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace palpation {
+namespace {
+
+/// A fan triangle counts as positive if it holds more than this part of the polygon's area.
+constexpr double kLeastFanArea = 1e-12;
+
+void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_t face, std::vector<int>& sorted) {
+  const std::span<const int> corners = soup.face(face);
+  if (corners.size() < 3) soup.fail_at_face(source, face, "has " + std::to_string(corners.size()) + " corners; a face has at least 3");
+  if (corners.size() > kMostCorners) {
+    soup.fail_at_face(source, face,
+                      "has " + std::to_string(corners.size()) + " corners; at most " + std::to_string(kMostCorners) + " are taken");
+  }
+  const auto count = static_cast<std::int64_t>(soup.points.size());
+  for (const int corner : corners) {
+    if (corner >= 0 && corner < count) continue;
+    soup.fail_at_face(source, face,
+                      "vertex index " + std::to_string(std::int64_t{corner} + soup.first_number) + " is out of range " +
+                          std::to_string(soup.first_number) + " to " + std::to_string(count - 1 + soup.first_number));
+  }
+  sorted.assign(corners.begin(), corners.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) soup.fail_at_face(source, face, "uses vertex " + std::to_string(*twice + soup.first_number) + " twice");
+}
+
+/// Twice the vector area of a polygon (Newell), relative to its first corner.
+Vec3 vector_area(const PolygonSoup& soup, std::span<const int> corners) {
+  const Vec3& origin = soup.points[static_cast<std::size_t>(corners[0])];
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Vec3 a = soup.points[static_cast<std::size_t>(corners[i])] - origin;
+    const Vec3 b = soup.points[static_cast<std::size_t>(corners[i + 1])] - origin;
+    sum += a.cross(b);
+  }
+  return sum;
+}
+
+bool sees_all(const PolygonSoup& soup, std::span<const int> corners, std::size_t apex, const Vec3& area) {
+  const std::size_t count = corners.size();
+  const auto point = [&](std::size_t i) -> const Vec3& { return soup.points[static_cast<std::size_t>(corners[(apex + i) % count])]; };
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const Vec3 normal = (point(i) - point(0)).cross(point(i + 1) - point(0));
+    if (!(normal.dot(area) > kLeastFanArea * area.squaredNorm())) return false;
+  }
+  return true;
+}
+
+/// The first corner from which the whole polygon is seen.
+std::optional<std::size_t> fan_apex(const PolygonSoup& soup, std::span<const int> corners) {
+  const Vec3 area = vector_area(soup, corners);
+  for (std::size_t apex = 0; apex < corners.size(); ++apex) {
+    if (sees_all(soup, corners, apex, area)) return apex;
+  }
+  return std::nullopt;
+}
+
+void append_fan(std::span<const int> corners, std::size_t apex, int face, std::vector<SoupTriangle>& triangles) {
+  const std::size_t count = corners.size();
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    triangles.push_back({{corners[apex], corners[(apex + i) % count], corners[(apex + i + 1) % count]}, face});
+  }
+}
+
+std::array<int, 3> sorted_corners(const SoupTriangle& triangle) {
+  std::array<int, 3> corners = triangle.corners;
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+}  // namespace
+
+std::span<const int> PolygonSoup::face(std::size_t index) const {
+  const std::int64_t first = first_corner[index];
+  const std::int64_t last = index + 1 < first_corner.size() ? first_corner[index + 1] : static_cast<std::int64_t>(corners.size());
+  return {corners.data() + first, static_cast<std::size_t>(last - first)};
+}
+
+void PolygonSoup::begin_face(std::int64_t place) {
+  first_corner.push_back(static_cast<std::int64_t>(corners.size()));
+  places.push_back(place);
+}
+
+void PolygonSoup::fail_at_face(const MeshSource& source, std::size_t index, const std::string& what) const {
+  const std::string text = "face " + std::to_string(index + static_cast<std::size_t>(first_number)) + ": " + what;
+  if (place_kind == PlaceKind::Line) source.fail_at_line(places[index], text);
+  if (place_kind == PlaceKind::Byte) source.fail_at_byte(static_cast<std::size_t>(places[index]), text);
+  source.fail(text);
+}
+
+std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup) {
+  // Three times the triangles must be countable in an int, as must the faces.
+  const std::size_t most = static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3;
+  if (soup.corners.size() > 3 * most || soup.points.size() > 3 * most) source.fail("more than 2^31 corners or vertices");
+  std::vector<SoupTriangle> triangles;
+  triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.face_count()));
+  std::vector<int> sorted;
+  for (std::size_t face = 0; face < soup.face_count(); ++face) {
+    check_corners(source, soup, face, sorted);
+    const std::span<const int> corners = soup.face(face);
+    const std::optional<std::size_t> apex = corners.size() == 3 ? 0 : fan_apex(soup, corners);
+    if (!apex) soup.fail_at_face(source, face, "is a polygon that no fan of triangles covers once: cut it into triangles");
+    append_fan(corners, *apex, static_cast<int>(face), triangles);
+  }
+  return triangles;
+}
+
+void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles) {
+  struct Entry {
+    std::array<int, 3> corners;
+    int face;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(triangles.size());
+  for (const SoupTriangle& triangle : triangles) entries.push_back({sorted_corners(triangle), triangle.face});
+  std::sort(entries.begin(), entries.end());
+  const auto same = [](const Entry& a, const Entry& b) { return a.corners == b.corners; };
+  const auto found = std::adjacent_find(entries.begin(), entries.end(), same);
+  if (found == entries.end()) return;
+  soup.fail_at_face(source, static_cast<std::size_t>((found + 1)->face),
+                    "has the corners of face " + std::to_string(found->face + soup.first_number) + " again");
+}
+
+std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& triangles) {
+  std::vector<int> number(soup.points.size(), -1);
+  for (const SoupTriangle& triangle : triangles) {
+    for (const int corner : triangle.corners) number[static_cast<std::size_t>(corner)] = 0;
+  }
+  int used = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] < 0) continue;
+    soup.points[static_cast<std::size_t>(used)] = soup.points[i];
+    number[i] = used++;
+  }
+  const auto dropped = static_cast<std::int64_t>(soup.points.size()) - used;
+  soup.points.resize(static_cast<std::size_t>(used));
+  if (dropped == 0) return 0;
+  for (SoupTriangle& triangle : triangles) {
+    for (int& corner : triangle.corners) corner = number[static_cast<std::size_t>(corner)];
+  }
+  return dropped;
+}
+
+}  // namespace palpation

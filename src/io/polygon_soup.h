@@ -1,0 +1,77 @@
+/// What a mesh file says, before anything is made of it: points and polygons, each with its place in the file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/mesh_source.h"
+#include "palpation/base/types.h"
+
+namespace palpation {
+
+enum class PlaceKind { Line, Byte, None };
+
+struct PolygonSoup {
+  std::string format;
+  std::vector<Vec3> points;  ///< in the file's unit, finite
+  std::vector<std::string> warnings;
+  PlaceKind place_kind = PlaceKind::None;
+  int first_number = 0;  ///< what the format calls its first vertex and face: 0 or 1
+
+  std::vector<int> corners;                ///< of all faces in turn, counted from 0; not checked until `triangles_of`
+  std::vector<std::int64_t> first_corner;  ///< of each face
+  std::vector<std::int64_t> places;        ///< of each face: its line or byte; empty if unknown
+
+  std::size_t face_count() const { return first_corner.size(); }
+  std::span<const int> face(std::size_t index) const;
+  /// Starts a face; its corners are pushed next.
+  void begin_face(std::int64_t place);
+  [[noreturn]] void fail_at_face(const MeshSource& source, std::size_t face, const std::string& what) const;
+};
+
+/// Private readers, one for each format. Each throws IoError for what breaks the format's syntax or counts.
+PolygonSoup read_obj(const MeshSource& source);
+PolygonSoup read_off(const MeshSource& source);
+PolygonSoup read_ascii_stl(const MeshSource& source);
+PolygonSoup read_binary_stl(const MeshSource& source);
+PolygonSoup read_ply(const MeshSource& source);
+PolygonSoup read_vtp(const MeshSource& source);
+
+/// True if the size is what the count in a binary STL's header asks for.
+bool has_size_of_binary_stl(std::string_view bytes);
+
+/// A polygon with more corners than this is refused.
+inline constexpr int kMostCorners = 256;
+
+/// One triangle of a face.
+struct SoupTriangle {
+  std::array<int, 3> corners;
+  int face;
+};
+
+/// All faces as fans of triangles, after the check of every corner. Throws IoError for a face with fewer than three corners, with more than
+/// kMostCorners, with a corner out of range or used twice, and for a polygon that none of its corners sees as a whole: its fan would
+/// overlap itself.
+std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup);
+
+/// Throws IoError if two triangles have the same three corners.
+void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles);
+
+/// Turns triangles round until neighbours agree, the fewest in each component; a component that no turning mends stays as it is. Adds
+/// warnings.
+void orient_alike(std::vector<SoupTriangle>& triangles, const PolygonSoup& soup, std::vector<std::string>& warnings);
+
+/// Gives points with equal coordinates (0 and -0 are equal) the number of the first of them, and drops the others. Returns how many were
+/// dropped.
+std::int64_t weld_equal_points(PolygonSoup& soup);
+
+/// Drops the points that no triangle uses, renumbering; returns how many.
+std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& triangles);
+
+/// Warns of points that are equal, or closer to each other than 1e-12 of the extent.
+void warn_of_close_points(const PolygonSoup& soup, std::vector<std::string>& warnings);
+
+}  // namespace palpation

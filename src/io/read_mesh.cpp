@@ -1,0 +1,168 @@
+#include "palpation/io/read_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "io/length_scale.h"
+#include "io/mesh_text.h"
+#include "io/polygon_soup.h"
+#include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kSmallestTissue = 1e-3;
+constexpr double kLargestTissue = 2.0;
+
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
+}
+
+/// The first word that is not in a comment, of the first part of the file: no format begins with more than that.
+std::string_view first_word(std::string_view bytes) {
+  constexpr std::size_t kLongestPreamble = 1 << 16;
+  LineCursor lines(bytes.substr(0, kLongestPreamble));
+  std::vector<std::string_view> words;
+  while (const std::optional<std::string_view> line = lines.next()) {
+    split_words(without_comment(*line), words);
+    if (!words.empty()) return words[0];
+  }
+  return {};
+}
+
+bool is_off_header(std::string_view word) {
+  constexpr std::array<std::string_view, 13> kHeaders = {"OFF",    "COFF",    "NOFF", "CNOFF", "NCOFF", "STOFF", "STCOFF",
+                                                         "STNOFF", "STCNOFF", "4OFF", "nOFF",  "4nOFF", "C4OFF"};
+  return std::find(kHeaders.begin(), kHeaders.end(), word) != kHeaders.end();
+}
+
+bool begins_like_obj(std::string_view word) {
+  constexpr std::array<std::string_view, 14> kWords = {"v", "vt", "vn", "vp", "f", "fo", "g", "o", "s", "l", "p", "mtllib", "usemtl", "mg"};
+  return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
+enum class Format { Obj, Off, AsciiStl, BinaryStl, Ply, Vtp };
+
+/// Recognizes the format by content. Binary STL has no mark but its size, and may begin with "solid" like its ASCII cousin.
+Format format_of(const MeshSource& source) {
+  const std::string_view bytes = source.bytes;
+  const std::string_view word = first_word(bytes);
+  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r" || bytes == "ply") return Format::Ply;
+  if (has_size_of_binary_stl(bytes)) return Format::BinaryStl;
+  if (lower_case(word) == "solid") return Format::AsciiStl;
+  if (is_off_header(word)) return Format::Off;
+  if (!word.empty() && word[0] == '<') return Format::Vtp;
+  if (bytes.substr(0, 14) == "# vtk DataFile") source.fail("VTK's legacy format is not read: write it as VTP or PLY");
+  if (begins_like_obj(word)) return Format::Obj;
+  const std::string extension = lower_case(source.path.extension().string());
+  if (extension == ".stl") return Format::BinaryStl;
+  if (extension == ".obj") return Format::Obj;
+  source.fail("its content is none of OBJ, OFF, STL, PLY and VTP");
+}
+
+PolygonSoup read_soup(const MeshSource& source) {
+  switch (format_of(source)) {
+    case Format::Obj:
+      return read_obj(source);
+    case Format::Off:
+      return read_off(source);
+    case Format::AsciiStl:
+      return read_ascii_stl(source);
+    case Format::BinaryStl:
+      return read_binary_stl(source);
+    case Format::Ply:
+      return read_ply(source);
+    case Format::Vtp:
+      return read_vtp(source);
+  }
+  source.fail("its content is none of OBJ, OFF, STL, PLY and VTP");
+}
+
+void warn_of_extension(const MeshSource& source, const std::string& format, std::vector<std::string>& warnings) {
+  const std::string extension = lower_case(source.path.extension().string());
+  constexpr std::array<std::string_view, 5> kExtensions = {".obj", ".off", ".stl", ".ply", ".vtp"};
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) return;
+  if (lower_case(format).find(extension.substr(1)) != std::string::npos) return;
+  warnings.push_back("The file is named " + extension + " but holds " + format + ": it was read as what it holds.");
+}
+
+TriangleMesh in_metres(const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles, LengthUnit unit) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(static_cast<Eigen::Index>(soup.points.size()), 3);
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    mesh.vertices.row(static_cast<Eigen::Index>(i)) = soup.points[i].unaryExpr([unit](double value) { return to_metres(value, unit); });
+  }
+  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) mesh.triangles(static_cast<Eigen::Index>(t), i) = triangles[t].corners[static_cast<std::size_t>(i)];
+  }
+  return mesh;
+}
+
+MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& repair) {
+  PolygonSoup soup = read_soup(source);
+  if (soup.points.empty()) source.fail("the " + soup.format + " holds no vertices");
+  if (soup.face_count() == 0) source.fail("the " + soup.format + " holds no faces");
+  warn_of_extension(source, soup.format, soup.warnings);
+  if (repair.weld_equal_vertices) {
+    const std::int64_t welded = weld_equal_points(soup);
+    if (welded > 0) soup.warnings.push_back(std::to_string(welded) + " vertices were joined with another at the same place.");
+  }
+  std::vector<SoupTriangle> triangles = triangles_of(source, soup);
+  refuse_duplicates(source, soup, triangles);
+  orient_alike(triangles, soup, soup.warnings);
+  const std::int64_t unused = drop_unused_points(soup, triangles);
+  if (unused > 0) soup.warnings.push_back(std::to_string(unused) + " vertices belong to no face and were dropped.");
+  warn_of_close_points(soup, soup.warnings);
+  return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format)};
+}
+
+struct NamedUnit {
+  const char* name;
+  LengthUnit unit;
+};
+constexpr std::array<NamedUnit, 3> kUnits = {{{"mm", LengthUnit::Millimetre}, {"cm", LengthUnit::Centimetre}, {"m", LengthUnit::Metre}}};
+
+std::string name_of(LengthUnit unit) {
+  return std::find_if(kUnits.begin(), kUnits.end(), [unit](const NamedUnit& named) { return named.unit == unit; })->name;
+}
+
+/// The units under which the size would be that of tissue, as a question.
+std::string suggestion(double extent_m_as_read, LengthUnit unit) {
+  const double extent = extent_m_as_read * units_per_metre(unit);
+  std::string names;
+  for (const NamedUnit& named : kUnits) {
+    const double size_m = extent / units_per_metre(named.unit);
+    if (size_m >= kSmallestTissue && size_m <= kLargestTissue) names += (names.empty() ? "" : " or ") + std::string(named.name);
+  }
+  return names.empty() ? "no known unit makes it so" : "is its unit " + names + "?";
+}
+
+}  // namespace
+
+LengthUnit length_unit(const std::string& name) {
+  for (const NamedUnit& named : kUnits) {
+    if (name == named.name) return named.unit;
+  }
+  throw InvalidInput("length_unit: \"" + name + "\" must be mm, cm or m");
+}
+
+MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair) {
+  MeshFile file = read_mesh_of_any_size(path, unit, repair);
+  const double size_m = extent_m(file.mesh);
+  if (size_m >= kSmallestTissue && size_m <= kLargestTissue) return file;
+  throw IoError(path.string() + ": read in " + name_of(unit) + " the mesh is " + text_of(size_m) +
+                " m long, but tissue is between 0.001 m and 2 m across; " + suggestion(size_m, unit));
+}
+
+MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair) {
+  const std::string bytes = read_file(path);
+  const MeshSource source{path, without_byte_order_mark(bytes)};
+  if (source.bytes.empty()) source.fail("the file is empty: no vertices");
+  return assembled(source, unit, repair);
+}
+
+}  // namespace palpation

@@ -1,0 +1,145 @@
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "io/byte_order.h"
+#include "io/mesh_text.h"
+#include "io/number_text.h"
+#include "io/polygon_soup.h"
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+constexpr std::size_t kHeader = 84;
+constexpr std::size_t kFacet = 50;
+
+/// Three corners of their own for each facet, until equal ones are welded.
+void push_corner(PolygonSoup& soup, const Vec3& point) {
+  soup.corners.push_back(static_cast<int>(soup.points.size()));
+  // Adding 0 turns -0 into 0, so that equal corners have equal bits.
+  soup.points.push_back(point + Vec3::Zero());
+}
+
+class AsciiStlReader {
+ public:
+  explicit AsciiStlReader(const MeshSource& source) : source_(source), words_(source.bytes), coordinates_(source) {
+    soup_.format = "ASCII STL";
+    soup_.place_kind = PlaceKind::Line;
+  }
+
+  PolygonSoup read() {
+    source_.refuse_nul_bytes();
+    while (const std::optional<std::string_view> word = words_.next()) {
+      if (lower_case(*word) != "solid") source_.fail_at_line(words_.line(), "\"solid\" is expected, not " + in_quotes(*word));
+      words_.skip_line();
+      read_solid();
+    }
+    coordinates_.warn(soup_.warnings);
+    weld_equal_points(soup_);
+    return std::move(soup_);
+  }
+
+ private:
+  void read_solid() {
+    while (true) {
+      const std::string word = lower_case(next_word("facet or endsolid"));
+      if (word == "endsolid") break;
+      if (word != "facet") source_.fail_at_line(words_.line(), "\"facet\" or \"endsolid\" is expected, not " + in_quotes(word));
+      read_facet();
+    }
+    words_.skip_line();
+  }
+
+  void read_facet() {
+    soup_.begin_face(words_.line());
+    expect("normal");
+    for (int i = 0; i < 3; ++i) next_word("a normal");
+    expect("outer");
+    expect("loop");
+    for (int i = 0; i < 3; ++i) read_vertex();
+    expect("endloop");
+    expect("endfacet");
+  }
+
+  void read_vertex() {
+    expect("vertex");
+    const std::int64_t line = words_.line();
+    std::array<std::string_view, 3> numbers;
+    for (std::string_view& number : numbers) {
+      number = next_word("a coordinate");
+      if (words_.line() != line) source_.fail_at_line(line, in_facet("a vertex has 3 coordinates on its line"));
+    }
+    push_corner(soup_, coordinates_.point(numbers, static_cast<std::int64_t>(soup_.points.size()), line));
+  }
+
+  std::string_view next_word(const std::string& what) {
+    const std::optional<std::string_view> word = words_.next();
+    if (!word) source_.fail_at_line(words_.line(), in_facet("the file ends where " + what + " is expected"));
+    return *word;
+  }
+
+  void expect(const std::string& keyword) {
+    const std::string_view word = next_word(keyword);
+    if (lower_case(word) != keyword)
+      source_.fail_at_line(words_.line(), in_facet("\"" + keyword + "\" is expected, not " + in_quotes(word)));
+  }
+
+  std::string in_facet(const std::string& what) const {
+    return soup_.face_count() == 0 ? what : "facet " + std::to_string(soup_.face_count() - 1) + ": " + what;
+  }
+
+  const MeshSource& source_;
+  WordCursor words_;
+  CoordinateReader coordinates_;
+  PolygonSoup soup_;
+};
+
+std::uint32_t facet_count(std::string_view bytes) { return number_from<std::uint32_t>(bytes.substr(80), ByteOrder::Little); }
+
+Vec3 binary_corner(const MeshSource& source, std::size_t byte, std::size_t facet) {
+  Vec3 point;
+  for (int component = 0; component < 3; ++component) {
+    const std::size_t at = byte + 4 * static_cast<std::size_t>(component);
+    const auto value = number_from<float>(source.bytes.substr(at), ByteOrder::Little);
+    if (!std::isfinite(value)) {
+      source.fail_at_byte(at,
+                          "facet " + std::to_string(facet) + ": " + "xyz"[component] + " = " + text_of(double{value}) + " is not finite");
+    }
+    point[component] = double{value};
+  }
+  return point;
+}
+
+}  // namespace
+
+bool has_size_of_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * std::size_t{facet_count(bytes)};
+}
+
+PolygonSoup read_ascii_stl(const MeshSource& source) { return AsciiStlReader(source).read(); }
+
+PolygonSoup read_binary_stl(const MeshSource& source) {
+  if (source.bytes.size() < kHeader) {
+    source.fail_at_byte(source.bytes.size(), "the file ends inside the header of a binary STL, which is 84 bytes long");
+  }
+  const std::size_t count = facet_count(source.bytes);
+  if (!has_size_of_binary_stl(source.bytes)) {
+    source.fail_at_byte(80, std::to_string(count) + " facets make " + std::to_string(kHeader + kFacet * count) +
+                                " bytes, but the file has " + std::to_string(source.bytes.size()));
+  }
+  PolygonSoup soup;
+  soup.format = "binary STL";
+  soup.place_kind = PlaceKind::Byte;
+  soup.points.reserve(3 * count);
+  soup.corners.reserve(3 * count);
+  for (std::size_t facet = 0; facet < count; ++facet) {
+    const std::size_t byte = kHeader + kFacet * facet;
+    soup.begin_face(static_cast<std::int64_t>(byte));
+    for (std::size_t corner = 0; corner < 3; ++corner) push_corner(soup, binary_corner(source, byte + 12 * (corner + 1), facet));
+  }
+  weld_equal_points(soup);
+  return soup;
+}
+
+}  // namespace palpation

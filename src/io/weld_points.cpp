@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+
+#include "io/polygon_soup.h"
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+struct NumberedPoint {
+  double x, y, z;
+  std::size_t number;
+  auto operator<=>(const NumberedPoint&) const = default;
+  bool is_at(const NumberedPoint& other) const { return x == other.x && y == other.y && z == other.z; }
+};
+
+std::vector<NumberedPoint> sorted_points(const PolygonSoup& soup) {
+  std::vector<NumberedPoint> sorted;
+  sorted.reserve(soup.points.size());
+  for (std::size_t i = 0; i < soup.points.size(); ++i) sorted.push_back({soup.points[i].x(), soup.points[i].y(), soup.points[i].z(), i});
+  std::sort(sorted.begin(), sorted.end(), [](const NumberedPoint& a, const NumberedPoint& b) { return (a <=> b) < 0; });
+  return sorted;
+}
+
+std::string text_of_point(const Vec3& p) { return "(" + text_of(p.x()) + ", " + text_of(p.y()) + ", " + text_of(p.z()) + ")"; }
+
+double extent_of(const PolygonSoup& soup) {
+  Vec3 low = soup.points.front(), high = low;
+  for (const Vec3& point : soup.points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).maxCoeff();
+}
+
+struct CloseUp {
+  double key;
+  std::size_t number;
+};
+
+/// Points along a direction that no grid is perpendicular to: close points are close along it, and few others are.
+std::vector<CloseUp> along_skew_direction(const PolygonSoup& soup) {
+  const Vec3 direction = Vec3(0.5436890126920764, 0.2955977425220848, 0.7861513777574233).normalized();
+  std::vector<CloseUp> keys(soup.points.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = {soup.points[i].dot(direction), i};
+  std::sort(keys.begin(), keys.end(),
+            [](const CloseUp& a, const CloseUp& b) { return a.key != b.key ? a.key < b.key : a.number < b.number; });
+  return keys;
+}
+
+}  // namespace
+
+std::int64_t weld_equal_points(PolygonSoup& soup) {
+  const std::vector<NumberedPoint> sorted = sorted_points(soup);
+  std::vector<std::size_t> first_of(soup.points.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    first_of[sorted[i].number] = i > 0 && sorted[i].is_at(sorted[i - 1]) ? first_of[sorted[i - 1].number] : sorted[i].number;
+  }
+  std::vector<int> number(soup.points.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (first_of[i] != i) {
+      number[i] = number[first_of[i]];
+      continue;
+    }
+    soup.points[kept] = soup.points[i];
+    number[i] = static_cast<int>(kept++);
+  }
+  const auto dropped = static_cast<std::int64_t>(soup.points.size() - kept);
+  const auto count = static_cast<std::int64_t>(number.size());
+  soup.points.resize(kept);
+  for (int& corner : soup.corners) {
+    if (corner >= 0 && corner < count) corner = number[static_cast<std::size_t>(corner)];
+  }
+  return dropped;
+}
+
+void warn_of_close_points(const PolygonSoup& soup, std::vector<std::string>& warnings) {
+  constexpr double kClose = 1e-12;
+  // A bound on the work for points that were laid out to be costly: this is a warning, not a promise.
+  constexpr std::size_t kMostNeighbours = 32;
+  const double close = kClose * extent_of(soup);
+  const std::vector<CloseUp> keys = along_skew_direction(soup);
+  std::int64_t equal = 0, near = 0;
+  std::pair<std::size_t, std::size_t> first_equal, first_near;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Vec3& point = soup.points[keys[i].number];
+    bool has_equal = false, has_near = false;
+    std::size_t equal_to = 0, near_to = 0;
+    for (std::size_t j = i + 1; j < keys.size() && j - i <= kMostNeighbours && keys[j].key - keys[i].key <= 2.0 * close; ++j) {
+      const Vec3& other = soup.points[keys[j].number];
+      if (!has_equal && other == point) {
+        has_equal = true;
+        equal_to = keys[j].number;
+      } else if (!has_near && other != point && (other - point).norm() <= close) {
+        has_near = true;
+        near_to = keys[j].number;
+      }
+    }
+    if (has_equal && equal++ == 0) first_equal = {keys[i].number, equal_to};
+    if (has_near && near++ == 0) first_near = {keys[i].number, near_to};
+  }
+  const auto say = [&](std::int64_t count, const std::string& what, std::pair<std::size_t, std::size_t> pair) {
+    if (count == 0) return;
+    warnings.push_back(std::to_string(count) + " vertices have " + what + ", such as vertices " + std::to_string(pair.first) + " and " +
+                       std::to_string(pair.second) + " (counted from 0 among those in use) at " + text_of_point(soup.points[pair.first]) +
+                       " in the file's unit: they are not joined unless asked for.");
+  };
+  say(equal, "the same coordinates as another", first_equal);
+  say(near, "a near-duplicate within 1e-12 of the extent", first_near);
+}
+
+}  // namespace palpation

@@ -1,0 +1,165 @@
+#include "palpation/io/wkt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "io/mesh_source.h"
+#include "io/mesh_text.h"
+#include "io/number_text.h"
+#include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
+
+namespace palpation {
+namespace {
+
+void append_point(std::string& text, const Vec2& point) { text += text_of(point.x()) + " " + text_of(point.y()); }
+
+/// The first point is written again at the end.
+void append_ring(std::string& text, const Ring& ring) {
+  text += '(';
+  for (const Vec2& point : ring) {
+    append_point(text, point);
+    text += ", ";
+  }
+  append_point(text, ring.front());
+  text += ')';
+}
+
+void append_polygon(std::string& text, const PolygonWithHoles& polygon) {
+  text += '(';
+  append_ring(text, polygon.outer);
+  for (const Ring& hole : polygon.holes) append_ring(text += ", ", hole);
+  text += ')';
+}
+
+/// The grammar nests three deep at most, so each level is a function of its own and nothing recurses.
+class WktParser {
+ public:
+  explicit WktParser(const MeshSource& source) : source_(source) {}
+
+  std::vector<PolygonWithHoles> parse() {
+    const std::size_t start = skip_blanks();
+    const std::string kind = lower_case(take_word());
+    if (kind != "polygon" && kind != "multipolygon") source_.fail_at_byte(start, "POLYGON or MULTIPOLYGON is expected");
+    std::vector<PolygonWithHoles> polygons;
+    if (!take_empty()) {
+      if (kind == "polygon") {
+        polygons.push_back(polygon());
+      } else {
+        polygons = all_polygons();
+      }
+    }
+    if (skip_blanks() < source_.bytes.size()) fail("text behind the geometry");
+    return polygons;
+  }
+
+ private:
+  std::vector<PolygonWithHoles> all_polygons() {
+    std::vector<PolygonWithHoles> polygons;
+    expect('(');
+    do {
+      if (!take_empty()) polygons.push_back(polygon());
+    } while (take(','));
+    expect(')');
+    return polygons;
+  }
+
+  PolygonWithHoles polygon() {
+    PolygonWithHoles polygon;
+    expect('(');
+    polygon.outer = ring();
+    while (take(',')) polygon.holes.push_back(ring());
+    expect(')');
+    return polygon;
+  }
+
+  Ring ring() {
+    Ring ring;
+    const std::size_t start = skip_blanks();
+    expect('(');
+    do {
+      const double x = coordinate();
+      ring.emplace_back(x, coordinate());
+    } while (take(','));
+    expect(')');
+    if (ring.size() < 4)
+      source_.fail_at_byte(start, "a ring of " + std::to_string(ring.size()) + " points; it has at least 4, the last like the first");
+    if (ring.front() != ring.back()) source_.fail_at_byte(start, "the ring does not end where it began");
+    ring.pop_back();
+    return ring;
+  }
+
+  double coordinate() {
+    const std::size_t start = skip_blanks();
+    const std::size_t end = std::min(source_.bytes.find_first_of(" \t\r\n,()", start), source_.bytes.size());
+    const std::string_view word = source_.bytes.substr(start, end - start);
+    const ParsedNumber number = parse_number(word);
+    if (number.status == NumberStatus::NotANumber) fail(in_quotes(word) + " is not a number");
+    if (number.status == NumberStatus::TooLarge || !std::isfinite(number.value)) fail(in_quotes(word) + " is not finite");
+    position_ = end;
+    return number.value;
+  }
+
+  std::size_t skip_blanks() {
+    position_ = std::min(source_.bytes.find_first_not_of(" \t\r\n", position_), source_.bytes.size());
+    return position_;
+  }
+
+  std::string_view take_word() {
+    const std::size_t start = skip_blanks();
+    while (position_ < source_.bytes.size() && is_letter(source_.bytes[position_])) ++position_;
+    return source_.bytes.substr(start, position_ - start);
+  }
+
+  static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+  bool take_empty() {
+    const std::string_view word = take_word();
+    if (word.empty()) return false;
+    if (lower_case(word) == "empty") return true;
+    fail(in_quotes(word) + ": EMPTY or \"(\" is expected; only two coordinates are read");
+  }
+
+  bool take(char c) {
+    const std::size_t at = skip_blanks();
+    if (at == source_.bytes.size() || source_.bytes[at] != c) return false;
+    ++position_;
+    return true;
+  }
+
+  void expect(char c) {
+    if (take(c)) return;
+    const std::string found = position_ == source_.bytes.size() ? "the end of the file" : in_quotes(source_.bytes.substr(position_, 1));
+    fail("\"" + std::string(1, c) + "\" is expected, not " + found);
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { source_.fail_at_byte(position_, what); }
+
+  const MeshSource& source_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+std::string to_wkt(const Region& region) {
+  const std::vector<PolygonWithHoles> polygons = region.polygons();
+  if (polygons.empty()) return "MULTIPOLYGON EMPTY";
+  std::string text = "MULTIPOLYGON (";
+  for (std::size_t i = 0; i < polygons.size(); ++i) append_polygon(i == 0 ? text : text += ", ", polygons[i]);
+  return text + ")";
+}
+
+Region read_wkt(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  const MeshSource source{path, bytes};
+  const std::vector<PolygonWithHoles> polygons = WktParser(source).parse();
+  try {
+    return Region(polygons);
+  } catch (const InvalidInput& error) {
+    source.fail(error.what());
+  }
+}
+
+}  // namespace palpation

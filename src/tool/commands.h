@@ -1,0 +1,58 @@
+/// The tool's commands. Each prints its result in plain words and throws what goes wrong.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palpation::tool {
+
+/// What every command on a scene takes.
+struct SceneArguments {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+  std::filesystem::path out;          ///< empty: nothing is written
+  bool quiet = false;
+};
+
+struct InfoArguments {
+  std::filesystem::path mesh;
+  std::string unit = "mm";
+};
+
+struct MeshArguments {
+  std::string kind = "plane";
+  std::vector<double> size_mm = {25.0, 50.0};
+  std::vector<int> vertices = {200, 200};
+  double jitter = 0.0;
+  std::filesystem::path around;       ///< span this recording instead
+  double margin_mm = 0.0;
+  double edge_mm = 0.5;               ///< with `around`
+  std::uint64_t seed = 1;
+  std::string unit = "mm";
+  std::filesystem::path output;
+};
+
+struct ExperimentArguments {
+  std::string name;
+  std::filesystem::path scene;        ///< empty: the paper's
+  std::vector<std::string> overrides;
+  int trials = 5;
+  std::uint64_t first_seed = 0;
+  bool print_scene = false;
+  std::filesystem::path out;
+  bool quiet = false;
+};
+
+void simulate(const SceneArguments& arguments);
+void plan(const SceneArguments& arguments, const std::filesystem::path& measurements);
+void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements);
+void replay(const SceneArguments& arguments, const std::vector<std::filesystem::path>& recordings);
+void compare_boundaries(const SceneArguments& arguments, const std::filesystem::path& a, const std::filesystem::path& b);
+void info(const InfoArguments& arguments);
+void make_mesh(const MeshArguments& arguments);
+void experiment(const ExperimentArguments& arguments);
+
+}  // namespace palpation::tool

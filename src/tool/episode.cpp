@@ -1,0 +1,141 @@
+#include "tool/episode.h"
+
+#include <cmath>
+#include <utility>
+
+#include "palpation/certainty/expected_error.h"
+#include "palpation/decision/baseline.h"
+#include "palpation/geometry/path.h"
+#include "tool/setup.h"
+#include "tool/stopwatch.h"
+
+namespace palpation::tool {
+namespace {
+
+constexpr double kWayStep_m = 0.001;
+
+/// The estimate and its error as they follow from the exploration's state, and a row of the trace.
+void restate(Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  TraceRow row;
+  row.batch = exploration.batch() - 1;
+  row.measurements = static_cast<int>(exploration.belief().palpations().size());
+  row.path_m = episode.path_m;
+  if (exploration.level() && exploration.belief().site_count() > 0) {
+    const Level level = *exploration.level();
+    row.level = level.value;
+    row.expected_error_m2 = expected_error(exploration.surface(), exploration.marginals(), level).symmetric_difference_m2();
+    episode.estimate = superlevel_region(exploration.surface(), exploration.marginals().mean, level.value);
+    if (episode.truth) episode.error = compare(exploration.surface(), episode.estimate, *episode.truth);
+    row.error = episode.error;
+  }
+  episode.trace.push_back(row);
+}
+
+Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach reach) {
+  return Episode{.exploration = Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach))};
+}
+
+Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
+  Episode episode = started(scene, surface, std::move(plan), world.reach);
+  episode.truth = superlevel_region(surface, world.truth, world.true_level);
+  return episode;
+}
+
+void add_tour(Episode& episode, const Tour& tour) {
+  episode.way.insert(episode.way.end(), tour.way.begin(), tour.way.end());
+  episode.path_m += tour.length_m;
+}
+
+Episode run_exploration(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
+  Episode episode = started(scene, surface, world, plan_of(scene));
+  Stopwatch stopwatch;
+  std::vector<int> planned = episode.exploration.next();
+  const auto finish_batch = [&](const Tour& tour) {
+    episode.stops.insert(episode.stops.end(), planned.begin(), planned.end());
+    planned = episode.exploration.next();
+    add_tour(episode, tour);
+    restate(episode);
+    episode.batch_seconds.push_back(stopwatch.seconds());
+    if (after_batch) after_batch(episode);
+    stopwatch = Stopwatch();
+  };
+  run(episode.exploration, world.probe, finish_batch, scene.truth("plan.readings_along_path") ? kWayStep_m : 0.0);
+  return episode;
+}
+
+/// Touches places in the given order, as a classical scan does, and takes up what was felt.
+void scan(Episode& episode, std::span<const SurfacePoint> places, const Probe& probe, std::vector<Palpation>& felt) {
+  Vec3 previous = Vec3::Zero();
+  std::vector<Palpation> fresh;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vec3 here = episode.exploration.surface().position(places[i]);
+    const Vec3 step = i == 0 ? Vec3(Vec3::Zero()) : Vec3(here - previous);
+    episode.path_m += step.norm();
+    const Vec3 heading = step.norm() > 0.0 ? step.normalized() : Vec3(Vec3::Zero());
+    if (std::optional<Palpation> palpation = probe(places[i], heading)) {
+      palpation->batch = episode.exploration.batch();
+      palpation->travel = heading;
+      fresh.push_back(*palpation);
+    }
+    previous = here;
+  }
+  felt.insert(felt.end(), fresh.begin(), fresh.end());
+  episode.exploration.take_up(fresh);
+}
+
+Episode run_scan(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
+  Plan nothing = plan_of(scene);
+  nothing.initial_count = 0;
+  nothing.batches = 0;
+  Episode episode = started(scene, surface, world, nothing);
+  const double spacing = scene.metres("plan.row_spacing_mm");
+  std::vector<Palpation> felt;
+  const auto finish_stage = [&](const Stopwatch& stopwatch) {
+    restate(episode);
+    episode.batch_seconds.push_back(stopwatch.seconds());
+    if (after_batch) after_batch(episode);
+  };
+  if (scene.word("plan.acquisition") == "raster") {
+    const Stopwatch stopwatch;
+    scan(episode, raster_scan(surface, spacing, kWayStep_m), world.probe, felt);
+    finish_stage(stopwatch);
+    return episode;
+  }
+  RecursiveRefinement refinement(surface, 4.0 * spacing, 0.25 * spacing);
+  for (auto places = refinement.next(0.0); !places.empty();) {
+    const Stopwatch stopwatch;
+    const std::size_t before = felt.size();
+    scan(episode, places, world.probe, felt);
+    refinement.record(std::span(felt).subspan(before));
+    finish_stage(stopwatch);
+    places = refinement.next(episode.exploration.level() ? episode.exploration.level()->value : 0.0);
+  }
+  return episode;
+}
+
+}  // namespace
+
+Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
+  const std::string strategy = scene.word("plan.acquisition");
+  return strategy == "raster" || strategy == "refinement" ? run_scan(scene, surface, world, after_batch)
+                                                          : run_exploration(scene, surface, world, after_batch);
+}
+
+Episode episode_from(const Scene& scene, const Surface& surface, std::span<const Palpation> palpations) {
+  Episode episode = started(scene, surface, plan_of(scene), {});
+  if (palpations.empty()) return episode;
+  episode.exploration.take_up(palpations);
+  restate(episode);
+  return episode;
+}
+
+Snapshot snapshot(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  const Marginals& marginals = exploration.marginals();
+  Snapshot now{marginals.mean, marginals.variance.cwiseSqrt(), exploration.acquisition_field(), {}};
+  if (exploration.level()) now.probability_inside = probability_inside(marginals, *exploration.level());
+  return now;
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,52 @@
+/// A whole run over a scene, against a world that answers touches: what `simulate`, `replay` and the experiments share.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpation/boundary/level_set.h"
+#include "palpation/boundary/region_error.h"
+#include "palpation/exploration/exploration.h"
+#include "palpation/exploration/trace.h"
+#include "tool/scene.h"
+
+namespace palpation::tool {
+
+/// What answers, and what is known to be true of it.
+struct World {
+  Probe probe;
+  Field truth;               ///< at the vertices
+  double true_level = 0.0;
+  Reach reach{};
+};
+
+/// The state after a batch.
+struct Snapshot {
+  Field mean, stddev, acquisition, probability_inside;  ///< the last one empty while there is no level
+};
+
+struct Episode {
+  Exploration exploration;
+  Region estimate{};
+  std::optional<Region> truth{};
+  std::optional<RegionError> error{};
+  Trace trace{};
+  std::vector<int> stops{};           ///< all planned stops, in the order of travel
+  std::vector<SurfacePoint> way{};    ///< the places between them
+  double path_m = 0.0;
+  std::vector<double> batch_seconds{};  ///< planning and updating, the boundary and its error included
+};
+
+using AfterBatch = std::function<void(const Episode&)>;
+
+/// Runs the scene's plan to its end. Pictures of intermediate states are the caller's, by after_batch.
+Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch = {});
+
+/// What is believed after measurements that were made elsewhere.
+Episode episode_from(const Scene& scene, const Surface& surface, std::span<const Palpation> palpations);
+
+Snapshot snapshot(const Episode& episode);
+
+}  // namespace palpation::tool

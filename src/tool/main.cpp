@@ -1,0 +1,149 @@
+// palpate: where to touch next, and where the tumour under the surface ends.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <thread>
+
+#include "palpation/base/error.h"
+#include "palpation/base/parallel.h"
+#include "tool/commands.h"
+#include "tool/progress.h"
+#include "tool/scene_schema.h"
+
+namespace {
+
+using namespace palpation;
+using namespace palpation::tool;
+
+constexpr int kDone = 0;
+constexpr int kWrongUsage = 2;
+constexpr int kInputAtFault = 3;
+constexpr int kMachineAtFault = 4;
+constexpr int kInterrupted = 130;
+
+struct Arguments {
+  SceneArguments scene;
+  InfoArguments info;
+  MeshArguments mesh;
+  ExperimentArguments experiment;
+  std::filesystem::path measurements, a, b;
+  std::vector<std::filesystem::path> recordings;
+  std::string help_topic = "scene";
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+};
+
+CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& name, const std::string& what) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("SCENE", arguments.scene.scene, "what to work on, a JSON file (see: palpate help scene)")->required();
+  command->add_option("--out", arguments.scene.out, "folder for the results; without it they are only told");
+  command->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr")->allow_extra_args(false)->type_name("KEY=VALUE");
+  command->add_option("--seed", arguments.scene.seed, "override the scene's seed");
+  command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", arguments.scene.quiet, "no progress and no words but errors");
+  return command;
+}
+
+void add_scene_commands(CLI::App& app, Arguments& arguments) {
+  scene_command(app, arguments, "simulate", "Run the whole plan on a simulated phantom")->callback([&] { simulate(arguments.scene); });
+
+  CLI::App* planning = scene_command(app, arguments, "plan", "Where to touch next, from what was measured so far");
+  planning->add_option("--measurements", arguments.measurements, "CSV with columns x,y,z,reading [m]")->required();
+  planning->callback([&] { plan(arguments.scene, arguments.measurements); });
+
+  CLI::App* bounding = scene_command(app, arguments, "boundary", "Where the tumour ends, from what was measured");
+  bounding->add_option("--measurements", arguments.measurements, "CSV with columns x,y,z,reading [m]")->required();
+  bounding->callback([&] { boundary(arguments.scene, arguments.measurements); });
+
+  CLI::App* replaying = scene_command(app, arguments, "replay", "Run the whole plan, each touch answered from dense recordings");
+  replaying->add_option("--recording", arguments.recordings, "CSV with columns x,y,z,reading [m]; one for each direction of travel")->required()->allow_extra_args(false);
+  replaying->callback([&] { replay(arguments.scene, arguments.recordings); });
+
+  CLI::App* comparing = scene_command(app, arguments, "compare", "The area between two boundaries");
+  comparing->add_option("A", arguments.a, "the estimate: a .wkt or .vtp file")->required();
+  comparing->add_option("B", arguments.b, "the truth")->required();
+  comparing->callback([&] { compare_boundaries(arguments.scene, arguments.a, arguments.b); });
+}
+
+void add_mesh_commands(CLI::App& app, Arguments& arguments) {
+  CLI::App* telling = app.add_subcommand("info", "What a mesh is, what it supports, and what to do next");
+  telling->add_option("MESH", arguments.info.mesh, "OBJ, OFF, STL, PLY or VTP")->required();
+  telling->add_option("--unit", arguments.info.unit, "of its coordinates: mm, cm or m")->required();
+  telling->callback([&] { info(arguments.info); });
+
+  CLI::App* making = app.add_subcommand("mesh", "Make a phantom");
+  making->add_option("KIND", arguments.mesh.kind, "plane")->required()->check(CLI::IsMember({"plane"}));
+  making->add_option("OUT", arguments.mesh.output, "file to write: .ply, .obj, .off or .stl")->required();
+  making->add_option("--size-mm", arguments.mesh.size_mm, "along x and y")->expected(2);
+  making->add_option("--vertices", arguments.mesh.vertices, "along x and y")->expected(2);
+  making->add_option("--jitter", arguments.mesh.jitter, "move inner vertices by up to this fraction of a cell (0 to 0.45)");
+  making->add_option("--around", arguments.mesh.around, "span this recording instead of --size-mm");
+  making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording");
+  making->add_option("--edge-mm", arguments.mesh.edge_mm, "length of the cells around a recording");
+  making->add_option("--seed", arguments.mesh.seed, "of the jitter");
+  making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m");
+  making->callback([&] { make_mesh(arguments.mesh); });
+}
+
+void add_experiment_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials: table1, figure4");
+  command->add_option("NAME", arguments.experiment.name, "which")->required()->check(CLI::IsMember({"table1", "figure4"}));
+  command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
+  command->add_option("--trials", arguments.experiment.trials, "per cell")->check(CLI::Range(1, 1000000));
+  command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following");
+  command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")->allow_extra_args(false)->type_name("KEY=VALUE");
+  command->add_flag("--print-scene", arguments.experiment.print_scene, "print the scene of every cell instead of running it");
+  command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");
+  command->add_option("--threads", arguments.threads, "trials run at once; the results do not depend on it")->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
+  command->callback([&] { experiment(arguments.experiment); });
+}
+
+void add_help_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("help", "Explain the keys of a scene: palpate help scene");
+  command->add_option("TOPIC", arguments.help_topic, "scene")->check(CLI::IsMember({"scene"}));
+  command->callback([] { std::fputs(scene_help().c_str(), stdout); });
+}
+
+int explain(const char* words, int code) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "palpate: %s\n", words);
+  return code;
+}
+
+int run_tool(int count, char** words) {
+  CLI::App app("Decides where a robot should touch tissue next, and says where the tumour under the surface ends and how sure that is.");
+  app.require_subcommand(1);
+  app.footer("Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 wrong usage, 3 an input is at fault, 4 the machine or the arithmetic failed, 130 interrupted.");
+  Arguments arguments;
+  app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
+  add_scene_commands(app, arguments);
+  add_mesh_commands(app, arguments);
+  add_experiment_command(app, arguments);
+  add_help_command(app, arguments);
+  for (CLI::App* command : app.get_subcommands({})) command->parse_complete_callback([&] { set_thread_count(arguments.threads); });
+  try {
+    app.parse(count, words);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kWrongUsage;
+  } catch (const Interrupted& error) {
+    return explain(error.what(), kInterrupted);
+  } catch (const WriteError& error) {
+    return explain(error.what(), kMachineAtFault);
+  } catch (const NumericalError& error) {
+    return explain(error.what(), kMachineAtFault);
+  } catch (const Error& error) {
+    return explain(error.what(), kInputAtFault);
+  } catch (const std::bad_alloc&) {
+    return explain("not enough memory", kMachineAtFault);
+  } catch (const std::exception& error) {
+    return explain(error.what(), kMachineAtFault);
+  }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  watch_for_interrupt();
+  return run_tool(count, words);
+}

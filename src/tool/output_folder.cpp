@@ -1,0 +1,230 @@
+#include "tool/output_folder.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
+#include "palpation/io/measurements.h"
+#include "palpation/io/wkt.h"
+#include "palpation/io/write_vtp.h"
+#include "tool/boundary_curves.h"
+
+extern char** environ;
+
+namespace palpation::tool {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMm2 = 1e6;  // in a square metre
+constexpr double kMm = 1e3;   // in a metre
+
+json maybe(const std::optional<double>& value, double factor = 1.0) {
+  if (value.has_value()) return *value * factor;
+  return nullptr;
+}
+
+json error_json(const RegionError& error, double search_area_m2) {
+  return {{"symmetric_difference_mm2", error.symmetric_difference_m2 * kMm2},
+          {"missed_mm2", error.missed_m2 * kMm2},
+          {"extra_mm2", error.extra_m2 * kMm2},
+          {"percent_of_search_area", 100.0 * error.symmetric_difference_m2 / search_area_m2},
+          {"dice", error.dice},
+          {"hausdorff_mm", maybe(error.hausdorff_m, kMm)},
+          {"mean_distance_mm", maybe(error.mean_distance_m, kMm)}};
+}
+
+/// Area, centroid and extent of one polygon, in chart millimetres.
+json part_json(const PolygonWithHoles& polygon) {
+  double twice_area = 0.0;
+  Vec2 moment = Vec2::Zero();
+  const Vec2 origin = polygon.outer.front();
+  Vec2 least = origin, most = origin;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i] - origin;
+      const Vec2 b = ring[(i + 1) % ring.size()] - origin;
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      twice_area += cross;
+      moment += cross * (a + b) / 3.0;
+      least = least.cwiseMin(ring[i]);
+      most = most.cwiseMax(ring[i]);
+    }
+  };
+  add(polygon.outer);
+  for (const Ring& hole : polygon.holes) add(hole);
+  const Vec2 centroid = (origin + moment / twice_area) * kMm;
+  const Vec2 extent = (most - least) * kMm;
+  return {{"area_mm2", 0.5 * twice_area * kMm2}, {"centroid_mm", {centroid.x(), centroid.y()}}, {"extent_mm", {extent.x(), extent.y()}}};
+}
+
+std::string cell(const std::optional<double>& value, double factor = 1.0) { return value ? text_of(*value * factor) : ""; }
+
+std::string trace_csv(const Trace& trace, double search_area_m2) {
+  std::string text = "batch,measurements,path_mm,level,expected_error_mm2,error_percent\n";
+  for (const TraceRow& row : trace) {
+    text += std::to_string(row.batch) + "," + std::to_string(row.measurements) + "," + text_of(row.path_m * kMm) + "," + cell(row.level) + "," +
+            cell(row.expected_error_m2, kMm2) + "," +
+            (row.error ? text_of(100.0 * row.error->symmetric_difference_m2 / search_area_m2) : "") + "\n";
+  }
+  return text;
+}
+
+std::string waypoint_csv(const std::vector<Waypoint>& waypoints) {
+  std::string text = "index,x,y,z,approach_x,approach_y,approach_z,indented_x,indented_y,indented_z,normal_x,normal_y,normal_z,qx,qy,qz,qw,expected_force_n\n";
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const Waypoint& waypoint = waypoints[i];
+    text += std::to_string(i);
+    for (const Vec3& triple : {waypoint.position, waypoint.approach, waypoint.indented, waypoint.normal}) {
+      for (double coordinate : triple) text += "," + text_of(coordinate);
+    }
+    for (double coefficient : quaternion(waypoint.rotation)) text += "," + text_of(coefficient);
+    text += "," + text_of(waypoint.expected_force_n) + "\n";
+  }
+  return text;
+}
+
+using NamedFields = std::vector<std::pair<std::string, Field>>;
+
+NamedFields fields_of(const Episode& episode, const World* world) {
+  const Snapshot now = snapshot(episode);
+  NamedFields fields{{"mean", now.mean}, {"stddev", now.stddev}, {"acquisition", now.acquisition}};
+  if (now.probability_inside.size() > 0) fields.emplace_back("probability_inside", now.probability_inside);
+  if (world != nullptr) fields.emplace_back("truth", world->truth);
+  return fields;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(std::filesystem::path folder, const Scene& scene, const Surface& surface)
+    : folder_(std::move(folder)), scene_(scene), surface_(surface) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder_, failure);
+  if (failure || !std::filesystem::is_directory(folder_)) {
+    throw WriteError(folder_.string() + ": cannot make this folder: " + (failure ? failure.message() : "there is a file of that name"));
+  }
+}
+
+void OutputFolder::write_step(const Episode& episode, const World* world) {
+  if (steps_.empty()) std::filesystem::create_directories(folder_ / "steps");
+  std::string number = std::to_string(episode.exploration.batch() - 1);
+  number.insert(0, number.size() < 3 ? 3 - number.size() : 0, '0');
+  const std::string name = "steps/step_" + number + ".vtp";
+  write_surface_vtp(folder_ / name, surface_, fields_of(episode, world));
+  steps_.push_back(name);
+}
+
+json OutputFolder::summary(const Episode& episode) const {
+  const Exploration& exploration = episode.exploration;
+  json parts = json::array();
+  for (const PolygonWithHoles& polygon : episode.estimate.polygons()) parts.push_back(part_json(polygon));
+  const std::optional<Level>& level = exploration.level();
+  json result = {{"version", 1},
+                 {"scene", scene_.name()},
+                 {"seed", scene_.seed()},
+                 {"options", scene_.complete()},
+                 {"computed", surface_.computed()},
+                 {"vertices", surface_.vertex_count()},
+                 {"measurements", exploration.belief().palpations().size()},
+                 {"search_area_mm2", surface_.area() * kMm2},
+                 {"level", level ? json(level->value) : json(nullptr)},
+                 {"level_sd", level ? maybe(level->stddev) : json(nullptr)},
+                 {"area_mm2", surface_area(surface_, episode.estimate) * kMm2},
+                 {"parts", parts},
+                 {"expected_error_mm2", episode.trace.empty() ? json(nullptr) : maybe(episode.trace.back().expected_error_m2, kMm2)},
+                 {"path_mm", episode.path_m * kMm},
+                 {"learned", {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
+                              {"signal_sd", exploration.belief().signal_sd()},
+                              {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
+                 {"warnings", warnings_},
+                 {"stop_reason", exploration.stop_reason().empty() ? json(nullptr) : json(exploration.stop_reason())},
+                 {"chart", surface_.chart().hash()}};
+  if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
+  return result;
+}
+
+void OutputFolder::write_boundary(const Episode& episode, const World* world) {
+  write_atomically(folder_ / "boundary.wkt", to_wkt(episode.estimate) + "\n");
+  std::vector<BoundaryCurve> curves;
+  const auto add = [&](const Field& field, double level, CurveKind kind) {
+    const std::vector<BoundaryCurve> more = boundary_curves(surface_, field, level, kind);
+    curves.insert(curves.end(), more.begin(), more.end());
+  };
+  if (episode.exploration.level() && episode.exploration.belief().site_count() > 0) {
+    add(episode.exploration.marginals().mean, episode.exploration.level()->value, CurveKind::Estimate);
+  }
+  if (world != nullptr) add(world->truth, world->true_level, CurveKind::Truth);
+  write_boundary_vtp(folder_ / "boundary.vtp", surface_, curves);
+}
+
+void OutputFolder::write(const Episode& episode, const World* world, const json& timings) {
+  write_surface_vtp(folder_ / "surface.vtp", surface_, fields_of(episode, world));
+  write_boundary(episode, world);
+  write_atomically(folder_ / "measurements.csv", measurements_csv(surface_, episode.exploration.belief().palpations()));
+  if (!episode.trace.empty()) write_atomically(folder_ / "trace.csv", trace_csv(episode.trace, surface_.area()));
+  if (!steps_.empty()) write_pvd(folder_ / "steps.pvd", steps_);
+  write_atomically(folder_ / "summary.json", summary(episode).dump(2) + "\n");
+  write_atomically(folder_ / "timings.json", timings.dump(2) + "\n");
+}
+
+void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way) {
+  write_atomically(folder_ / "waypoints.csv", waypoint_csv(stops));
+  write_atomically(folder_ / "path.csv", waypoint_csv(way));
+}
+
+void OutputFolder::write_comparison(const RegionError& error) {
+  const json result = {{"version", 1},
+                       {"scene", scene_.name()},
+                       {"search_area_mm2", surface_.area() * kMm2},
+                       {"error", error_json(error, surface_.area())},
+                       {"chart", surface_.chart().hash()}};
+  write_atomically(folder_ / "summary.json", result.dump(2) + "\n");
+}
+
+std::optional<std::string> OutputFolder::draw() const { return run_draw({folder_.string()}); }
+
+std::optional<std::string> run_draw(const std::vector<std::string>& arguments) {
+  std::error_code failure;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
+  const std::string program = (self.parent_path() / "palpate-draw").string();
+  if (failure || ::access(program.c_str(), X_OK) != 0) return "the program palpate-draw does not lie beside palpate";
+
+  std::vector<std::string> words{program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& one : words) pointers.push_back(one.data());
+  pointers.push_back(nullptr);
+
+  std::array<int, 2> channel{};
+  if (::pipe2(channel.data(), O_CLOEXEC) != 0) return "no pipe to palpate-draw";
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, channel[1], STDERR_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int spawned = ::posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(channel[1]);
+  std::string said;
+  std::array<char, 512> bytes{};
+  for (ssize_t count = 0; spawned == 0 && (count = ::read(channel[0], bytes.data(), bytes.size())) > 0;) {
+    if (said.size() < 4096) said.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  ::close(channel[0]);
+  if (spawned != 0) return "palpate-draw cannot be started";
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  if (WIFSIGNALED(status)) return "the graphics stack failed (signal " + std::to_string(WTERMSIG(status)) + ")";
+  return said.empty() ? "palpate-draw failed" : said;
+}
+
+}  // namespace palpation::tool

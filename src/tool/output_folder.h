@@ -1,0 +1,53 @@
+/// The files that --out receives. Each is there whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpation/exploration/waypoint.h"
+#include "tool/episode.h"
+
+namespace palpation::tool {
+
+class OutputFolder {
+ public:
+  /// Makes the folder if it is not there. Throws WriteError.
+  OutputFolder(std::filesystem::path folder, const Scene& scene, const Surface& surface);
+
+  void warn(const std::string& words) { warnings_.push_back(words); }
+
+  /// steps/step_NNN.vtp for the state after a batch; steps.pvd lists them when the rest is written.
+  void write_step(const Episode& episode, const World* world);
+
+  /// summary.json, timings.json, trace.csv, measurements.csv, boundary.wkt, boundary.vtp, surface.vtp, steps.pvd.
+  void write(const Episode& episode, const World* world, const nlohmann::json& timings);
+
+  /// waypoints.csv and path.csv: the stops, and the places between them.
+  void write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way);
+
+  /// summary.json of two boundaries that were compared.
+  void write_comparison(const RegionError& error);
+
+  /// picture.png and convergence.png, drawn by the program palpate-draw from the files above. Returns why not, or nothing.
+  std::optional<std::string> draw() const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  nlohmann::json summary(const Episode& episode) const;
+  void write_boundary(const Episode& episode, const World* world);
+
+  std::filesystem::path folder_;
+  const Scene& scene_;
+  Surface surface_;
+  std::vector<std::string> warnings_;
+  std::vector<std::string> steps_;
+};
+
+/// Why the programs' picture could not be drawn, or nothing: runs palpate-draw, which lies beside this program, with the given arguments.
+std::optional<std::string> run_draw(const std::vector<std::string>& arguments);
+
+}  // namespace palpation::tool

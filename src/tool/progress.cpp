@@ -1,0 +1,49 @@
+#include "tool/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+namespace palpation::tool {
+namespace {
+
+constexpr int kBarWidth = 30;
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_interrupt(int) {
+  interrupted = 1;
+  std::signal(SIGINT, SIG_DFL);
+}
+
+}  // namespace
+
+void watch_for_interrupt() { std::signal(SIGINT, on_interrupt); }
+
+void check_interrupt() {
+  if (interrupted != 0) throw Interrupted();
+}
+
+Progress::Progress(std::string what, int total, bool quiet)
+    : what_(std::move(what)), total_(std::max(1, total)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_) std::fprintf(stderr, "\r\x1b[K");
+}
+
+void Progress::step(int done, const std::string& state) {
+  check_interrupt();
+  if (quiet_) return;
+  const int filled = kBarWidth * std::min(done, total_) / total_;
+  if (terminal_) {
+    const std::string bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), '.');
+    std::fprintf(stderr, "\r\x1b[K%s [%s] %d/%d %s", what_.c_str(), bar.c_str(), done, total_, state.c_str());
+    std::fflush(stderr);
+  } else {
+    std::fprintf(stderr, "%s %d/%d %s\n", what_.c_str(), done, total_, state.c_str());
+  }
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,104 @@
+// simulate, replay, plan, boundary: a scene, and a world or measurements.
+#include <cstdio>
+
+#include "palpation/io/measurements.h"
+#include "tool/commands.h"
+#include "tool/episode.h"
+#include "tool/output_folder.h"
+#include "tool/progress.h"
+#include "tool/setup.h"
+#include "tool/stopwatch.h"
+#include "tool/words.h"
+#include "tool/worlds.h"
+
+namespace palpation::tool {
+namespace {
+
+Scene scene_of(const SceneArguments& arguments) {
+  const Scene scene = Scene::read(arguments.scene, arguments.overrides);
+  return arguments.seed ? scene.with("seed", *arguments.seed) : scene;
+}
+
+/// The whole run of `simulate` and `replay`, to the files and the words.
+void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world, double prepared_seconds) {
+  std::optional<OutputFolder> output;
+  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
+  if (output) {
+    for (const std::string& warning : tissue.warnings) output->warn(warning);
+  }
+  const Stopwatch running;
+  Progress progress("Batch", scene.integer("plan.batches") + 1, arguments.quiet);
+  const Episode episode = run_episode(scene, tissue.surface, world, [&](const Episode& now) {
+    progress.step(static_cast<int>(now.trace.size()), batch_words(now));
+    if (output) output->write_step(now, &world);
+  });
+  const double running_seconds = running.seconds();
+  if (!arguments.quiet) std::fputs(episode_words(episode).c_str(), stdout);
+  if (!output) return;
+
+  const Stopwatch writing;
+  const Robot robot = robot_of(scene);
+  std::vector<SurfacePoint> stops;
+  for (int stop : episode.stops) stops.push_back(tissue.surface.at_vertex(stop));
+  output->write_waypoints(waypoints(tissue.surface, stops, robot), waypoints(tissue.surface, episode.way, robot));
+  output->write(episode, &world,
+                {{"prepare_s", prepared_seconds}, {"run_s", running_seconds}, {"batches_s", episode.batch_seconds}, {"write_s", writing.seconds()}});
+  finish_output(*output, arguments.quiet);
+}
+
+}  // namespace
+
+void simulate(const SceneArguments& arguments) {
+  const Stopwatch preparing;
+  const Scene scene = scene_of(arguments);
+  const Tissue tissue = tissue_of(scene);
+  const World world = simulated_world(scene, tissue.surface);
+  run_and_report(arguments, scene, tissue, world, preparing.seconds());
+}
+
+void replay(const SceneArguments& arguments, const std::vector<std::filesystem::path>& recordings) {
+  const Stopwatch preparing;
+  const Scene scene = scene_of(arguments);
+  const Tissue tissue = tissue_of(scene);
+  const World world = recorded_world(scene, tissue.surface, recordings);
+  run_and_report(arguments, scene, tissue, world, preparing.seconds());
+}
+
+void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements) {
+  const Stopwatch running;
+  const Scene scene = scene_of(arguments);
+  const Tissue tissue = tissue_of(scene);
+  const Episode episode = episode_from(scene, tissue.surface, read_measurements(measurements, tissue.surface));
+  if (!arguments.quiet) std::fputs(episode_words(episode).c_str(), stdout);
+  if (arguments.out.empty()) return;
+  OutputFolder output(arguments.out, scene, tissue.surface);
+  for (const std::string& warning : tissue.warnings) output.warn(warning);
+  output.write(episode, nullptr, {{"run_s", running.seconds()}});
+  finish_output(output, arguments.quiet);
+}
+
+void plan(const SceneArguments& arguments, const std::filesystem::path& measurements) {
+  const Stopwatch running;
+  const Scene scene = scene_of(arguments);
+  const Tissue tissue = tissue_of(scene);
+  const std::vector<Palpation> palpations = read_measurements(measurements, tissue.surface);
+  const Episode episode = episode_from(scene, tissue.surface, palpations);
+  const std::vector<int> next = episode.exploration.next();
+
+  std::vector<SurfacePoint> stops, way;
+  std::optional<SurfacePoint> here;
+  if (!palpations.empty()) here = palpations.back().where;
+  for (int stop : next) stops.push_back(tissue.surface.at_vertex(stop));
+  const Tour tour = travel(tissue.surface, next, here, [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
+  const Robot robot = robot_of(scene);
+  const std::vector<Waypoint> poses = waypoints(tissue.surface, stops, robot);
+  if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
+  if (arguments.out.empty()) return;
+  OutputFolder output(arguments.out, scene, tissue.surface);
+  for (const std::string& warning : tissue.warnings) output.warn(warning);
+  output.write(episode, nullptr, {{"run_s", running.seconds()}});
+  output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot));
+  finish_output(output, arguments.quiet);
+}
+
+}  // namespace palpation::tool

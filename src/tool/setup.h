@@ -1,0 +1,30 @@
+/// From a scene to the objects of the library.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palpation/exploration/exploration.h"
+#include "palpation/exploration/waypoint.h"
+#include "palpation/geometry/surface.h"
+#include "palpation/world/phantom.h"
+#include "tool/scene.h"
+
+namespace palpation::tool {
+
+struct Tissue {
+  Surface surface;
+  std::vector<std::string> warnings;  ///< of the reader
+};
+
+/// Reads, cuts and refines the scene's mesh. Throws IoError, InvalidMesh, and InvalidInput that says what to do where the scene asks for what the mesh
+/// cannot give.
+Tissue tissue_of(const Scene& scene);
+
+FieldModel field_of(const Scene& scene);
+LevelRule level_rule_of(const Scene& scene);
+Plan plan_of(const Scene& scene);
+Robot robot_of(const Scene& scene);
+Phantom phantom_of(const Scene& scene, const Surface& surface);
+
+}  // namespace palpation::tool

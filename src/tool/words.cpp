@@ -1,0 +1,83 @@
+#include "tool/words.h"
+
+#include <array>
+#include <cstdio>
+
+namespace palpation::tool {
+namespace {
+
+std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
+
+std::string found_words(const Episode& episode) {
+  const std::vector<PolygonWithHoles> parts = episode.estimate.polygons();
+  if (!episode.exploration.level()) return "No reading yet, so nothing is known.\n";
+  const std::string level = "at the level " + fixed(episode.exploration.level()->value, 3);
+  if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
+  std::string words = "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
+  for (const PolygonWithHoles& part : parts) {
+    Vec2 least = part.outer.front(), most = part.outer.front();
+    for (const Vec2& corner : part.outer) {
+      least = least.cwiseMin(corner);
+      most = most.cwiseMax(corner);
+    }
+    const Vec2 size = (most - least) * 1e3;
+    const Vec2 middle = (most + least) * 500.0;
+    words += "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around (" + fixed(middle.x(), 1) + ", " + fixed(middle.y(), 1) + ") mm" +
+             (part.holes.empty() ? "" : ", with " + counted(part.holes.size(), "hole")) + "\n";
+  }
+  return words;
+}
+
+}  // namespace
+
+std::string fixed(double value, int digits) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string error_words(const RegionError& error, double search_area_m2) {
+  std::string words = "Against the truth: " + fixed(error.symmetric_difference_m2 * 1e6, 2) + " mm2 wrong (" +
+                      fixed(error.symmetric_difference_m2 * 1e4, 3) + " cm2, " + fixed(100.0 * error.symmetric_difference_m2 / search_area_m2, 3) +
+                      " % of the search area): " + fixed(error.missed_m2 * 1e6, 2) + " missed, " + fixed(error.extra_m2 * 1e6, 2) + " extra; Dice " +
+                      fixed(error.dice, 3);
+  if (error.hausdorff_m && error.mean_distance_m) {
+    words += ", boundaries " + fixed(*error.mean_distance_m * 1e3, 2) + " mm apart on average, " + fixed(*error.hausdorff_m * 1e3, 2) + " at most";
+  }
+  return words + ".\n";
+}
+
+std::string batch_words(const Episode& episode) {
+  const TraceRow& row = episode.trace.back();
+  std::string words = counted(static_cast<std::size_t>(row.measurements), "reading");
+  if (row.error) words += ", " + fixed(100.0 * row.error->symmetric_difference_m2 / episode.exploration.surface().area(), 3) + " % wrong";
+  if (!episode.exploration.contrast_seen()) words += ", no contrast yet";
+  return words;
+}
+
+std::string episode_words(const Episode& episode) {
+  const std::size_t readings = episode.exploration.belief().palpations().size();
+  std::string words = counted(readings, "reading");
+  if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
+  words += ".\n" + found_words(episode);
+  if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area());
+  return words;
+}
+
+std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m) {
+  if (stops.empty()) return "Nothing more to touch: " + episode.exploration.stop_reason() + ".\n";
+  std::string words = "Touch next, in this order (" + fixed(path_m * 1e3, 0) + " mm to travel), in the robot's frame [mm]:\n";
+  for (const Waypoint& stop : stops) {
+    words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) + "  " + fixed(stop.position.z() * 1e3, 2) + "\n";
+  }
+  return words;
+}
+
+void finish_output(OutputFolder& output, bool quiet) {
+  const std::optional<std::string> no_picture = output.draw();
+  if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
+  if (quiet) return;
+  std::printf("Written to %s%s\n", output.folder().string().c_str(), no_picture ? "" : ", with picture.png");
+}
+
+}  // namespace palpation::tool

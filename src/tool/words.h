@@ -1,0 +1,27 @@
+/// Results in plain words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palpation/exploration/waypoint.h"
+#include "tool/episode.h"
+#include "tool/output_folder.h"
+
+namespace palpation::tool {
+
+std::string fixed(double value, int digits);
+
+/// One line on the state after a batch.
+std::string batch_words(const Episode& episode);
+/// What was touched and found, and how wrong it is where the truth is known.
+std::string episode_words(const Episode& episode);
+/// How wrong an estimate is.
+std::string error_words(const RegionError& error, double search_area_m2);
+/// The next stops.
+std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m);
+
+/// Draws the pictures, and says where all is, or why there is no picture.
+void finish_output(OutputFolder& output, bool quiet);
+
+}  // namespace palpation::tool
