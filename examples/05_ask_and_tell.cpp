@@ -8,15 +8,15 @@ using namespace palpation;
 
 namespace {
 
-/// Stands for the robot: goes to the pose and reads the sensor. Here the tissue is stiff to the right of x = 15 mm.
-double read_stiffness_at(const Vec3& contact) { return contact.x() > 0.015 ? 2.0 : 1.0; }
+/// Stands for the robot: goes to the pose and reads the sensor. Here a disk of 6 mm radius is twice as stiff as the rest.
+double read_stiffness_at(const Vec3& contact) { return (contact - Vec3(0.012, 0.030, 0.0)).norm() < 0.006 ? 2.0 : 1.0; }
 
 }  // namespace
 
 int main() {
   Random random(1);
   const Surface tissue(make_plane({.columns = 51, .rows = 101}, random));
-  Exploration exploration(tissue, {}, {}, {.acquisition = straddle(), .initial_count = 12, .batches = 4}, /*seed=*/1);
+  Exploration exploration(tissue, {}, {.known = 1.5}, {.acquisition = straddle(), .initial_count = 12, .batches = 6}, /*seed=*/1);
 
   for (std::vector<int> stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
     std::vector<SurfacePoint> targets;
@@ -34,5 +34,5 @@ int main() {
     std::printf("batch %d: %zu stops\n", exploration.batch() - 1, stops.size());
   }
   const Region stiff = superlevel_region(tissue, exploration.marginals().mean, exploration.level()->value);
-  std::printf("%s; the stiff part has %.0f mm2 of 500\n", exploration.stop_reason().c_str(), stiff.area() * 1e6);
+  std::printf("%s; the stiff part has %.0f mm2 of 113\n", exploration.stop_reason().c_str(), stiff.area() * 1e6);
 }

@@ -23,7 +23,7 @@ int main() {
   const std::optional<Palpation> beyond = world.touch(tissue.at_vertex(tissue.nearest_vertex(Vec3(0.012, 0.049, 0.0))), Vec3::Zero());
   std::printf("over the spot %.0f, beyond the scan %s\n", inside->reading, beyond ? "a reading" : "no contact");
 
-  Exploration exploration(tissue, {}, {}, {.acquisition = straddle()}, /*seed=*/1, {.touch_once = true});
+  Exploration exploration(tissue, {}, {.known = 8000.0}, {.acquisition = straddle()}, /*seed=*/1, {.touch_once = true});
   run(exploration, [&](const SurfacePoint& where, const Vec3& travel) { return world.touch(where, travel); });
   const Region found = superlevel_region(tissue, exploration.marginals().mean, exploration.level()->value);
   std::printf("%zu part, %.0f mm2 (a disk of 6 mm radius has 113)\n", found.polygons().size(), found.area() * 1e6);

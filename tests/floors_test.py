@@ -32,7 +32,7 @@ THIRD_PARTIES = {
     "CGAL": (r"CGAL/|boost/", {"geometry", "boundary"}),
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),
-    "CLI11": (r"CLI/", {"tool"}),
+    "CLI11": (r"CLI/", {"tool", "draw"}),
     "nlohmann-json": (r"nlohmann/", {"tool", "draw"}),
     "EGL, OpenGL and X11": (r"(E?GL|X11)/", {"draw"}),
 }

@@ -10,7 +10,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+#include <string>
+#include <vector>
 
 #include "draw/chart.h"
 #include "draw/offscreen.h"
@@ -34,7 +35,7 @@ struct Wish {
   bool curves = false;
   std::string title, x_label, y_label;
   bool logarithmic_y = false;
-  Spread spread = Spread::Bars;
+  std::string spread = "bars";
   int width_px = 1100;
   int height_px = 760;
 };
@@ -53,7 +54,7 @@ void draw_curves(const Wish& wish) {
   if (!wish.x_label.empty()) chart.x_label = wish.x_label;
   chart.y_label = wish.y_label;
   chart.logarithmic_y = wish.logarithmic_y;
-  chart.spread = wish.spread;
+  chart.spread = wish.spread == "band" ? Spread::Band : wish.spread == "none" ? Spread::None : Spread::Bars;
   chart.width_px = wish.width_px;
   chart.height_px = wish.height_px;
   write_atomically(fs::path(wish.paths[1]), picture_of(chart));
@@ -98,7 +99,6 @@ int main(int argc, char** argv) {
   CLI::App app("Draws picture.png and convergence.png from the files in an output folder of palpate; or curves from a table.",
                "palpate-draw");
   Wish wish;
-  const std::map<std::string, Spread> spreads = {{"bars", Spread::Bars}, {"band", Spread::Band}, {"none", Spread::None}};
   app.add_option("paths", wish.paths, "OUT_DIR; with --curves: CURVES.csv OUT.png")->required();
   app.add_flag("--curves", wish.curves,
                "Draw a table: first column x, then `name` and optionally `name_se` (standard error) for each curve");
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
   app.add_option("--x-label", wish.x_label, "Label of the x axis (default: the first column's name)");
   app.add_option("--y-label", wish.y_label, "Label of the y axis");
   app.add_flag("--log-y", wish.logarithmic_y, "Logarithmic y axis");
-  app.add_option("--spread", wish.spread, "How standard errors are shown: bars, band or none")->transform(CLI::Transformer(spreads));
+  app.add_option("--spread", wish.spread, "How standard errors are shown")->check(CLI::IsMember({"bars", "band", "none"}));
   app.add_option("--width", wish.width_px, "Width of the chart in pixels")->check(CLI::Range(300, 8000));
   app.add_option("--height", wish.height_px, "Height of the chart in pixels")->check(CLI::Range(200, 8000));
   try {

@@ -26,35 +26,52 @@ class SilentOutputWindow : public vtkOutputWindow {
   void DisplayText(const char*) override {}
 };
 
-// The one context of this process; it lives until the process ends, because VTK's last resources are freed late.
-struct EglContext {
-  EGLDisplay display = EGL_NO_DISPLAY;
-  EGLContext context = EGL_NO_CONTEXT;
-  bool works() const { return context != EGL_NO_CONTEXT; }
-  bool make_current() const { return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE; }
-  bool is_current() const { return eglGetCurrentContext() == context; }
+// The one context of this process, for all windows that it makes one after the other.
+class EglContext {
+ public:
+  EglContext() {
+    if (!open_display() || !create()) return;
+    works_ = make_current();
+  }
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+  // The display stays open: closing it unloads the driver, and a leak checker could then no longer say whose the driver's leaks are.
+  ~EglContext() {
+    if (context_ == EGL_NO_CONTEXT) return;
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display_, context_);
+  }
+
+  bool works() const { return works_; }
+  bool make_current() const { return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE; }
+  bool is_current() const { return eglGetCurrentContext() == context_; }
+
+ private:
+  bool open_display() {
+    const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (extensions == nullptr || std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos) return false;
+    display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    return display_ != EGL_NO_DISPLAY && eglInitialize(display_, nullptr, nullptr) == EGL_TRUE && eglBindAPI(EGL_OPENGL_API) == EGL_TRUE;
+  }
+
+  bool create() {
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint found = 0;
+    if (eglChooseConfig(display_, wanted, &config, 1, &found) != EGL_TRUE || found < 1) return false;
+    const EGLint core_3_2[] = {EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, core_3_2);
+    return context_ != EGL_NO_CONTEXT;
+  }
+
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+  bool works_ = false;
 };
 
-EglContext make_egl_context() {
-  EglContext egl;
-  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  if (extensions == nullptr || std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos) return egl;
-  egl.display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (egl.display == EGL_NO_DISPLAY || eglInitialize(egl.display, nullptr, nullptr) != EGL_TRUE) return egl;
-  if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return egl;
-  const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-  EGLConfig config = nullptr;
-  EGLint found = 0;
-  if (eglChooseConfig(egl.display, wanted, &config, 1, &found) != EGL_TRUE || found < 1) return egl;
-  const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  egl.context = eglCreateContext(egl.display, config, EGL_NO_CONTEXT, version);
-  if (egl.works() && !egl.make_current()) egl.context = EGL_NO_CONTEXT;
-  return egl;
-}
-
 const EglContext& egl_context() {
-  static const EglContext context = make_egl_context();
+  static const EglContext context;
   return context;
 }
 

@@ -16,12 +16,17 @@ struct Piece {
   Vec3 from, to;  // barycentric
 };
 
-bool in_front(const Eigen::Vector3d& side, int corner) { return side[corner] >= 0.0; }
+/// Nearer to the cutting plane than this share of the way's length is in it.
+constexpr double kInPlane = 1e-9;
+
+/// Vertices in the plane count as lying on one side of it, so that the way passes each of them on a known side. Along a border only one choice leads through
+/// tissue.
+enum class InPlane { Front, Behind };
 
 class SectionWalk {
  public:
-  SectionWalk(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to)
-      : surface_(surface), to_(to), start_(surface.position(from)), travel_(surface.position(to) - start_) {
+  SectionWalk(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, InPlane in_plane)
+      : surface_(surface), to_(to), in_plane_(in_plane), start_(surface.position(from)), travel_(surface.position(to) - start_) {
     const Vec3 normal = surface.normal(from) + surface.normal(to);
     plane_ = normal.cross(travel_);
   }
@@ -65,16 +70,21 @@ class SectionWalk {
 
   Eigen::Vector3d sides(int face) const {
     Eigen::Vector3d side;
-    for (int corner = 0; corner < 3; ++corner) side[corner] = plane_.dot(surface_.vertex(surface_.triangle(face)[corner]) - start_);
+    for (int corner = 0; corner < 3; ++corner) {
+      side[corner] = plane_.dot(surface_.vertex(surface_.triangle(face)[corner]) - start_);
+      if (std::abs(side[corner]) <= kInPlane * plane_.norm() * travel_.norm()) side[corner] = 0.0;
+    }
     return side;
   }
+
+  bool in_front(double side) const { return side > 0.0 || (side == 0.0 && in_plane_ == InPlane::Front); }
 
   /// Where the plane crosses an edge, if it does; a vertex in the plane counts as in front, so that the way passes every vertex on one
   /// side.
   std::optional<Exit> crossing(int face, int edge) const {
     const Eigen::Vector3d side = sides(face);
     const int next = (edge + 1) % 3;
-    if (in_front(side, edge) == in_front(side, next)) return std::nullopt;
+    if (in_front(side[edge]) == in_front(side[next])) return std::nullopt;
     Vec3 weights = Vec3::Zero();
     weights[next] = side[edge] / (side[edge] - side[next]);
     weights[edge] = 1.0 - weights[next];
@@ -152,6 +162,7 @@ class SectionWalk {
 
   const Surface& surface_;
   SurfacePoint to_;
+  InPlane in_plane_;
   Vec3 start_, travel_, plane_;
 };
 
@@ -190,8 +201,10 @@ std::vector<SurfacePoint> projected_line(const Surface& surface, const SurfacePo
 std::vector<SurfacePoint> way_between(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, double step_m) {
   require(std::isfinite(step_m) && step_m > 0.0, "way_between", "step_m = " + text_of(step_m), "must be positive and finite");
   if ((surface.position(to) - surface.position(from)).norm() <= step_m) return {};
-  const auto pieces = SectionWalk(surface, from, to).walk(from);
-  return pieces ? spaced_along(surface, *pieces, step_m) : projected_line(surface, from, to, step_m);
+  for (const InPlane choice : {InPlane::Front, InPlane::Behind}) {
+    if (const auto pieces = SectionWalk(surface, from, to, choice).walk(from)) return spaced_along(surface, *pieces, step_m);
+  }
+  return projected_line(surface, from, to, step_m);
 }
 
 }  // namespace palpation

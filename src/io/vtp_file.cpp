@@ -14,20 +14,16 @@
 #include <cstdint>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "io/mesh_text.h"
 #include "io/number_text.h"
+#include "io/vtp_scan.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
-
-/// zlib, the strongest of VTK's compressors, makes at most 1032 bytes of one: more numbers than that cannot be in a file.
-constexpr std::int64_t kMostBytesPerByte = 1032;
 
 /// What VTK complained of first, on one line; empty as long as it did not.
 class Complaint {
@@ -106,53 +102,7 @@ vtkSmartPointer<vtkCallbackCommand> observer_for(Complaint& complaint) {
   return command;
 }
 
-bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
-
-/// Before VTK allocates: every count in the XML must fit into the bytes of the file.
-class CountScan {
- public:
-  explicit CountScan(const MeshSource& source) : source_(source) {}
-
-  void check() const {
-    const auto bytes = static_cast<std::int64_t>(source_.bytes.size());
-    for (const char* name : {"NumberOfPoints", "NumberOfPolys", "NumberOfStrips", "NumberOfLines", "NumberOfVerts", "NumberOfTuples"}) {
-      check_attribute(name, bytes * kMostBytesPerByte);
-    }
-    check_attribute("NumberOfComponents", 4096);
-    check_attribute("offset", bytes);
-  }
-
- private:
-  /// Reads name="number" wherever it stands; raw appended data holds such text only by design, and then an error is due.
-  void check_attribute(std::string_view name, std::int64_t most) const {
-    for (std::size_t at = source_.bytes.find(name); at != std::string_view::npos; at = source_.bytes.find(name, at + name.size())) {
-      if (at == 0 || is_name_character(source_.bytes[at - 1])) continue;
-      const std::optional<std::string_view> text = value_behind(at + name.size());
-      if (!text) continue;
-      const std::optional<std::int64_t> value = parse_integer(*text);
-      if (value && *value >= 0 && *value <= most) continue;
-      source_.fail_at_byte(at, std::string(name) + " = " + in_quotes(*text) + " must be a whole number from 0 to " + std::to_string(most) +
-                                   " in a file of this size");
-    }
-  }
-
-  std::optional<std::string_view> value_behind(std::size_t at) const {
-    constexpr std::string_view kBlank = " \t\r\n";
-    at = source_.bytes.find_first_not_of(kBlank, at);
-    if (at == std::string_view::npos || source_.bytes[at] != '=') return std::nullopt;
-    at = source_.bytes.find_first_not_of(kBlank, at + 1);
-    if (at == std::string_view::npos || (source_.bytes[at] != '"' && source_.bytes[at] != '\'')) return std::nullopt;
-    const std::size_t end = source_.bytes.find(source_.bytes[at], at + 1);
-    if (end == std::string_view::npos) return std::nullopt;
-    std::string_view text = source_.bytes.substr(at + 1, end - at - 1);
-    text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
-    return text.substr(0, text.find_last_not_of(kBlank) + 1);
-  }
-
-  const MeshSource& source_;
-};
-
-vtkSmartPointer<vtkPolyData> parsed(const MeshSource& source, Complaint& complaint) {
+vtkSmartPointer<vtkPolyData> parsed(const std::string& bytes, Complaint& complaint) {
   const vtkSmartPointer<vtkCallbackCommand> observer = observer_for(complaint);
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, observer);
@@ -161,7 +111,7 @@ vtkSmartPointer<vtkPolyData> parsed(const MeshSource& source, Complaint& complai
   reader->SetReaderErrorObserver(observer);
   reader->SetParserErrorObserver(observer);
   reader->ReadFromInputStringOn();
-  reader->SetInputString(std::string(source.bytes));
+  reader->SetInputString(bytes);
   reader->Update();
   return reader->GetOutput();
 }
@@ -169,11 +119,11 @@ vtkSmartPointer<vtkPolyData> parsed(const MeshSource& source, Complaint& complai
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_poly_data(const MeshSource& source) {
-  CountScan(source).check();
+  const std::string bytes = vetted_vtp(source);
   Complaint complaint;
   const Silence silence(complaint);
   try {
-    vtkSmartPointer<vtkPolyData> poly = parsed(source, complaint);
+    vtkSmartPointer<vtkPolyData> poly = parsed(bytes, complaint);
     if (!complaint.first().empty()) source.fail("not a sound VTP file: " + complaint.first());
     if (poly == nullptr) source.fail("not a sound VTP file");
     return poly;

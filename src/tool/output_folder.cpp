@@ -145,7 +145,7 @@ json OutputFolder::summary(const Episode& episode) const {
                               {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
                  {"warnings", warnings_},
                  {"stop_reason", exploration.stop_reason().empty() ? json(nullptr) : json(exploration.stop_reason())},
-                 {"chart", surface_.chart().hash()}};
+                 {"chart_hash", surface_.chart().hash()}};
   if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
   return result;
 }
@@ -184,7 +184,7 @@ void OutputFolder::write_comparison(const RegionError& error) {
                        {"scene", scene_.name()},
                        {"search_area_mm2", surface_.area() * kMm2},
                        {"error", error_json(error, surface_.area())},
-                       {"chart", surface_.chart().hash()}};
+                       {"chart_hash", surface_.chart().hash()}};
   write_atomically(folder_ / "summary.json", result.dump(2) + "\n");
 }
 

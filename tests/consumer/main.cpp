@@ -7,6 +7,7 @@
 #include <palpation/geometry/make_plane.h>
 #include <palpation/io/read_mesh.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -36,11 +37,17 @@ TriangleMesh through_a_file(const TriangleMesh& mesh) {
   return read_mesh("plane.ply", LengthUnit::Millimetre).mesh;
 }
 
-/// Stiff at one end: what the belief makes of two touches.
+Palpation touch(const SurfacePoint& where, double reading) {
+  Palpation palpation;
+  palpation.where = where;
+  palpation.reading = reading;
+  return palpation;
+}
+
+/// Soft at the first vertex, stiff at the last: what the belief makes of two touches.
 Marginals after_two_touches(const Surface& surface) {
   const Prior prior(surface, Metric::Ambient, {.length_m = 0.01, .signal_sd = 1.0});
-  const std::vector<Palpation> touches{{.where = surface.at_vertex(0), .reading = -1.0},
-                                       {.where = surface.at_vertex(surface.vertex_count() - 1), .reading = 1.0}};
+  const std::vector<Palpation> touches{touch(surface.at_vertex(0), -1.0), touch(surface.at_vertex(surface.vertex_count() - 1), 1.0)};
   const Belief before(prior, {.noise_sd = 0.01});
   Belief after = before;
   after = after.condition_on(touches);

@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 function(step what)
-  execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=DESTDIR --unset=CXXFLAGS --unset=LDFLAGS ${ARGN}
+  execute_process(WORKING_DIRECTORY "${WORK}" COMMAND ${CMAKE_COMMAND} -E env --unset=DESTDIR --unset=CXXFLAGS --unset=LDFLAGS ${ARGN}
                   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
     message("${output}")
@@ -15,6 +15,7 @@ function(step what)
 endfunction()
 
 file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}")
 step("install the library" "${CMAKE_COMMAND}" --install "${BUILD_TREE}" --config "${CONFIG}" --prefix "${WORK}/prefix")
 step("configure" "${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}"
      "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DCMAKE_CXX_COMPILER=${COMPILER}" -DCMAKE_BUILD_TYPE=Debug
