@@ -1,5 +1,5 @@
-// What readings say about the stiffness elsewhere, and what one more touch would add: a belief is a value, and a copy of it a thought experiment.
-// Usage: 03_a_belief
+// What readings say about the stiffness elsewhere, and what one more touch would add: a belief is a value, and a copy of it a thought
+// experiment. Usage: 03_a_belief
 #include <cmath>
 #include <cstdio>
 

@@ -10,7 +10,8 @@ using namespace palpation;
 int main() {
   Random random(1);
   const Surface tissue(make_plane({.columns = 51, .rows = 101}, random));
-  const Phantom phantom(tissue, {Horseshoe{.centre_m = Vec3(0.0095, 0.020, 0.0), .arc_radius_m = 0.007, .half_width_m = 0.0025}}, {.noise = 0.05});
+  const Phantom phantom(tissue, {Horseshoe{.centre_m = Vec3(0.0095, 0.020, 0.0), .arc_radius_m = 0.007, .half_width_m = 0.0025}},
+                        {.noise = 0.05});
   const Region truth = superlevel_region(tissue, phantom.truth(), phantom.true_level());
 
   // Worth most where the level is near in standard deviations, and the standard deviation is large.
@@ -20,7 +21,8 @@ int main() {
                                            return stddev * std::exp(-0.5 * z * z);
                                          },
                                      .grows_with_stddev = true};
-  for (const auto& [name, acquisition] : {std::pair{"evr", Acquisition(evr())}, std::pair{"straddle", Acquisition(straddle())}, std::pair{"mine", mine}}) {
+  for (const auto& [name, acquisition] :
+       {std::pair{"evr", Acquisition(evr())}, std::pair{"straddle", Acquisition(straddle())}, std::pair{"mine", mine}}) {
     Exploration exploration(tissue, {}, {.known = 8.0}, {.acquisition = acquisition}, /*seed=*/1);
     Random noise(2);
     run(exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, noise)); });

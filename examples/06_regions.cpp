@@ -24,9 +24,10 @@ int main() {
   Random random(1);
   const Surface tissue(make_plane({.columns = 26, .rows = 51}, random));
   const RegionError error = compare(tissue, cut, tumour);
-  std::printf("missed %.0f mm2, extra %.0f mm2, Dice %.3f, at most %.2f mm apart\n", error.missed_m2 * 1e6, error.extra_m2 * 1e6, error.dice,
-              *error.hausdorff_m * 1e3);
+  std::printf("missed %.0f mm2, extra %.0f mm2, Dice %.3f, at most %.2f mm apart\n", error.missed_m2 * 1e6, error.extra_m2 * 1e6,
+              error.dice, *error.hausdorff_m * 1e3);
 
   const Region ring = subtract(rectangle(0.0, 0.0, 0.010, 0.010), rectangle(0.003, 0.003, 0.007, 0.007));
-  std::printf("a ring has %zu polygon with %zu hole and %.0f mm2\n", ring.polygons().size(), ring.polygons().front().holes.size(), ring.area() * 1e6);
+  std::printf("a ring has %zu polygon with %zu hole and %.0f mm2\n", ring.polygons().size(), ring.polygons().front().holes.size(),
+              ring.area() * 1e6);
 }

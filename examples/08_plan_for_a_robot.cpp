@@ -22,7 +22,8 @@ int main() {
   for (const Waypoint& pose : waypoints(tissue, targets, robot)) {
     const Vec3 approach = pose.approach * 1e3, indented = pose.indented * 1e3;
     const Eigen::Vector4d q = quaternion(pose.rotation);
-    std::printf("from (%.0f, %.0f, %.0f) to (%.0f, %.0f, %.0f) mm, quaternion (%.2f, %.2f, %.2f, %.2f), expect at most %.2f N\n", approach.x(), approach.y(),
-                approach.z(), indented.x(), indented.y(), indented.z(), q[0], q[1], q[2], q[3], pose.expected_force_n);
+    std::printf("from (%.0f, %.0f, %.0f) to (%.0f, %.0f, %.0f) mm, quaternion (%.2f, %.2f, %.2f, %.2f), expect at most %.2f N\n",
+                approach.x(), approach.y(), approach.z(), indented.x(), indented.y(), indented.z(), q[0], q[1], q[2], q[3],
+                pose.expected_force_n);
   }
 }

@@ -131,7 +131,8 @@ Eigen::MatrixXd Belief::factor_of_new_sites(int first) const {
   factor.leftCols(first) = correlations.topRows(first).transpose();
   for (int row = 0; row < count; ++row) {
     for (int column = 0; column <= row; ++column) {
-      const double rest = correlations(first + column, row) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
+      const double rest =
+          correlations(first + column, row) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
       if (column < row) {
         factor(row, first + column) = rest / factor(column, first + column);
       } else if (rest > 0.0 && std::isfinite(rest)) {
@@ -210,9 +211,8 @@ void Belief::restate_constant() {
   const double ratio = signal_sd() / prior_sd;
   const double prior_precision = ratio * ratio;
   constant_precision_ = prior_precision + ones_.squaredNorm();
-  constant_ = constant_precision_ > 0.0
-                  ? origin_ + (prior_precision * (centre_ - origin_) + ones_.dot(whitened_)) / constant_precision_
-                  : centre_;
+  constant_ =
+      constant_precision_ > 0.0 ? origin_ + (prior_precision * (centre_ - origin_) + ones_.dot(whitened_)) / constant_precision_ : centre_;
 }
 
 Eigen::VectorXd Belief::solve_lower(Eigen::VectorXd right_side) const {
@@ -335,8 +335,7 @@ void CovarianceWith::operator()(int first, int count, double* out) const {
       const int vertex = tile * kLanes + lane;
       if (vertex < first || vertex >= first + count) continue;
       const double prior_correlation = correlation(prior.kernel(), prior.coordinates(vertex) - coordinates_);
-      out[vertex - first] =
-          signal_variance * (prior_correlation + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
+      out[vertex - first] = signal_variance * (prior_correlation + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
     }
   }
 }

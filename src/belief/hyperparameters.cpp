@@ -95,7 +95,7 @@ struct Optimum {
 Optimum climb(Objective& objective, std::vector<double> x, const std::vector<double>& lower, const std::vector<double>& upper) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], lower[i], upper[i]);
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimizer(nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(x.size())),
-                                                                          &nlopt_destroy);
+                                                                         &nlopt_destroy);
   nlopt_set_lower_bounds(optimizer.get(), lower.data());
   nlopt_set_upper_bounds(optimizer.get(), upper.data());
   nlopt_set_max_objective(optimizer.get(), nlopt_objective, &objective);
@@ -206,9 +206,11 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   const auto [least, greatest] = std::minmax_element(readings.begin(), readings.end());
   const double range = *greatest > *least ? *greatest - *least : std::max(1e-12, std::abs(*greatest) * 1e-12);
 
-  Objective objective{prior, sites, options, {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)}, {}};
+  Objective objective{
+      prior, sites, options, {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)}, {}};
   std::vector<double> lower, upper, from_start, from_prior;
-  const auto free_variable = [&](int parameter, const std::optional<double>& fixed_value, double least_value, double most, double first, double median) {
+  const auto free_variable = [&](int parameter, const std::optional<double>& fixed_value, double least_value, double most, double first,
+                                 double median) {
     objective.slot[parameter] = -1;
     if (fixed_value) return;
     objective.slot[parameter] = static_cast<int>(lower.size());
@@ -217,7 +219,8 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
     from_start.push_back(std::log(first > 0.0 ? first : median));
     from_prior.push_back(std::log(median));
   };
-  free_variable(0, options.length_m, options.length_median_m * 0.1, options.length_median_m * 10.0, start.length_m, options.length_median_m);
+  free_variable(0, options.length_m, options.length_median_m * 0.1, options.length_median_m * 10.0, start.length_m,
+                options.length_median_m);
   free_variable(1, options.signal_sd, 0.25 * range, 10.0 * range, start.signal_sd, 0.5 * range);
   free_variable(2, options.noise_sd, kLeastNoise * range, 2.0 * range, start.noise_sd, std::sqrt(kRatioMedian) * 0.5 * range);
 

@@ -49,11 +49,10 @@ Pointwise straddle(double width) {
 
 Pointwise lse_ambiguity(double width) {
   check_width("lse_ambiguity", width);
-  return {.score =
-              [width](double mean, double stddev, const Level& level) {
-                return std::min(mean + width * stddev - level.value, level.value - (mean - width * stddev));
-              },
-          .grows_with_stddev = true};
+  return {
+      .score = [width](double mean, double stddev,
+                       const Level& level) { return std::min(mean + width * stddev - level.value, level.value - (mean - width * stddev)); },
+      .grows_with_stddev = true};
 }
 
 Whole random_scores(std::uint64_t seed) {
@@ -65,7 +64,8 @@ Whole random_scores(std::uint64_t seed) {
   }};
 }
 
-PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& level, const Marginals& marginals, std::span<const int> candidates)
+PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& level, const Marginals& marginals,
+                                 std::span<const int> candidates)
     : acquisition_(acquisition), level_(level) {
   if (acquisition.units == Units::Readings) return;
   mean_origin_ = acquisition.units == Units::OverGreatestDistance ? level.value : 0.0;
@@ -93,7 +93,8 @@ Field score(const Acquisition& acquisition, const Belief& belief, const Level& l
   std::iota(all.begin(), all.end(), 0);
   const PointwiseScorer scorer(std::get<Pointwise>(acquisition), level, marginals, all);
   Field scores(marginals.mean.size());
-  for (Eigen::Index vertex = 0; vertex < scores.size(); ++vertex) scores[vertex] = scorer(marginals.mean[vertex], marginals.variance[vertex]);
+  for (Eigen::Index vertex = 0; vertex < scores.size(); ++vertex)
+    scores[vertex] = scorer(marginals.mean[vertex], marginals.variance[vertex]);
   return scores;
 }
 

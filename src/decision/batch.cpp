@@ -185,7 +185,8 @@ Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& 
   Belief supposed = belief;
   while (static_cast<int>(batch.vertices.size()) < size) {
     const Field scores = acquisition.scores(supposed, level);
-    require(scores.size() == surface.vertex_count(), "Acquisition", std::to_string(scores.size()) + " scores", "must be one for each vertex");
+    require(scores.size() == surface.vertex_count(), "Acquisition", std::to_string(scores.size()) + " scores",
+            "must be one for each vertex");
     Best best;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
       if (!candidates.allows(vertex)) continue;

@@ -77,7 +77,8 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
   require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
   require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches), "must not be negative");
   require(plan_.stop_error_m2 >= 0.0, "Plan", "stop_error_m2 = " + text_of(plan_.stop_error_m2), "must not be negative or NaN");
-  require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule", "fraction = " + text_of(level_rule_.fraction), "must lie in (0, 1)");
+  require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule", "fraction = " + text_of(level_rule_.fraction),
+          "must lie in (0, 1)");
   for (int vertex : reach.vertices) {
     require(vertex >= 0 && vertex < surface_.vertex_count(), "Reach", "vertex " + std::to_string(vertex), "is not on the surface");
     reachable_[vertex] = true;
@@ -139,7 +140,8 @@ Belief Exploration::fitted(std::span<const Palpation> palpations) {
   return Belief(prior, {.noise_sd = learned_.noise_sd}).condition_on(palpations);
 }
 
-/// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length instead.
+/// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length
+/// instead.
 Acquisition Exploration::acquisition_in_force() const { return contrast_seen_ && level_ ? plan_.acquisition : Acquisition(evr()); }
 
 std::vector<int> Exploration::candidates() const {

@@ -16,7 +16,8 @@ Vec3 direction(const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe, double way_step_m) {
+Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe,
+            double way_step_m) {
   Tour tour;
   std::optional<SurfacePoint> here = from;
   const auto touch = [&](const SurfacePoint& where, const Vec3& heading, TouchKind kind) {

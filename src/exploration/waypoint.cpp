@@ -36,7 +36,8 @@ void check_length(const char* name, double value) {
 
 void check(const Robot& robot) {
   const Eigen::Matrix3d rotation = robot.from_tissue.topLeftCorner<3, 3>();
-  const bool rigid = robot.from_tissue.allFinite() && (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
+  const bool rigid = robot.from_tissue.allFinite() &&
+                     (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
                      rotation.determinant() > 0.0 && robot.from_tissue.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
   require(rigid, "Robot", "from_tissue", "must be a rotation and a translation: orthonormal to 1e-6, not mirrored, last row 0 0 0 1");
   check_length("standoff_m", robot.standoff_m);
@@ -49,7 +50,8 @@ Eigen::Vector4d quaternion(const Eigen::Matrix3d& rotation) {
   return coefficients.w() < 0.0 ? Eigen::Vector4d(-coefficients) : coefficients;
 }
 
-std::vector<Waypoint> waypoints(const Surface& surface, std::span<const SurfacePoint> targets, const Robot& robot, const Eigen::Matrix3d* before) {
+std::vector<Waypoint> waypoints(const Surface& surface, std::span<const SurfacePoint> targets, const Robot& robot,
+                                const Eigen::Matrix3d* before) {
   check(robot);
   const Eigen::Matrix3d rotation = robot.from_tissue.topLeftCorner<3, 3>();
   const Vec3 translation = robot.from_tissue.topRightCorner<3, 1>();

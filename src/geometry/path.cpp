@@ -17,10 +17,10 @@ struct Piece {
 };
 
 /// Nearer to the cutting plane than this share of the way's length is in it.
-constexpr double kInPlane = 1e-9;
+constexpr double kThickness = 1e-9;
 
-/// Vertices in the plane count as lying on one side of it, so that the way passes each of them on a known side. Along a border only one choice leads through
-/// tissue.
+/// Vertices in the plane count as lying on one side of it, so that the way passes each of them on a known side. Along a border only one
+/// choice leads through tissue.
 enum class InPlane { Front, Behind };
 
 class SectionWalk {
@@ -72,7 +72,7 @@ class SectionWalk {
     Eigen::Vector3d side;
     for (int corner = 0; corner < 3; ++corner) {
       side[corner] = plane_.dot(surface_.vertex(surface_.triangle(face)[corner]) - start_);
-      if (std::abs(side[corner]) <= kInPlane * plane_.norm() * travel_.norm()) side[corner] = 0.0;
+      if (std::abs(side[corner]) <= kThickness * plane_.norm() * travel_.norm()) side[corner] = 0.0;
     }
     return side;
   }

@@ -28,7 +28,8 @@ Vec2 chart_place(const MeshSource& source, const Surface& surface, const Vec3& p
   require(distance <= kFarthest_m, source.path.string(), "a point " + text_of(distance) + " m from the tissue",
           "is no boundary on it: it may lie up to 5 mm away");
   Vec2 place = Vec2::Zero();
-  for (int corner = 0; corner < 3; ++corner) place += point.barycentric[corner] * surface.chart().uv.row(surface.triangle(point.face)[corner]).transpose();
+  for (int corner = 0; corner < 3; ++corner)
+    place += point.barycentric[corner] * surface.chart().uv.row(surface.triangle(point.face)[corner]).transpose();
   return place;
 }
 

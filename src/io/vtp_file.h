@@ -11,7 +11,8 @@
 
 namespace palpation {
 
-/// What VTK makes of the file. Indices, sizes of arrays and numbers in it are still to be checked. Throws IoError with path and VTK's first complaint.
+/// What VTK makes of the file. Indices, sizes of arrays and numbers in it are still to be checked. Throws IoError with path and VTK's first
+/// complaint.
 vtkSmartPointer<vtkPolyData> read_poly_data(const MeshSource& source);
 
 /// Throws IoError unless every array has a name and the given number of entries.

@@ -13,7 +13,8 @@ Ring chart_ring(const Surface& surface, const LevelLoop& loop) {
   Ring ring;
   for (const SurfacePoint& point : loop.points) {
     Vec2 place = Vec2::Zero();
-    for (int corner = 0; corner < 3; ++corner) place += point.barycentric[corner] * uv.row(surface.triangle(point.face)[corner]).transpose();
+    for (int corner = 0; corner < 3; ++corner)
+      place += point.barycentric[corner] * uv.row(surface.triangle(point.face)[corner]).transpose();
     ring.push_back(place);
   }
   return ring;
@@ -34,7 +35,8 @@ bool winds_around(const Ring& ring, const Vec2& place) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Vec2& a = ring[i];
     const Vec2& b = ring[(i + 1) % ring.size()];
-    if ((a.y() > place.y()) != (b.y() > place.y()) && place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+    if ((a.y() > place.y()) != (b.y() > place.y()) && place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
   }
   return inside;
 }

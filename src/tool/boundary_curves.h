@@ -3,12 +3,13 @@
 
 #include <vector>
 
-#include "palpation/io/write_vtp.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/io/write_vtp.h"
 
 namespace palpation::tool {
 
-/// Loops of { field >= level }. Parts are numbered by falling area of their outer loop in the chart; a hole bears the number of the part around it.
+/// Loops of { field >= level }. Parts are numbered by falling area of their outer loop in the chart; a hole bears the number of the part
+/// around it.
 std::vector<BoundaryCurve> boundary_curves(const Surface& surface, const Field& field, double level, CurveKind kind);
 
 }  // namespace palpation::tool

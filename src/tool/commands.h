@@ -13,7 +13,7 @@ struct SceneArguments {
   std::filesystem::path scene;
   std::vector<std::string> overrides;
   std::optional<std::uint64_t> seed;
-  std::filesystem::path out;          ///< empty: nothing is written
+  std::filesystem::path out;  ///< empty: nothing is written
   bool quiet = false;
 };
 
@@ -27,9 +27,9 @@ struct MeshArguments {
   std::vector<double> size_mm = {25.0, 50.0};
   std::vector<int> vertices = {200, 200};
   double jitter = 0.0;
-  std::filesystem::path around;       ///< span this recording instead
+  std::filesystem::path around;  ///< span this recording instead
   double margin_mm = 0.0;
-  double edge_mm = 0.5;               ///< with `around`
+  double edge_mm = 0.5;  ///< with `around`
   std::uint64_t seed = 1;
   std::string unit = "mm";
   std::filesystem::path output;
@@ -37,7 +37,7 @@ struct MeshArguments {
 
 struct ExperimentArguments {
   std::string name;
-  std::filesystem::path scene;        ///< empty: the paper's
+  std::filesystem::path scene;  ///< empty: the paper's
   std::vector<std::string> overrides;
   int trials = 5;
   std::uint64_t first_seed = 0;

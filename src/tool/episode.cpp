@@ -33,7 +33,8 @@ void restate(Episode& episode) {
 }
 
 Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach reach) {
-  return Episode{.exploration = Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach))};
+  return Episode{.exploration =
+                     Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach))};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {

@@ -17,7 +17,7 @@ namespace palpation::tool {
 /// What answers, and what is known to be true of it.
 struct World {
   Probe probe;
-  Field truth;               ///< at the vertices
+  Field truth;  ///< at the vertices
   double true_level = 0.0;
   Reach reach{};
 };
@@ -33,8 +33,8 @@ struct Episode {
   std::optional<Region> truth{};
   std::optional<RegionError> error{};
   Trace trace{};
-  std::vector<int> stops{};           ///< all planned stops, in the order of travel
-  std::vector<SurfacePoint> way{};    ///< the places between them
+  std::vector<int> stops{};         ///< all planned stops, in the order of travel
+  std::vector<SurfacePoint> way{};  ///< the places between them
   double path_m = 0.0;
   std::vector<double> batch_seconds{};  ///< planning and updating, the boundary and its error included
 };

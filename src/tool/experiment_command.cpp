@@ -27,24 +27,49 @@ struct Cell {
   std::optional<double> printed;
 };
 
-/// The paper's phantom and model, with the constants of the authors' public code: GPy's squared exponential of variance 25 (z-scored readings), likelihood
-/// variance 1, a constant of variance 52.
+/// The paper's phantom and model, with the constants of the authors' public code: GPy's squared exponential of variance 25 (z-scored
+/// readings), likelihood variance 1, a constant of variance 52.
 json paper_scene() {
   return {{"version", 1},
           {"surface", {{"plane", {{"size_mm", {25, 50}}, {"vertices", {200, 200}}}}}},
-          {"field", {{"metric", "chart"}, {"kernel", "squared-exponential"}, {"length_mm", 3.3}, {"signal_sd", 5}, {"noise_to_signal", 0.2},
-                     {"trend", "constant"}, {"constant_sd", 7.211102550927978}, {"standardize", true}}},
+          {"field",
+           {{"metric", "chart"},
+            {"kernel", "squared-exponential"},
+            {"length_mm", 3.3},
+            {"signal_sd", 5},
+            {"noise_to_signal", 0.2},
+            {"trend", "constant"},
+            {"constant_sd", 7.211102550927978},
+            {"standardize", true}}},
           {"level", {{"estimate", "known"}, {"value", 8}, {"fraction", 0.5}}},
-          {"plan", {{"acquisition", "ils-ucb"}, {"gamma", 0.5}, {"scaling", "max"}, {"initial", {{"design", "random"}, {"count", 5}}}, {"batch", 10},
-                    {"batches", 10}, {"least_spacing_mm", 0}}},
-          {"probe", {{"kind", "simulated"}, {"low", 7}, {"high", 9}, {"slope_per_m", 1400}, {"noise", 0.01}, {"bias", 0}, {"bias_axis", {0, 1, 0}},
-                     {"tumours", json::array()}}},
+          {"plan",
+           {{"acquisition", "ils-ucb"},
+            {"gamma", 0.5},
+            {"scaling", "max"},
+            {"initial", {{"design", "random"}, {"count", 5}}},
+            {"batch", 10},
+            {"batches", 10},
+            {"least_spacing_mm", 0}}},
+          {"probe",
+           {{"kind", "simulated"},
+            {"low", 7},
+            {"high", 9},
+            {"slope_per_m", 1400},
+            {"noise", 0.01},
+            {"bias", 0},
+            {"bias_axis", {0, 1, 0}},
+            {"tumours", json::array()}}},
           {"seed", 0}};
 }
 
 json shape_json(const std::string& shape) {
   if (shape == "disk") return json::array({{{"shape", "disk"}, {"centre_mm", {11.492, 30, 0}}, {"radius_mm", 6.25}}});
-  return json::array({{{"shape", "horseshoe"}, {"centre_mm", {9.492, 20, 0}}, {"arc_radius_mm", 7}, {"half_width_mm", 2.5}, {"arc_deg", 180}, {"facing", {1, 0, 0}}}});
+  return json::array({{{"shape", "horseshoe"},
+                       {"centre_mm", {9.492, 20, 0}},
+                       {"arc_radius_mm", 7},
+                       {"half_width_mm", 2.5},
+                       {"arc_deg", 180},
+                       {"facing", {1, 0, 0}}}});
 }
 
 const std::vector<std::string> kShapes = {"disk", "horseshoe"};
@@ -52,10 +77,11 @@ const std::vector<std::string> kAlgorithms = {"evr", "ucb", "ils-ucb"};
 
 /// Table I as printed, in % of the search area: shape, row, algorithm. The bias rows beyond 1 % are lost.
 std::optional<double> printed_value(const std::string& shape, const std::string& row, const std::string& algorithm) {
-  static const std::map<std::string, std::vector<double>> rows = {
-      {"noise 1 %", {.840, .567, .056, 1.467, 1.001, .175}},   {"noise 5 %", {.807, .672, .177, 1.525, 1.256, .373}},
-      {"noise 10 %", {1.189, .951, .393, 2.155, 2.135, .749}}, {"noise 25 %", {2.610, 2.870, 1.314, 3.987, 5.116, 2.210}},
-      {"bias 1 %", {.759, .573, .060, 1.255, 1.093, .141}}};
+  static const std::map<std::string, std::vector<double>> rows = {{"noise 1 %", {.840, .567, .056, 1.467, 1.001, .175}},
+                                                                  {"noise 5 %", {.807, .672, .177, 1.525, 1.256, .373}},
+                                                                  {"noise 10 %", {1.189, .951, .393, 2.155, 2.135, .749}},
+                                                                  {"noise 25 %", {2.610, 2.870, 1.314, 3.987, 5.116, 2.210}},
+                                                                  {"bias 1 %", {.759, .573, .060, 1.255, 1.093, .141}}};
   const auto found = rows.find(row);
   if (found == rows.end()) return std::nullopt;
   const std::size_t algorithm_index = algorithm == "evr" ? 0 : algorithm == "ucb" ? 1 : 2;
@@ -80,7 +106,8 @@ std::vector<Cell> table_cells(const Scene& base, bool keep_tumours) {
   const auto add = [&](const std::string& level, const std::string& row, double noise, double bias) {
     for (const std::string& shape : keep_tumours ? std::vector<std::string>{"the scene's"} : kShapes) {
       for (const std::string& algorithm : kAlgorithms) {
-        Scene scene = base.with("probe.noise", noise).with("probe.bias", bias).with("plan.acquisition", algorithm).with("level.estimate", level);
+        Scene scene =
+            base.with("probe.noise", noise).with("probe.bias", bias).with("plan.acquisition", algorithm).with("level.estimate", level);
         if (!keep_tumours) scene = scene.with("probe.tumours", shape_json(shape));
         cells.push_back({shape, row, algorithm, level, scene, printed_value(shape, row, algorithm)});
       }
@@ -148,9 +175,10 @@ void report_table(const std::vector<Cell>& cells, const Errors& errors, const Ex
     const Statistics result = statistics(finals(errors[i]));
     if (cell.level != level) {
       level = cell.level;
-      std::printf("\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed in the paper)\n",
-                  level == "known" ? "Level known beforehand (the authors' code)" : "Level from the greatest and least mean (the paper's text)",
-                  arguments.trials);
+      std::printf(
+          "\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed in the paper)\n",
+          level == "known" ? "Level known beforehand (the authors' code)" : "Level from the greatest and least mean (the paper's text)",
+          arguments.trials);
     }
     if (cell.algorithm == "evr") std::printf("%-12s%-12s", cell.row.c_str(), cell.shape.c_str());
     std::printf("  %-8s%7.3f +-%6.3f (%s)", cell.algorithm.c_str(), result.mean, result.standard_error,
@@ -199,9 +227,9 @@ void report_figure(const std::vector<Cell>& cells, const Errors& errors, const S
     if (arguments.out.empty()) continue;
     const std::string name = "figure4_noise_" + cells[first].row;
     write_atomically(arguments.out / (name + ".csv"), csv);
-    const auto no_picture = run_draw({"--curves", (arguments.out / (name + ".csv")).string(), (arguments.out / (name + ".png")).string(), "--log-y", "--title",
-                                      "Horseshoe, noise " + cells[first].row + " % of the range", "--x-label", "readings", "--y-label",
-                                      "symmetric difference, % of the search area"});
+    const auto no_picture = run_draw({"--curves", (arguments.out / (name + ".csv")).string(), (arguments.out / (name + ".png")).string(),
+                                      "--log-y", "--title", "Horseshoe, noise " + cells[first].row + " % of the range", "--x-label",
+                                      "readings", "--y-label", "symmetric difference, % of the search area"});
     if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
   }
 }
@@ -216,7 +244,8 @@ void experiment(const ExperimentArguments& arguments) {
   if (arguments.print_scene) {
     json all = json::array();
     for (const Cell& cell : cells) {
-      all.push_back({{"cell", cell.row + ", " + cell.shape + ", " + cell.algorithm + ", level " + cell.level}, {"scene", cell.scene.given()}});
+      all.push_back(
+          {{"cell", cell.row + ", " + cell.shape + ", " + cell.algorithm + ", level " + cell.level}, {"scene", cell.scene.given()}});
     }
     std::printf("%s\n", all.dump(2).c_str());
     return;

@@ -36,9 +36,12 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("SCENE", arguments.scene.scene, "what to work on, a JSON file (see: palpate help scene)")->required();
   command->add_option("--out", arguments.scene.out, "folder for the results; without it they are only told");
-  command->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr")->allow_extra_args(false)->type_name("KEY=VALUE");
+  command->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_option("--seed", arguments.scene.seed, "override the scene's seed");
-  command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", arguments.scene.quiet, "no progress and no words but errors");
   return command;
 }
@@ -55,7 +58,9 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
   bounding->callback([&] { boundary(arguments.scene, arguments.measurements); });
 
   CLI::App* replaying = scene_command(app, arguments, "replay", "Run the whole plan, each touch answered from dense recordings");
-  replaying->add_option("--recording", arguments.recordings, "CSV with columns x,y,z,reading [m]; one for each direction of travel")->required()->allow_extra_args(false);
+  replaying->add_option("--recording", arguments.recordings, "CSV with columns x,y,z,reading [m]; one for each direction of travel")
+      ->required()
+      ->allow_extra_args(false);
   replaying->callback([&] { replay(arguments.scene, arguments.recordings); });
 
   CLI::App* comparing = scene_command(app, arguments, "compare", "The area between two boundaries");
@@ -90,7 +95,9 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
   command->add_option("--trials", arguments.experiment.trials, "per cell")->check(CLI::Range(1, 1000000));
   command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following");
-  command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")->allow_extra_args(false)->type_name("KEY=VALUE");
+  command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   command->add_flag("--print-scene", arguments.experiment.print_scene, "print the scene of every cell instead of running it");
   command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");
   command->add_option("--threads", arguments.threads, "trials run at once; the results do not depend on it")->check(CLI::Range(1, 1024));
@@ -113,7 +120,9 @@ int explain(const char* words, int code) {
 int run_tool(int count, char** words) {
   CLI::App app("Decides where a robot should touch tissue next, and says where the tumour under the surface ends and how sure that is.");
   app.require_subcommand(1);
-  app.footer("Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 wrong usage, 3 an input is at fault, 4 the machine or the arithmetic failed, 130 interrupted.");
+  app.footer(
+      "Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 wrong usage, 3 an input is at fault, 4 "
+      "the machine or the arithmetic failed, 130 interrupted.");
   Arguments arguments;
   app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
   add_scene_commands(app, arguments);

@@ -89,15 +89,17 @@ void info(const InfoArguments& arguments) {
     const Topology topology = surface.topology();
     const Edges edges = edges_of(file.mesh);
     const auto [least, most] = curvature_range(surface);
-    std::printf("Surface: %d component%s, %s, Euler number %d, %d handle%s\n", topology.components, topology.components == 1 ? "" : "s",
-                topology.is_closed() ? "closed" : (std::to_string(topology.borders) + (topology.borders == 1 ? " border" : " borders")).c_str(),
-                topology.euler, topology.handles, topology.handles == 1 ? "" : "s");
+    std::printf(
+        "Surface: %d component%s, %s, Euler number %d, %d handle%s\n", topology.components, topology.components == 1 ? "" : "s",
+        topology.is_closed() ? "closed" : (std::to_string(topology.borders) + (topology.borders == 1 ? " border" : " borders")).c_str(),
+        topology.euler, topology.handles, topology.handles == 1 ? "" : "s");
     std::printf("Area: %s cm2\n", fixed(surface.area() * 1e4, 3).c_str());
     std::printf("Edges: %s to %s mm, mean %s mm\n", fixed(edges.shortest * 1e3, 3).c_str(), fixed(edges.longest * 1e3, 3).c_str(),
                 fixed(edges.mean * 1e3, 3).c_str());
     std::printf("Gaussian curvature: %s to %s per mm2\n", fixed(least, 5).c_str(), fixed(most, 5).c_str());
     if (edges.longest > 0.001) {
-      std::printf("Coarse: edges up to %s mm exceed what a probe resolves (about 0.5 mm); set surface.refine_mm.\n", fixed(edges.longest * 1e3, 2).c_str());
+      std::printf("Coarse: edges up to %s mm exceed what a probe resolves (about 0.5 mm); set surface.refine_mm.\n",
+                  fixed(edges.longest * 1e3, 2).c_str());
     }
     advise(surface);
   } catch (const InvalidMesh& error) {

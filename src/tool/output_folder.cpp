@@ -70,15 +70,17 @@ std::string cell(const std::optional<double>& value, double factor = 1.0) { retu
 std::string trace_csv(const Trace& trace, double search_area_m2) {
   std::string text = "batch,measurements,path_mm,level,expected_error_mm2,error_percent\n";
   for (const TraceRow& row : trace) {
-    text += std::to_string(row.batch) + "," + std::to_string(row.measurements) + "," + text_of(row.path_m * kMm) + "," + cell(row.level) + "," +
-            cell(row.expected_error_m2, kMm2) + "," +
+    text += std::to_string(row.batch) + "," + std::to_string(row.measurements) + "," + text_of(row.path_m * kMm) + "," + cell(row.level) +
+            "," + cell(row.expected_error_m2, kMm2) + "," +
             (row.error ? text_of(100.0 * row.error->symmetric_difference_m2 / search_area_m2) : "") + "\n";
   }
   return text;
 }
 
 std::string waypoint_csv(const std::vector<Waypoint>& waypoints) {
-  std::string text = "index,x,y,z,approach_x,approach_y,approach_z,indented_x,indented_y,indented_z,normal_x,normal_y,normal_z,qx,qy,qz,qw,expected_force_n\n";
+  std::string text =
+      "index,x,y,z,approach_x,approach_y,approach_z,indented_x,indented_y,indented_z,normal_x,normal_y,normal_z,qx,qy,qz,qw,expected_force_"
+      "n\n";
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const Waypoint& waypoint = waypoints[i];
     text += std::to_string(i);
@@ -140,9 +142,10 @@ json OutputFolder::summary(const Episode& episode) const {
                  {"parts", parts},
                  {"expected_error_mm2", episode.trace.empty() ? json(nullptr) : maybe(episode.trace.back().expected_error_m2, kMm2)},
                  {"path_mm", episode.path_m * kMm},
-                 {"learned", {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
-                              {"signal_sd", exploration.belief().signal_sd()},
-                              {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
+                 {"learned",
+                  {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
+                   {"signal_sd", exploration.belief().signal_sd()},
+                   {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
                  {"warnings", warnings_},
                  {"stop_reason", exploration.stop_reason().empty() ? json(nullptr) : json(exploration.stop_reason())},
                  {"chart_hash", surface_.chart().hash()}};

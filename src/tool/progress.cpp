@@ -38,7 +38,8 @@ void Progress::step(int done, const std::string& state) {
   if (quiet_) return;
   const int filled = kBarWidth * std::min(done, total_) / total_;
   if (terminal_) {
-    const std::string bar = std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), '.');
+    const std::string bar =
+        std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kBarWidth - filled), '.');
     std::fprintf(stderr, "\r\x1b[K%s [%s] %d/%d %s", what_.c_str(), bar.c_str(), done, total_, state.c_str());
     std::fflush(stderr);
   } else {

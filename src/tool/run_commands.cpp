@@ -20,7 +20,8 @@ Scene scene_of(const SceneArguments& arguments) {
 }
 
 /// The whole run of `simulate` and `replay`, to the files and the words.
-void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world, double prepared_seconds) {
+void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world,
+                    double prepared_seconds) {
   std::optional<OutputFolder> output;
   if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
   if (output) {
@@ -41,8 +42,9 @@ void run_and_report(const SceneArguments& arguments, const Scene& scene, const T
   std::vector<SurfacePoint> stops;
   for (int stop : episode.stops) stops.push_back(tissue.surface.at_vertex(stop));
   output->write_waypoints(waypoints(tissue.surface, stops, robot), waypoints(tissue.surface, episode.way, robot));
-  output->write(episode, &world,
-                {{"prepare_s", prepared_seconds}, {"run_s", running_seconds}, {"batches_s", episode.batch_seconds}, {"write_s", writing.seconds()}});
+  output->write(
+      episode, &world,
+      {{"prepare_s", prepared_seconds}, {"run_s", running_seconds}, {"batches_s", episode.batch_seconds}, {"write_s", writing.seconds()}});
   finish_output(*output, arguments.quiet);
 }
 
@@ -89,7 +91,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   std::optional<SurfacePoint> here;
   if (!palpations.empty()) here = palpations.back().where;
   for (int stop : next) stops.push_back(tissue.surface.at_vertex(stop));
-  const Tour tour = travel(tissue.surface, next, here, [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
+  const Tour tour = travel(
+      tissue.surface, next, here, [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
   const Robot robot = robot_of(scene);
   const std::vector<Waypoint> poses = waypoints(tissue.surface, stops, robot);
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);

@@ -81,12 +81,14 @@ Scene Scene::read(const std::filesystem::path& path, std::span<const std::string
   json given = parse(read_file(path, kMostBytes), path.string());
   for (const std::string& override : overrides) {
     const auto equals = override.find('=');
-    if (equals == std::string::npos || equals == 0) throw IoError("--set " + override + ": must have the form KEY=VALUE, such as plan.batch=5");
+    if (equals == std::string::npos || equals == 0)
+      throw IoError("--set " + override + ": must have the form KEY=VALUE, such as plan.batch=5");
     const std::string key = override.substr(0, equals);
     const std::string text = override.substr(equals + 1);
     json value = json::parse(text, nullptr, false);
     if (value.is_discarded()) value = text;
-    if (find_key(key) == nullptr) throw IoError("--set " + key + ": is not a key of a scene; the nearest is " + nearest_key(key, scene_keys()));
+    if (find_key(key) == nullptr)
+      throw IoError("--set " + key + ": is not a key of a scene; the nearest is " + nearest_key(key, scene_keys()));
     if (!given.is_object()) break;
     try {
       given[pointer_to(key)] = value;

@@ -15,7 +15,8 @@ namespace palpation::tool {
 
 class Scene {
  public:
-  /// `name` stands for the scene in messages; relative paths in it are relative to `folder`. Throws IoError naming scene, key, value and rule.
+  /// `name` stands for the scene in messages; relative paths in it are relative to `folder`. Throws IoError naming scene, key, value and
+  /// rule.
   Scene(const nlohmann::json& given, std::string name, std::filesystem::path folder);
 
   /// Reads the file and overrides single values: each text is "path=value". Throws IoError.
@@ -24,15 +25,15 @@ class Scene {
   /// The same scene with one value changed.
   Scene with(const std::string& path, const nlohmann::json& value) const;
 
-  bool has(const std::string& path) const;               ///< given, or with a default
+  bool has(const std::string& path) const;  ///< given, or with a default
   double number(const std::string& path) const;
   int integer(const std::string& path) const;
   std::uint64_t seed() const;
   bool truth(const std::string& path) const;
-  std::string word(const std::string& path) const;       ///< of a Word or Text; of a NumberOrWord if it is a word, else empty
+  std::string word(const std::string& path) const;  ///< of a Word or Text; of a NumberOrWord if it is a word, else empty
   std::vector<double> numbers(const std::string& path) const;
-  double metres(const std::string& path) const;          ///< of a key in millimetres
-  Vec3 point_m(const std::string& path) const;           ///< of three millimetres
+  double metres(const std::string& path) const;  ///< of a key in millimetres
+  Vec3 point_m(const std::string& path) const;   ///< of three millimetres
   const nlohmann::json& tumours() const;
 
   const std::string& name() const { return name_; }

@@ -50,23 +50,31 @@ std::vector<SceneKey> make_scene_keys() {
       integer("version", 1, 1, 1, "of this format"),
       text("surface.mesh", "the tissue: an OBJ, OFF, STL, PLY or VTP file, relative to the scene"),
       word("surface.unit", {"mm", "cm", "m"}, nullptr, "of the mesh's coordinates; needed with surface.mesh"),
-      numbers("surface.plane.size_mm", 2, "mm", kLeastLength_mm, kMostLength_mm, nullptr, "in place of a mesh: a flat rectangle from the origin, along x and y"),
+      numbers("surface.plane.size_mm", 2, "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+              "in place of a mesh: a flat rectangle from the origin, along x and y"),
       numbers("surface.plane.vertices", 2, "", 2, 20000, json{200, 200}, "of that rectangle, along x and y"),
       number("surface.refine_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "split triangles until no edge is longer"),
-      numbers("surface.patch.centre_mm", 3, "mm", -kMostLength_mm, kMostLength_mm, nullptr, "work on the tissue around the surface point nearest to this"),
-      number("surface.patch.radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "and no farther from it, walking along the surface"),
+      numbers("surface.patch.centre_mm", 3, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+              "work on the tissue around the surface point nearest to this"),
+      number("surface.patch.radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+             "and no farther from it, walking along the surface"),
       word("field.metric", {"chart", "ambient"}, "chart", "distance between places: in the chart, or straight through space"),
-      word("field.kernel", {"squared-exponential", "matern-1/2", "matern-3/2", "matern-5/2", "periodic"}, "squared-exponential", "covariance of the stiffness at two places"),
+      word("field.kernel", {"squared-exponential", "matern-1/2", "matern-3/2", "matern-5/2", "periodic"}, "squared-exponential",
+           "covariance of the stiffness at two places"),
       number_or_learn("field.length_mm", "mm", kLeastLength_mm, kMostLength_mm, "over which stiffness changes"),
-      number_or_learn("field.signal_sd", "reading", 1e-150, 1e150, "prior standard deviation of the stiffness; a fixed value with standardize: multiples of the readings' own"),
+      number_or_learn("field.signal_sd", "reading", 1e-150, 1e150,
+                      "prior standard deviation of the stiffness; a fixed value with standardize: multiples of the readings' own"),
       number_or_learn("field.noise", "reading", 0.0, 1e150, "standard deviation of a reading"),
       number("field.noise_to_signal", "", 0.0, 1e6, nullptr, "in place of field.noise: the same as a fraction of a fixed signal_sd"),
-      number("field.length_prior_mm", "mm", kLeastLength_mm, kMostLength_mm, 3.5, "what a learned length is likely to be: the median of a lognormal prior (spread 0.4)"),
+      number("field.length_prior_mm", "mm", kLeastLength_mm, kMostLength_mm, 3.5,
+             "what a learned length is likely to be: the median of a lognormal prior (spread 0.4)"),
       number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "of the periodic kernel"),
       word("field.trend", {"zero", "constant"}, "constant", "mean of the field before any reading"),
-      number("field.constant_sd", "reading", 0.0, 1e150, nullptr, "how well that constant is known beforehand (as signal_sd); left out: not at all"),
+      number("field.constant_sd", "reading", 0.0, 1e150, nullptr,
+             "how well that constant is known beforehand (as signal_sd); left out: not at all"),
       truth("field.standardize", true, "readings are z-scored, as GPy does; matters only where nothing is learned"),
-      word("level.estimate", {"known", "range"}, "range", "where tissue becomes tumour: known beforehand, or min + fraction (max - min) of the mean"),
+      word("level.estimate", {"known", "range"}, "range",
+           "where tissue becomes tumour: known beforehand, or min + fraction (max - min) of the mean"),
       number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5, "of that range; it also defines the true outline of a simulated tumour"),
       number("level.value", "reading", -kAny, kAny, nullptr, "the level, if it is known"),
       word("plan.acquisition", {"ils-ucb", "ucb", "evr", "straddle", "lse", "random", "raster", "refinement"}, "ils-ucb",
@@ -79,18 +87,23 @@ std::vector<SceneKey> make_scene_keys() {
       integer("plan.batches", 0, 100000, 9, "how many batches after the first touches"),
       number("plan.least_spacing_mm", "mm", 0.0, kMostLength_mm, 0.5, "between the stops of a batch"),
       truth("plan.readings_along_path", false, "the probe also reads on its way, once per mm"),
-      truth("plan.safe_start", true, "explore by variance alone until the readings show contrast beyond their noise; matters only where the field is learned"),
-      number("plan.stop.expected_error_mm2", "mm2", 0.0, kAny, 0.0, "stop once the expected wrong area is no larger; 0: when the batches are done"),
-      number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0, "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
+      truth("plan.safe_start", true,
+            "explore by variance alone until the readings show contrast beyond their noise; matters only where the field is learned"),
+      number("plan.stop.expected_error_mm2", "mm2", 0.0, kAny, 0.0,
+             "stop once the expected wrong area is no larger; 0: when the batches are done"),
+      number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0,
+             "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
       word("probe.kind", {"simulated"}, "simulated", "where readings come from in `palpate simulate`"),
       number("probe.low", "reading", -kAny, kAny, 7.0, "simulated reading on healthy tissue"),
       number("probe.high", "reading", -kAny, kAny, 9.0, "simulated reading deep inside a tumour; above probe.low"),
       number("probe.slope_per_m", "1/m", 1e-3, 1e9, 1400.0, "steepness of the edge between them"),
       number("probe.noise", "", 0.0, 1e6, 0.0, "standard deviation, as a fraction of high - low"),
-      number("probe.bias", "", -1e6, 1e6, 0.0, "the paper's beta: what is added from one end of the tissue to the other, as a fraction of high - low"),
+      number("probe.bias", "", -1e6, 1e6, 0.0,
+             "the paper's beta: what is added from one end of the tissue to the other, as a fraction of high - low"),
       numbers("probe.bias_axis", 3, "", -kAny, kAny, nullptr, "along which; left out: the longest side of the tissue"),
       {"probe.tumours", ValueKind::Tumours, "", 0.0, 0.0, {}, 0, json::array(), "a list of shapes"},
-      numbers("robot.from_tissue", 16, "", -kAny, kAny, identity, "rigid transform to the robot's frame, row by row, its translation in metres"),
+      numbers("robot.from_tissue", 16, "", -kAny, kAny, identity,
+              "rigid transform to the robot's frame, row by row, its translation in metres"),
       number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0, "of the approach point, above the tissue"),
       number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),
       integer("seed", 0, 9007199254740992.0, 1, "of all that is random"),
@@ -113,7 +126,8 @@ std::string number_fault(const SceneKey& key, const json& value) {
   if (!value.is_number()) return "is " + value.dump().substr(0, 60) + ", but must be a number";
   const double number = value.get<double>();
   if (!std::isfinite(number)) return "must be finite";
-  if (number < key.least || number > key.most) return "is " + text_of(number) + ", but must be " + range_text(key) + (key.unit.empty() ? "" : " " + key.unit);
+  if (number < key.least || number > key.most)
+    return "is " + text_of(number) + ", but must be " + range_text(key) + (key.unit.empty() ? "" : " " + key.unit);
   return "";
 }
 
@@ -164,14 +178,30 @@ int edit_distance(const std::string& a, const std::string& b) {
 void describe(std::ostringstream& out, const SceneKey& key, const std::string& indent) {
   std::string values;
   switch (key.kind) {
-    case ValueKind::Number: values = range_text(key); break;
-    case ValueKind::Integer: values = "whole number, " + range_text(key); break;
-    case ValueKind::Truth: values = "true or false"; break;
-    case ValueKind::Word: values = join(key.words, " | "); break;
-    case ValueKind::NumberOrWord: values = join(key.words, " | ") + " | " + range_text(key); break;
-    case ValueKind::Text: values = "text"; break;
-    case ValueKind::Numbers: values = key.count > 0 ? std::to_string(key.count) + " numbers" : "a list of [x, y, z]"; break;
-    case ValueKind::Tumours: values = "a list of " + join(tumour_shapes(), ", "); break;
+    case ValueKind::Number:
+      values = range_text(key);
+      break;
+    case ValueKind::Integer:
+      values = "whole number, " + range_text(key);
+      break;
+    case ValueKind::Truth:
+      values = "true or false";
+      break;
+    case ValueKind::Word:
+      values = join(key.words, " | ");
+      break;
+    case ValueKind::NumberOrWord:
+      values = join(key.words, " | ") + " | " + range_text(key);
+      break;
+    case ValueKind::Text:
+      values = "text";
+      break;
+    case ValueKind::Numbers:
+      values = key.count > 0 ? std::to_string(key.count) + " numbers" : "a list of [x, y, z]";
+      break;
+    case ValueKind::Tumours:
+      values = "a list of " + join(tumour_shapes(), ", ");
+      break;
   }
   out << indent << key.path;
   if (!key.unit.empty()) out << " [" << key.unit << "]";
@@ -193,9 +223,10 @@ const std::vector<std::string>& tumour_shapes() {
 }
 
 const std::vector<SceneKey>& tumour_keys(const std::string& shape) {
-  static const SceneKey centre = numbers("centre_mm", 3, "mm", -kMostLength_mm, kMostLength_mm, nullptr, "in the mesh's frame, taken to the closest surface point");
-  static const std::vector<SceneKey> disk = {
-      centre, number("radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "along the surface")};
+  static const SceneKey centre =
+      numbers("centre_mm", 3, "mm", -kMostLength_mm, kMostLength_mm, nullptr, "in the mesh's frame, taken to the closest surface point");
+  static const std::vector<SceneKey> disk = {centre,
+                                             number("radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "along the surface")};
   static const std::vector<SceneKey> horseshoe = {
       centre,
       number("arc_radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "of the middle line"),
@@ -203,8 +234,15 @@ const std::vector<SceneKey>& tumour_keys(const std::string& shape) {
       number("arc_deg", "degrees", 1e-3, 360.0, 180.0, "the solid part"),
       numbers("facing", 3, "", -kAny, kAny, json{1, 0, 0}, "from the centre to the middle of the arc"),
   };
-  static const std::vector<SceneKey> polygon = {
-      {"points_mm", ValueKind::Numbers, "mm", -kMostLength_mm, kMostLength_mm, {}, 0, nullptr, "corners, each [x, y, z]; the last may repeat the first"}};
+  static const std::vector<SceneKey> polygon = {{"points_mm",
+                                                 ValueKind::Numbers,
+                                                 "mm",
+                                                 -kMostLength_mm,
+                                                 kMostLength_mm,
+                                                 {},
+                                                 0,
+                                                 nullptr,
+                                                 "corners, each [x, y, z]; the last may repeat the first"}};
   return shape == "disk" ? disk : shape == "horseshoe" ? horseshoe : polygon;
 }
 
@@ -213,7 +251,8 @@ std::string fault_of(const SceneKey& key, const json& value) {
     case ValueKind::Number:
       return number_fault(key, value);
     case ValueKind::Integer:
-      if (value.is_number() && value.get<double>() != std::floor(value.get<double>())) return "is " + value.dump() + ", but must be a whole number";
+      if (value.is_number() && value.get<double>() != std::floor(value.get<double>()))
+        return "is " + value.dump() + ", but must be a whole number";
       return number_fault(key, value);
     case ValueKind::Truth:
       return value.is_boolean() ? "" : "is " + value.dump().substr(0, 60) + ", but must be true or false";
@@ -235,7 +274,8 @@ std::string fault_of(const SceneKey& key, const json& value) {
         }
         return "";
       }
-      if (static_cast<int>(value.size()) != key.count) return "has " + std::to_string(value.size()) + " members, but must have " + std::to_string(key.count);
+      if (static_cast<int>(value.size()) != key.count)
+        return "has " + std::to_string(value.size()) + " members, but must have " + std::to_string(key.count);
       for (const json& one : value) {
         if (const std::string fault = number_fault(key, one); !fault.empty()) return "holds a member that " + fault;
       }

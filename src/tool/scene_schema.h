@@ -8,7 +8,7 @@
 namespace palpation::tool {
 
 enum class ValueKind {
-  Number,        ///< a finite number
+  Number,  ///< a finite number
   Integer,
   Truth,         ///< true or false
   Word,          ///< one of `words`
@@ -19,10 +19,10 @@ enum class ValueKind {
 };
 
 struct SceneKey {
-  std::string path;                 ///< dotted, as in --set
+  std::string path;  ///< dotted, as in --set
   ValueKind kind;
   std::string unit;
-  double least = 0.0, most = 0.0;   ///< range of numbers, both included
+  double least = 0.0, most = 0.0;  ///< range of numbers, both included
   std::vector<std::string> words{};
   int count = 0;
   nlohmann::json standard = nullptr;  ///< the default; null where there is none

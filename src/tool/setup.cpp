@@ -15,8 +15,9 @@ TriangleMesh mesh_of(const Scene& scene, std::vector<std::string>& warnings) {
     const std::vector<double> size_mm = scene.numbers("surface.plane.size_mm");
     const std::vector<double> vertices = scene.numbers("surface.plane.vertices");
     Random unused(0);
-    return make_plane({.size_m = Vec2(size_mm[0], size_mm[1]) / 1000.0, .columns = static_cast<int>(vertices[0]), .rows = static_cast<int>(vertices[1])},
-                      unused);
+    return make_plane(
+        {.size_m = Vec2(size_mm[0], size_mm[1]) / 1000.0, .columns = static_cast<int>(vertices[0]), .rows = static_cast<int>(vertices[1])},
+        unused);
   }
   MeshFile file = read_mesh(scene.folder() / scene.word("surface.mesh"), length_unit(scene.word("surface.unit")));
   warnings = file.warnings;
@@ -35,7 +36,9 @@ KernelFamily kernel_family(const std::string& name) {
 void check_chart(const Scene& scene, const Surface& surface) {
   if (surface.has_chart()) return;
   if (surface.topology().is_closed()) {
-    scene.refuse("surface", "the mesh is a closed surface, which cannot be laid flat as a whole: choose the part to work on by surface.patch (centre_mm and radius_mm)");
+    scene.refuse("surface",
+                 "the mesh is a closed surface, which cannot be laid flat as a whole: choose the part to work on by surface.patch "
+                 "(centre_mm and radius_mm)");
   }
   scene.refuse("surface", "the tissue has no chart: it is not flat");
 }
@@ -55,11 +58,14 @@ Acquisition acquisition_of(const Scene& scene) {
 }  // namespace
 
 Tissue tissue_of(const Scene& scene) {
-  if (scene.has("surface.mesh") && scene.has("surface.plane.size_mm")) scene.refuse("surface", "has both a mesh and a plane: give one of them");
-  if (!scene.has("surface.mesh") && !scene.has("surface.plane.size_mm")) scene.refuse("surface.mesh", "is needed: the file of the tissue's mesh");
+  if (scene.has("surface.mesh") && scene.has("surface.plane.size_mm"))
+    scene.refuse("surface", "has both a mesh and a plane: give one of them");
+  if (!scene.has("surface.mesh") && !scene.has("surface.plane.size_mm"))
+    scene.refuse("surface.mesh", "is needed: the file of the tissue's mesh");
   std::vector<std::string> warnings;
   TriangleMesh mesh = mesh_of(scene, warnings);
-  if (scene.has("surface.patch.centre_mm")) mesh = patch_around(Surface(std::move(mesh)), scene.point_m("surface.patch.centre_mm"), scene.metres("surface.patch.radius_mm"));
+  if (scene.has("surface.patch.centre_mm"))
+    mesh = patch_around(Surface(std::move(mesh)), scene.point_m("surface.patch.centre_mm"), scene.metres("surface.patch.radius_mm"));
   if (scene.has("surface.refine_mm")) mesh = refine(std::move(mesh), scene.metres("surface.refine_mm"));
   Tissue tissue{Surface(std::move(mesh)), std::move(warnings)};
   check_chart(scene, tissue.surface);
@@ -77,15 +83,18 @@ FieldModel field_of(const Scene& scene) {
   if (!field.learn_signal) field.kernel.signal_sd = scene.number("field.signal_sd");
   field.learn_noise = scene.word("field.noise") == "learn" && !scene.has("field.noise_to_signal");
   if (scene.has("field.noise_to_signal")) {
-    if (field.learn_length || field.learn_signal) scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
+    if (field.learn_length || field.learn_signal)
+      scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
     field.belief.noise_sd = scene.number("field.noise_to_signal");
     field.belief.noise_is_relative = true;
   } else if (!field.learn_noise) {
     field.belief.noise_sd = scene.number("field.noise");
   }
   field.length_median_m = scene.metres("field.length_prior_mm");
-  if (scene.word("field.trend") == "zero") field.constant.sd = 0.0;
-  else if (scene.has("field.constant_sd")) field.constant.sd = scene.number("field.constant_sd");
+  if (scene.word("field.trend") == "zero")
+    field.constant.sd = 0.0;
+  else if (scene.has("field.constant_sd"))
+    field.constant.sd = scene.number("field.constant_sd");
   field.belief.standardize = scene.truth("field.standardize") && !field.learns();
   return field;
 }
@@ -137,13 +146,16 @@ Phantom phantom_of(const Scene& scene, const Surface& surface) {
     const std::vector<double> axis = scene.numbers("probe.bias_axis");
     model.bias_axis = Vec3(axis[0], axis[1], axis[2]);
   }
-  const auto point = [](const nlohmann::json& mm) { return Vec3(Vec3(mm[0].get<double>(), mm[1].get<double>(), mm[2].get<double>()) / 1000.0); };
+  const auto point = [](const nlohmann::json& mm) {
+    return Vec3(Vec3(mm[0].get<double>(), mm[1].get<double>(), mm[2].get<double>()) / 1000.0);
+  };
   std::vector<Tumour> tumours;
   for (const nlohmann::json& shape : scene.tumours()) {
     if (shape["shape"] == "disk") {
       tumours.emplace_back(Disk{point(shape["centre_mm"]), shape["radius_mm"].get<double>() / 1000.0});
     } else if (shape["shape"] == "horseshoe") {
-      Horseshoe horseshoe{point(shape["centre_mm"]), shape["arc_radius_mm"].get<double>() / 1000.0, shape["half_width_mm"].get<double>() / 1000.0};
+      Horseshoe horseshoe{point(shape["centre_mm"]), shape["arc_radius_mm"].get<double>() / 1000.0,
+                          shape["half_width_mm"].get<double>() / 1000.0};
       horseshoe.arc_rad = shape.value("arc_deg", 180.0) * std::numbers::pi / 180.0;
       if (shape.contains("facing")) horseshoe.facing = 1000.0 * point(shape["facing"]);
       tumours.emplace_back(horseshoe);

@@ -13,7 +13,8 @@ std::string found_words(const Episode& episode) {
   if (!episode.exploration.level()) return "No reading yet, so nothing is known.\n";
   const std::string level = "at the level " + fixed(episode.exploration.level()->value, 3);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
-  std::string words = "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
+  std::string words =
+      "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
   for (const PolygonWithHoles& part : parts) {
     Vec2 least = part.outer.front(), most = part.outer.front();
     for (const Vec2& corner : part.outer) {
@@ -22,8 +23,8 @@ std::string found_words(const Episode& episode) {
     }
     const Vec2 size = (most - least) * 1e3;
     const Vec2 middle = (most + least) * 500.0;
-    words += "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around (" + fixed(middle.x(), 1) + ", " + fixed(middle.y(), 1) + ") mm" +
-             (part.holes.empty() ? "" : ", with " + counted(part.holes.size(), "hole")) + "\n";
+    words += "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around (" + fixed(middle.x(), 1) + ", " + fixed(middle.y(), 1) +
+             ") mm" + (part.holes.empty() ? "" : ", with " + counted(part.holes.size(), "hole")) + "\n";
   }
   return words;
 }
@@ -38,11 +39,13 @@ std::string fixed(double value, int digits) {
 
 std::string error_words(const RegionError& error, double search_area_m2) {
   std::string words = "Against the truth: " + fixed(error.symmetric_difference_m2 * 1e6, 2) + " mm2 wrong (" +
-                      fixed(error.symmetric_difference_m2 * 1e4, 3) + " cm2, " + fixed(100.0 * error.symmetric_difference_m2 / search_area_m2, 3) +
-                      " % of the search area): " + fixed(error.missed_m2 * 1e6, 2) + " missed, " + fixed(error.extra_m2 * 1e6, 2) + " extra; Dice " +
-                      fixed(error.dice, 3);
+                      fixed(error.symmetric_difference_m2 * 1e4, 3) + " cm2, " +
+                      fixed(100.0 * error.symmetric_difference_m2 / search_area_m2, 3) +
+                      " % of the search area): " + fixed(error.missed_m2 * 1e6, 2) + " missed, " + fixed(error.extra_m2 * 1e6, 2) +
+                      " extra; Dice " + fixed(error.dice, 3);
   if (error.hausdorff_m && error.mean_distance_m) {
-    words += ", boundaries " + fixed(*error.mean_distance_m * 1e3, 2) + " mm apart on average, " + fixed(*error.hausdorff_m * 1e3, 2) + " at most";
+    words += ", boundaries " + fixed(*error.mean_distance_m * 1e3, 2) + " mm apart on average, " + fixed(*error.hausdorff_m * 1e3, 2) +
+             " at most";
   }
   return words + ".\n";
 }
@@ -68,7 +71,8 @@ std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stop
   if (stops.empty()) return "Nothing more to touch: " + episode.exploration.stop_reason() + ".\n";
   std::string words = "Touch next, in this order (" + fixed(path_m * 1e3, 0) + " mm to travel), in the robot's frame [mm]:\n";
   for (const Waypoint& stop : stops) {
-    words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) + "  " + fixed(stop.position.z() * 1e3, 2) + "\n";
+    words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) + "  " +
+             fixed(stop.position.z() * 1e3, 2) + "\n";
   }
   return words;
 }

@@ -38,7 +38,8 @@ World recorded_world(const Scene& scene, const Surface& surface, const std::vect
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     if (in_contact[vertex]) world.reach.vertices.push_back(vertex);
   }
-  if (world.reach.vertices.empty()) throw InvalidInput("replay: no vertex of the tissue lies within 2 mm of the recording: do mesh and recording share a frame?");
+  if (world.reach.vertices.empty())
+    throw InvalidInput("replay: no vertex of the tissue lies within 2 mm of the recording: do mesh and recording share a frame?");
   world.reach.touch_once = true;
   return world;
 }

@@ -98,7 +98,8 @@ TEST(Belief, AgreesWithScikitLearnOnTwentyRandomScenes) {
       file >> u >> v >> mean[i] >> variance[i];
       queries.push_back(point_at(u, v));
     }
-    const Belief belief = Belief(Prior(tissue, Metric::Chart, kernel, {.sd = 0.0}), {.noise_sd = std::sqrt(noise)}).condition_on(palpations);
+    const Belief belief =
+        Belief(Prior(tissue, Metric::Chart, kernel, {.sd = 0.0}), {.noise_sd = std::sqrt(noise)}).condition_on(palpations);
     const Marginals ours = belief.at(queries);
     // In units of the signal: condition numbers below 1e7 leave 1e-9.
     EXPECT_LT(worst(ours.mean, mean) / signal, 1e-8) << "scene " << scenes;
@@ -110,8 +111,8 @@ TEST(Belief, AgreesWithScikitLearnOnTwentyRandomScenes) {
 TEST(Belief, EqualsTheDenseFormulasForEveryKernelMetricAndConstant) {
   const Surface tissue = plane(13, 21, 0.3);
   Random random(1);
-  for (const KernelFamily family : {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52,
-                                    KernelFamily::Periodic}) {
+  for (const KernelFamily family :
+       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52, KernelFamily::Periodic}) {
     for (const Metric metric : {Metric::Chart, Metric::Ambient}) {
       if (family == KernelFamily::Periodic && metric == Metric::Ambient) continue;
       for (const double constant_sd : {0.0, 3.0, kUnknown}) {
@@ -121,7 +122,7 @@ TEST(Belief, EqualsTheDenseFormulasForEveryKernelMetricAndConstant) {
         const Belief belief = Belief(prior, {.noise_sd = 0.1}).condition_on(readings);
         const Dense dense = dense_posterior(prior, readings, 0.01);
         const Marginals ours = belief.at_vertices();
-        EXPECT_LT(worst(ours.mean, dense.mean), 1e-9);          // condition number about 1e4, readings about 10
+        EXPECT_LT(worst(ours.mean, dense.mean), 1e-9);  // condition number about 1e4, readings about 10
         EXPECT_LT(worst(ours.variance, dense.variance), 1e-10);
         EXPECT_NEAR(belief.log_marginal_likelihood(), dense.log_likelihood, 1e-8);
       }
@@ -132,7 +133,8 @@ TEST(Belief, EqualsTheDenseFormulasForEveryKernelMetricAndConstant) {
 TEST(Belief, PredictsTheSameAtAVertexFromTheCacheAndFromScratch) {
   const Surface tissue = plane(13, 21, 0.3);
   Random random(2);
-  const Belief belief = Belief(Prior(tissue, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1}).condition_on(bumpy_readings(tissue, 40, random));
+  const Belief belief =
+      Belief(Prior(tissue, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1}).condition_on(bumpy_readings(tissue, 40, random));
   std::vector<SurfacePoint> vertices;
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) vertices.push_back(tissue.at_vertex(vertex));
   EXPECT_LT(worst(belief.at_vertices().mean, belief.at(vertices).mean), 1e-12);
@@ -148,7 +150,8 @@ TEST(Belief, AppendingReadingsOneByOneEqualsTakingThemAllAtOnce) {
     const Belief empty(prior, {.noise_sd = 0.2, .noise_is_relative = standardize, .standardize = standardize});
     const Belief at_once = empty.condition_on(readings);
     Belief grown = empty;
-    for (std::size_t i = 0; i < readings.size(); i += 7) grown = grown.condition_on(std::span(readings).subspan(i, std::min<std::size_t>(7, 60 - i)));
+    for (std::size_t i = 0; i < readings.size(); i += 7)
+      grown = grown.condition_on(std::span(readings).subspan(i, std::min<std::size_t>(7, 60 - i)));
     EXPECT_LT(worst(grown.at_vertices().mean, at_once.at_vertices().mean), 1e-11);
     EXPECT_LT(worst(grown.at_vertices().variance, at_once.at_vertices().variance), 1e-12);
     EXPECT_NEAR(grown.log_marginal_likelihood(), at_once.log_marginal_likelihood(), 1e-9);
@@ -170,7 +173,8 @@ TEST(Belief, DoesNotDependOnTheOrderOfReadings) {
 TEST(Belief, MergesRepeatedTouchesExactly) {
   const Surface tissue = plane(10, 20);
   const Prior prior(tissue, Metric::Chart, {.length_m = 0.005});
-  std::vector<Palpation> readings{touch(tissue, 30, 7.1), touch(tissue, 90, 8.0), touch(tissue, 30, 7.3), touch(tissue, 31, 7.2), touch(tissue, 30, 6.9)};
+  std::vector<Palpation> readings{touch(tissue, 30, 7.1), touch(tissue, 90, 8.0), touch(tissue, 30, 7.3), touch(tissue, 31, 7.2),
+                                  touch(tissue, 30, 6.9)};
   readings[4].noise_variance = 0.04;
   const Belief belief = Belief(prior, {.noise_sd = 0.1}).condition_on(readings);
   EXPECT_EQ(belief.site_count(), 3);
@@ -219,8 +223,8 @@ TEST(Belief, CovarianceWithAVertexIsWhatATouchThereWouldRemove) {
   const Surface tissue = plane(13, 21, 0.2);
   Random random(6);
   for (const double constant_sd : {0.0, 2.0, kUnknown}) {
-    const Belief belief =
-        Belief(Prior(tissue, Metric::Chart, {.signal_sd = 1.5}, {.sd = constant_sd}), {.noise_sd = 0.1}).condition_on(bumpy_readings(tissue, 30, random));
+    const Belief belief = Belief(Prior(tissue, Metric::Chart, {.signal_sd = 1.5}, {.sd = constant_sd}), {.noise_sd = 0.1})
+                              .condition_on(bumpy_readings(tissue, 30, random));
     const int vertex = 100;
     Field covariance(tissue.vertex_count());
     CovarianceWith(belief, vertex)(0, tissue.vertex_count(), covariance.data());
@@ -298,8 +302,7 @@ TEST(Belief, StandardizedIsTheZScoredModel) {
   for (const Palpation& palpation : readings) square += (palpation.reading - mean) * (palpation.reading - mean) / 40.0;
   const double sd = std::sqrt(square);
   for (Palpation& palpation : readings) palpation.reading = (palpation.reading - mean) / sd;
-  const Belief scored =
-      Belief(Prior(tissue, Metric::Chart, {.signal_sd = 5.0}, {.sd = 7.0}), {.noise_sd = 1.0}).condition_on(readings);
+  const Belief scored = Belief(Prior(tissue, Metric::Chart, {.signal_sd = 5.0}, {.sd = 7.0}), {.noise_sd = 1.0}).condition_on(readings);
   EXPECT_LT(worst(raw.at_vertices().mean, (scored.at_vertices().mean.array() * sd + mean).matrix()), 1e-11);
   EXPECT_LT(worst(raw.at_vertices().variance, scored.at_vertices().variance * sd * sd), 1e-11);
 }

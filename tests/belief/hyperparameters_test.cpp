@@ -36,7 +36,8 @@ TEST(Likelihood, HasTheGradientOfItsDifferences) {
     readings.back().reading += 0.1 * i;
     readings.back().noise_variance = i == 2 ? 0.02 : std::nan("");  // a place with both kinds of noise
   }
-  for (const KernelFamily family : {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52}) {
+  for (const KernelFamily family :
+       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52}) {
     for (const double constant_sd : {0.0, 4.0, kUnknown}) {
       const Prior prior(tissue, Metric::Chart, {.family = family}, {.sd = constant_sd});
       const std::vector<Site> sites = gather_sites(prior, readings);

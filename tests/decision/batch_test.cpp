@@ -63,7 +63,8 @@ TEST(Acquisition, MaxScalingDividesBothTermsByTheirMaxima) {
   const double greatest_sd = std::sqrt(marginals.variance.maxCoeff());
   const double greatest_distance = (marginals.mean.array() - 8.0).abs().maxCoeff();
   for (int vertex : {0, 100, 799}) {
-    const double expected = 0.5 * std::sqrt(marginals.variance[vertex]) / greatest_sd - 0.5 * std::abs(marginals.mean[vertex] - 8.0) / greatest_distance;
+    const double expected =
+        0.5 * std::sqrt(marginals.variance[vertex]) / greatest_sd - 0.5 * std::abs(marginals.mean[vertex] - 8.0) / greatest_distance;
     EXPECT_NEAR(scores[vertex], expected, 1e-14);
   }
 }
@@ -118,9 +119,11 @@ TEST(ChooseBatch, GivesTiesToTheLowestVertex) {
   const Belief nothing(Prior(tissue, Metric::Chart, {}), {.noise_sd = 0.1});
   const Pointwise constant{.score = [](double, double, const Level&) { return 1.0; }, .grows_with_stddev = true};
   for (const Evaluation evaluation : {Evaluation::Lazy, Evaluation::Exhaustive}) {
-    EXPECT_EQ(choose_batch(nothing, constant, kLevel, all_vertices(tissue), {.size = 4, .least_spacing_m = 1e-6, .evaluation = evaluation}).vertices,
+    EXPECT_EQ(choose_batch(nothing, constant, kLevel, all_vertices(tissue), {.size = 4, .least_spacing_m = 1e-6, .evaluation = evaluation})
+                  .vertices,
               (std::vector{0, 1, 2, 3}));
-    EXPECT_EQ(choose_batch(nothing, constant, kLevel, all_vertices(tissue), {.size = 2, .evaluation = evaluation}).vertices, (std::vector{0, 0}));
+    EXPECT_EQ(choose_batch(nothing, constant, kLevel, all_vertices(tissue), {.size = 2, .evaluation = evaluation}).vertices,
+              (std::vector{0, 0}));
   }
 }
 
@@ -136,7 +139,9 @@ TEST(ChooseBatch, TakesAnAcquisitionOfTheWholeBelief) {
 TEST(ChooseBatch, TouchesAtRandomTheSameWayForTheSameSeed) {
   const Surface tissue = plane(20, 40);
   const Belief belief = believed(tissue, 30, 5);
-  const auto picks = [&](std::uint64_t seed) { return choose_batch(belief, random_scores(seed), kLevel, all_vertices(tissue), {.size = 8}).vertices; };
+  const auto picks = [&](std::uint64_t seed) {
+    return choose_batch(belief, random_scores(seed), kLevel, all_vertices(tissue), {.size = 8}).vertices;
+  };
   EXPECT_EQ(picks(1), picks(1));
   EXPECT_NE(picks(1), picks(2));
 }

@@ -34,7 +34,8 @@ TEST(WayBetween, IsTheStraightLineOnFlatTissue) {
 TEST(WayBetween, RunsAlongEdgesAndBordersWithoutLeavingTheTissue) {
   Random random(1);
   const Surface tissue(make_plane({.columns = 26, .rows = 51}, random));
-  for (const auto& [from, to] : {std::pair{0, 25}, {25, 0}, {0, 1300}, {1300, 0}, {1325, 25}, {25, 1325}, {1325, 1300}, {26, 51}, {0, 675}, {675, 0}}) {
+  for (const auto& [from, to] :
+       {std::pair{0, 25}, {25, 0}, {0, 1300}, {1300, 0}, {1325, 25}, {25, 1325}, {1325, 1300}, {26, 51}, {0, 675}, {675, 0}}) {
     const std::vector<SurfacePoint> way = way_between(tissue, tissue.at_vertex(from), tissue.at_vertex(to), 0.0005);
     const double length = (tissue.vertex(from) - tissue.vertex(to)).norm();
     EXPECT_EQ(way.size(), static_cast<std::size_t>(std::ceil(length / 0.0005 - 1e-6) - 1.0)) << from << " to " << to;

@@ -390,6 +390,37 @@ TEST(ReadVtp, RefusesIndicesOffsetsAndArraysThatDoNotFit) {
   EXPECT_FALSE(error_of("a.vtp", bomb).empty());
 }
 
+/// The square in base64 and zlib, as VTK writes it; the arguments stand for the connectivity's sizes (AQAAAACAAAAwAAAAFgAAAA== if sound)
+/// and format.
+std::string compressed_vtp(const std::string& sizes, const std::string& format) {
+  return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\" header_type=\"UInt32\" "
+         "compressor=\"vtkZLibDataCompressor\">\n"
+         "<!-- made by hand --><PolyData><Piece NumberOfPoints=\"4\" NumberOfPolys=\"2\"><Points><DataArray type=\"Float64\" "
+         "NumberOfComponents=\"3\" "
+         "format=\"binary\">\nAQAAAACAAABgAAAAFAAAAA==eJxjYMAHPtjjFyckz8AAALNMBL0=\n</DataArray></Points><Polys><DataArray type=\"Int64\" "
+         "Name=\"connectivity\" " +
+         format + ">\n" + sizes +
+         "eJxjYIAARijNxIAKYHxmKA0AANAACQ==\n</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"binary\">\n"
+         "AQAAAACAAAAQAAAADgAAAA==eJxjZoAANigNAABwAAo=\n</DataArray></Polys></Piece></PolyData></VTKFile>\n";
+}
+
+TEST(ReadVtp, ReadsCompressedBlocks) {
+  expect_square(read_text("a.vtp", compressed_vtp("AQAAAACAAAAwAAAAFgAAAA==", "format=\"binary\"")), "VTP");
+}
+
+// Each of these makes VTK's parser read outside its buffers, or allocate what the file does not hold.
+TEST(ReadVtp, RefusesSizesOfBlocksThatDoNotAddUp) {
+  const std::string sound = "AQAAAACAAAAwAAAAFgAAAA==", binary = "format=\"binary\"";
+  // Little-endian words: blocks, their size, the size of the last, compressed sizes.
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AAAAAACAAAAwAAAA", binary)), "a block size or count of 48"));  // 0, 32768, 48
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("/////wCAAAAwAAAAFgAAAA==", binary)), "a block size or count of 4294967295"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AQAAAACAAAAwAAAA////fw==", binary)), "a block size or count of 2147483647"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AQAAAP///3////9/FgAAAA==", binary)), "a block size or count of 2147483647"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp(sound, "format=\"appen3ed\" offset=\"0\"")), "an array's format"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp(sound, "format=\"binary\" offset=\"0\"")), "an array's format"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp(sound, "format=\"&#98;inary\"")), "entities"));
+}
+
 TEST(ReadVtp, NamesAnArrayOfTheWrongLength) {
   const std::string array = "<PointData><DataArray type=\"Float64\" Name=\"stiffness\" format=\"ascii\">1 2 3</DataArray></PointData>";
   EXPECT_TRUE(contains(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 3", "3 6", array)), "stiffness"));

@@ -1,5 +1,5 @@
-// What must hold of the whole, whatever the tissue: the answer does not depend on where the tissue lies, on its scale, on the numbers of its vertices, on the
-// order of readings, or on how many threads work.
+// What must hold of the whole, whatever the tissue: the answer does not depend on where the tissue lies, on its scale, on the numbers of
+// its vertices, on the order of readings, or on how many threads work.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -21,7 +21,8 @@ struct Result {
   double error = 0.0;
 };
 
-/// The whole loop with everything fixed that is not under test. `scale` multiplies all lengths of the model; `back` maps places to the unmoved tissue.
+/// The whole loop with everything fixed that is not under test. `scale` multiplies all lengths of the model; `back` maps places to the
+/// unmoved tissue.
 Result explored(const TriangleMesh& mesh, double scale = 1.0, const Eigen::Isometry3d& back = Eigen::Isometry3d::Identity()) {
   const Surface tissue(mesh);
   const Vec3 centre = back.inverse() * Vec3(0.0115, 0.030, 0.0) * scale;
@@ -36,7 +37,8 @@ Result explored(const TriangleMesh& mesh, double scale = 1.0, const Eigen::Isome
   // The first touches are at the same places of the tissue, wherever it lies.
   Random unused(0);
   std::vector<Palpation> first;
-  for (const Vec3& place : {Vec3(0.005, 0.010, 0.0), Vec3(0.020, 0.012, 0.0), Vec3(0.012, 0.030, 0.0), Vec3(0.006, 0.043, 0.0), Vec3(0.019, 0.040, 0.0)}) {
+  for (const Vec3& place :
+       {Vec3(0.005, 0.010, 0.0), Vec3(0.020, 0.012, 0.0), Vec3(0.012, 0.030, 0.0), Vec3(0.006, 0.043, 0.0), Vec3(0.019, 0.040, 0.0)}) {
     first.push_back(phantom.touch(tissue.at_vertex(tissue.nearest_vertex(back.inverse() * place * scale)), unused));
   }
   exploration.take_up(first);
@@ -101,7 +103,8 @@ TEST(Laws, AFieldThatIsLinearlyInterpolatedHasTheSameRegionOnSplitFaces) {
   ASSERT_GT(fine.face_count(), coarse.face_count());
   const Phantom phantom(coarse, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {});
   Field on_fine(fine.vertex_count());
-  for (int vertex = 0; vertex < fine.vertex_count(); ++vertex) on_fine[vertex] = coarse.interpolate(phantom.truth(), coarse.project(fine.vertex(vertex)));
+  for (int vertex = 0; vertex < fine.vertex_count(); ++vertex)
+    on_fine[vertex] = coarse.interpolate(phantom.truth(), coarse.project(fine.vertex(vertex)));
   // 123 mm2; the projection is good to 1e-15 m over an outline of 39 mm.
   EXPECT_NEAR(superlevel_region(coarse, phantom.truth(), 8.0).area(), superlevel_region(fine, on_fine, 8.0).area(), 1e-13);
 }
@@ -111,7 +114,8 @@ TEST(Laws, ThePlanarSceneComputesNothingItDoesNotNeed) {
   const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05});
   Exploration exploration(tissue, {}, {}, {.batches = 2}, 1);
   Random random(1);
-  run(exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); }, {}, 0.001);
+  run(
+      exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); }, {}, 0.001);
   const Region found = superlevel_region(tissue, exploration.marginals().mean, exploration.level()->value);
   compare(tissue, found, superlevel_region(tissue, phantom.truth(), 8.0));
   EXPECT_TRUE(tissue.computed().empty());

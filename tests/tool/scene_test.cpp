@@ -37,7 +37,8 @@ TEST(Scene, FillsInTheDefaults) {
 }
 
 TEST(Scene, NamesTheNearestKeyForAnUnknownOne) {
-  EXPECT_EQ(fault_in(R"({"plan": {"gama": 0.5}})"), ": plan.gama: is not a key of a scene; the nearest is plan.gamma (palpate help scene lists all)");
+  EXPECT_EQ(fault_in(R"({"plan": {"gama": 0.5}})"),
+            ": plan.gama: is not a key of a scene; the nearest is plan.gamma (palpate help scene lists all)");
   EXPECT_NE(fault_in(R"({"surfase": {}})").find("surfase"), std::string::npos);
 }
 
@@ -55,8 +56,10 @@ TEST(Scene, SaysWhatIsWrongWithAValue) {
 }
 
 TEST(Scene, ChecksTumours) {
-  EXPECT_EQ(fault_in(R"({"probe": {"tumours": [{"shape": "disc"}]}})"), ": probe.tumours: [0].shape is \"disc\", but must be one of disk, horseshoe, polygon");
-  EXPECT_EQ(fault_in(R"({"probe": {"tumours": [{"shape": "disk", "centre_mm": [1, 2, 0]}]}})"), ": probe.tumours: [0] (disk) lacks radius_mm");
+  EXPECT_EQ(fault_in(R"({"probe": {"tumours": [{"shape": "disc"}]}})"),
+            ": probe.tumours: [0].shape is \"disc\", but must be one of disk, horseshoe, polygon");
+  EXPECT_EQ(fault_in(R"({"probe": {"tumours": [{"shape": "disk", "centre_mm": [1, 2, 0]}]}})"),
+            ": probe.tumours: [0] (disk) lacks radius_mm");
   EXPECT_EQ(fault_in(R"({"probe": {"tumours": [{"shape": "disk", "centre_mm": [1, 2, 0], "radius": 3}]}})"),
             ": probe.tumours: [0].radius is not a key of a disk; the nearest is radius_mm");
 }

@@ -1,16 +1,19 @@
 /// The field after the touches: an exact Gaussian-process posterior over a surface (Garg et al. 2016, equations 1 and 2).
 ///
-///     K + D = L L',  V = L^-1 K(sites, vertices),  mean = c + V' L^-1 (y - c),  variance = signal^2 (1 - sum V^2) + (what not knowing c adds)
+///     K + D = L L',  V = L^-1 K(sites, vertices),  mean = c + V' L^-1 (y - c),  variance = signal^2 (1 - sum V^2) + (what not knowing c
+///     adds)
 ///
-/// where K is the matrix of correlations and D the noise of each site over the signal's variance: nothing else is ever added to the diagonal. A constant
-/// of unknown value is integrated out (universal kriging).
+/// where K is the matrix of correlations and D the noise of each site over the signal's variance: nothing else is ever added to the
+/// diagonal. A constant of unknown value is integrated out (universal kriging).
 ///
-/// A value: conditioning makes another belief. Copies share the rows of L and V they have in common, which are only ever appended, so "suppose I touched
-/// there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point operations.
+/// A value: conditioning makes another belief. Copies share the rows of L and V they have in common, which are only ever appended, so
+/// "suppose I touched there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point
+/// operations.
 ///
-/// Laws: (1) the order of readings does not matter beyond rounding; (2) variance never grows by conditioning, and does not depend on the readings unless
-/// they are standardized; (3) variance is that of the field, never containing noise, and never below s / (s + |k|^2) signal^2, s the least noise in D.
-/// Without any reading the answer is the prior's: mean 0 (or the constant's mean), variance of the field about its constant.
+/// Laws: (1) the order of readings does not matter beyond rounding; (2) variance never grows by conditioning, and does not depend on the
+/// readings unless they are standardized; (3) variance is that of the field, never containing noise, and never below s / (s + |k|^2)
+/// signal^2, s the least noise in D. Without any reading the answer is the prior's: mean 0 (or the constant's mean), variance of the field
+/// about its constant.
 #pragma once
 
 #include <memory>
@@ -30,10 +33,10 @@ struct Marginals {
 };
 
 struct BeliefOptions {
-  double noise_sd = 0.0;            ///< of a reading whose own variance is not given
-  bool noise_is_relative = false;   ///< noise_sd is a fraction of the kernel's signal_sd
-  bool standardize = false;         ///< the kernel's signal_sd and the constant's sd are multiples of the readings' standard deviation, and the constant's
-                                    ///< mean is the readings' mean: outputs z-scored, as GPy does
+  double noise_sd = 0.0;           ///< of a reading whose own variance is not given
+  bool noise_is_relative = false;  ///< noise_sd is a fraction of the kernel's signal_sd
+  bool standardize = false;  ///< the kernel's signal_sd and the constant's sd are multiples of the readings' standard deviation, and the
+                             ///< constant's mean is the readings' mean: outputs z-scored, as GPy does
 };
 
 class Belief {
@@ -46,14 +49,15 @@ class Belief {
   const std::vector<Palpation>& palpations() const { return palpations_; }
   int site_count() const { return static_cast<int>(sites_.size()); }
 
-  /// The belief after more touches. Throws as gather_sites and merge, and NumericalError naming the site and its pivot where K + D is not positive
-  /// definite in double precision (two sites all but coincide, without noise).
+  /// The belief after more touches. Throws as gather_sites and merge, and NumericalError naming the site and its pivot where K + D is not
+  /// positive definite in double precision (two sites all but coincide, without noise).
   Belief condition_on(std::span<const Palpation> more) const;
 
   Marginals at_vertices() const;
   Marginals at(std::span<const SurfacePoint> points) const;
 
-  /// Log density of the readings; restricted to what does not depend on the constant where that is unknown (REML, without the term log|H'H|/2).
+  /// Log density of the readings; restricted to what does not depend on the constant where that is unknown (REML, without the term
+  /// log|H'H|/2).
   double log_marginal_likelihood() const;
 
   /// The noise variance of a reading whose own is not given, reading units squared.
@@ -78,21 +82,21 @@ class Belief {
   BeliefOptions options_;
   std::vector<Palpation> palpations_;
   std::vector<Site> sites_;
-  std::vector<double> readings_;   // merged, one per site
-  std::vector<double> diagonal_;   // D
-  double spread_ = 1.0;            // of the readings, if standardized
-  double centre_ = 0.0;            // prior mean of the constant
+  std::vector<double> readings_;  // merged, one per site
+  std::vector<double> diagonal_;  // D
+  double spread_ = 1.0;           // of the readings, if standardized
+  double centre_ = 0.0;           // prior mean of the constant
 
   std::vector<std::shared_ptr<const Rows>> rows_;
-  Eigen::VectorXd ones_;           // L^-1 1
-  Eigen::VectorXd whitened_;       // L^-1 (y - origin)
+  Eigen::VectorXd ones_;      // L^-1 1
+  Eigen::VectorXd whitened_;  // L^-1 (y - origin)
   double origin_ = 0.0;
-  Field explained_;                // sum V^2 at the vertices
-  Field covered_;                  // |k|^2: squared correlations with the sites
-  Field v_ones_;                   // V' L^-1 1
-  Field v_whitened_;               // V' L^-1 (y - origin)
+  Field explained_;                  // sum V^2 at the vertices
+  Field covered_;                    // |k|^2: squared correlations with the sites
+  Field v_ones_;                     // V' L^-1 1
+  Field v_whitened_;                 // V' L^-1 (y - origin)
   double constant_precision_ = 0.0;  // posterior precision of c over the signal's; 0: c is not known at all, infinite: known
-  double constant_ = 0.0;          // posterior mean of c
+  double constant_ = 0.0;            // posterior mean of c
 };
 
 /// Posterior covariance of the field between one vertex and others: the row that a hypothetical touch there would add.

@@ -18,8 +18,9 @@ struct Kernel {
 void check(const Kernel& kernel);
 
 /// Correlation of the field at two places `difference` apart, in [0, 1]; 1 at zero. With r = |difference| / length:
-///   squared exponential exp(-r^2/2);  Matern 1/2 exp(-r);  3/2 (1 + s) exp(-s), s = sqrt(3) r;  5/2 (1 + s + s^2/3) exp(-s), s = sqrt(5) r;
-///   periodic: the squared exponential of the chord (period/pi) sin(pi d / period) in place of each coordinate d, a product over u and v.
+///   squared exponential exp(-r^2/2);  Matern 1/2 exp(-r);  3/2 (1 + s) exp(-s), s = sqrt(3) r;  5/2 (1 + s + s^2/3) exp(-s), s = sqrt(5)
+///   r; periodic: the squared exponential of the chord (period/pi) sin(pi d / period) in place of each coordinate d, a product over u and
+///   v.
 double correlation(const Kernel& kernel, const Vec3& difference);
 
 /// d correlation / d log(length).

@@ -25,8 +25,8 @@ struct Constant {
 
 class Prior {
  public:
-  /// Throws InvalidInput if the kernel is not valid (kernel.h), if it is periodic in the ambient metric, if the constant's sd is negative or NaN, and as
-  /// Surface::chart in the chart metric.
+  /// Throws InvalidInput if the kernel is not valid (kernel.h), if it is periodic in the ambient metric, if the constant's sd is negative
+  /// or NaN, and as Surface::chart in the chart metric.
   Prior(Surface surface, Metric metric, const Kernel& kernel, Constant constant = {});
 
   const Surface& surface() const { return surface_; }

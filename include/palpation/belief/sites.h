@@ -1,7 +1,7 @@
 /// Readings gathered by place: repeated touches of one site are one row of the model, exactly.
 ///
-/// For readings y_k of variance v_k at one place, the posterior depends on their precision-weighted mean and on sum 1/v_k alone; the likelihood also on
-/// their scatter, which `scatter_log_likelihood` adds (RELIABILITY: merging is both speed and stability).
+/// For readings y_k of variance v_k at one place, the posterior depends on their precision-weighted mean and on sum 1/v_k alone; the
+/// likelihood also on their scatter, which `scatter_log_likelihood` adds (RELIABILITY: merging is both speed and stability).
 #pragma once
 
 #include <span>

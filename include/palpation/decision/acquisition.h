@@ -1,6 +1,7 @@
 /// How much a touch at each vertex is worth. The field's published criteria, and room for your own:
 ///
-///     const Acquisition mine = Pointwise{.score = [](double mean, double sd, const Level& h) { return sd * std::exp(-std::abs(mean - h.value)); },
+///     const Acquisition mine = Pointwise{.score = [](double mean, double sd, const Level& h) { return sd * std::exp(-std::abs(mean -
+///     h.value)); },
 ///                                        .grows_with_stddev = true};
 #pragma once
 
@@ -32,7 +33,8 @@ struct Pointwise {
   Units units = Units::Readings;
 };
 
-/// A criterion of the whole belief: one score per vertex, evaluated anew for every pick, with the earlier picks' readings taken as their means.
+/// A criterion of the whole belief: one score per vertex, evaluated anew for every pick, with the earlier picks' readings taken as their
+/// means.
 struct Whole {
   std::function<Field(const Belief& belief, const Level& level)> scores;
 };
@@ -51,8 +53,8 @@ Pointwise ils_ucb(double gamma = 0.5, Scaling scaling = Scaling::Raw);
 /// Straddle: width stddev - |mean - level| (Bryan et al. 2005).
 Pointwise straddle(double width = 1.96);
 
-/// LSE's ambiguity: min(upper - level, level - lower) of the confidence interval mean +- width stddev; what is already classified (ambiguity below 0) ranks by how
-/// nearly it is not (Gotovos et al. 2013, without its intersection of intervals over time).
+/// LSE's ambiguity: min(upper - level, level - lower) of the confidence interval mean +- width stddev; what is already classified
+/// (ambiguity below 0) ranks by how nearly it is not (Gotovos et al. 2013, without its intersection of intervals over time).
 Pointwise lse_ambiguity(double width = 3.0);
 
 /// Scores drawn anew for every pick: touches at random. The same seed and number of touches draw the same scores.

@@ -24,21 +24,21 @@ namespace palpation {
 /// How the field is modelled. What is to be learned is learned anew after every batch.
 struct FieldModel {
   Metric metric = Metric::Chart;
-  Kernel kernel{};                   ///< its length and signal where they are not learned
+  Kernel kernel{};  ///< its length and signal where they are not learned
   Constant constant{};
-  BeliefOptions belief{};            ///< noise_sd where it is not learned; `standardize` acts only where nothing is learned
+  BeliefOptions belief{};  ///< noise_sd where it is not learned; `standardize` acts only where nothing is learned
   bool learn_length = true;
   bool learn_signal = true;
   bool learn_noise = true;
-  double length_median_m = 0.0035;   ///< of the length's prior (hyperparameters.h)
+  double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
 
   bool learns() const { return learn_length || learn_signal || learn_noise; }
 };
 
 /// How the level is found.
 struct LevelRule {
-  std::optional<double> known{};     ///< in reading units; else from the range of the mean
-  double fraction = 0.5;             ///< of the range
+  std::optional<double> known{};  ///< in reading units; else from the range of the mean
+  double fraction = 0.5;          ///< of the range
 };
 
 struct Plan {
@@ -46,16 +46,17 @@ struct Plan {
   Design initial = Design::Grid;
   int initial_count = 16;
   BatchOptions batch{};
-  int batches = 9;                   ///< after the initial one
-  double stop_error_m2 = 0.0;        ///< stop once the expected symmetric difference is no larger; 0: never
-  /// Explore by variance alone until the readings show contrast: for learned fields, which five readings of healthy tissue would teach that noise is all.
+  int batches = 9;             ///< after the initial one
+  double stop_error_m2 = 0.0;  ///< stop once the expected symmetric difference is no larger; 0: never
+  /// Explore by variance alone until the readings show contrast: for learned fields, which five readings of healthy tissue would teach that
+  /// noise is all.
   bool safe_start = true;
 };
 
 /// What may be touched.
 struct Reach {
-  std::vector<int> vertices{};       ///< rising; empty: all
-  bool touch_once = false;           ///< a touched vertex is no candidate any more
+  std::vector<int> vertices{};  ///< rising; empty: all
+  bool touch_once = false;      ///< a touched vertex is no candidate any more
 };
 
 class Exploration {
@@ -66,7 +67,8 @@ class Exploration {
   /// The next stops, in the order of travel from where the probe was last: first the initial design, then batches. Empty when finished.
   std::vector<int> next() const;
 
-  /// What was felt, at stops and on the way. Stops of the last next() that are not among them gave no contact and are no candidates any more.
+  /// What was felt, at stops and on the way. Stops of the last next() that are not among them gave no contact and are no candidates any
+  /// more.
   void record(std::span<const Palpation> palpations);
 
   /// Takes up readings that were made elsewhere or before: nothing is concluded from planned stops that are not among them.
@@ -82,7 +84,7 @@ class Exploration {
   const std::optional<Level>& level() const { return level_; }
   /// What the next batch maximizes, at the vertices.
   Field acquisition_field() const;
-  int batch() const { return batch_; }             ///< how many batches were recorded, the initial one included
+  int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
 
  private:
@@ -112,8 +114,8 @@ class Exploration {
   std::string stop_reason_;
 };
 
-/// Whether readings show more than noise: the greatest stands more than four robust standard deviations (1.4826 x the median absolute deviation) above
-/// the median of at least ten, or a smooth field explains them better than noise alone by three nats.
+/// Whether readings show more than noise: the greatest stands more than four robust standard deviations (1.4826 x the median absolute
+/// deviation) above the median of at least ten, or a smooth field explains them better than noise alone by three nats.
 bool shows_contrast(std::span<const double> readings, double signal_evidence);
 
 /// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit direction of travel, or zero.
@@ -121,11 +123,12 @@ using Probe = std::function<std::optional<Palpation>(const SurfacePoint& where, 
 
 /// Touches the stops in order, starting from where the last batch ended, and on the way every way_step_m (0: stops only).
 struct Tour {
-  std::vector<Palpation> palpations;   ///< in order
-  std::vector<SurfacePoint> way;       ///< the places between the stops, one per mm
+  std::vector<Palpation> palpations;  ///< in order
+  std::vector<SurfacePoint> way;      ///< the places between the stops, one per mm
   double length_m = 0.0;
 };
-Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe, double way_step_m);
+Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe,
+            double way_step_m);
 
 /// The whole loop: asks, touches, records, until the exploration is finished. `after_batch` is called after every record.
 void run(Exploration& exploration, const Probe& probe, const std::function<void(const Tour&)>& after_batch = {}, double way_step_m = 0.0);

@@ -11,10 +11,10 @@ namespace palpation {
 struct TraceRow {
   int batch = 0;
   int measurements = 0;
-  double path_m = 0.0;                          ///< travelled so far
+  double path_m = 0.0;  ///< travelled so far
   std::optional<double> level;
   std::optional<double> expected_error_m2;
-  std::optional<RegionError> error;             ///< where the truth is known
+  std::optional<RegionError> error;  ///< where the truth is known
 };
 
 using Trace = std::vector<TraceRow>;

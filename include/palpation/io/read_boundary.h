@@ -8,8 +8,8 @@
 
 namespace palpation {
 
-/// The region that the loops of kind "estimate" of a boundary.vtp bound (all loops, if the file does not tell kinds), in the surface's chart.
-/// Throws IoError, and InvalidInput where a point lies farther than 5 mm from the surface.
+/// The region that the loops of kind "estimate" of a boundary.vtp bound (all loops, if the file does not tell kinds), in the surface's
+/// chart. Throws IoError, and InvalidInput where a point lies farther than 5 mm from the surface.
 Region read_boundary_vtp(const std::filesystem::path& path, const Surface& surface);
 
 }  // namespace palpation
