@@ -15,6 +15,7 @@
 #include "palpation/io/wkt.h"
 #include "palpation/io/write_vtp.h"
 #include "tool/boundary_curves.h"
+#include "tool/words.h"
 
 extern char** environ;
 
@@ -128,6 +129,8 @@ json OutputFolder::summary(const Episode& episode) const {
   json parts = json::array();
   for (const PolygonWithHoles& polygon : episode.estimate.polygons()) parts.push_back(part_json(polygon));
   const std::optional<Level>& level = exploration.level();
+  std::vector<std::string> warnings = warnings_;
+  if (!exploration.contrast_seen()) warnings.emplace_back(kNoContrast);
   json result = {{"version", 1},
                  {"scene", scene_.name()},
                  {"seed", scene_.seed()},
@@ -146,7 +149,7 @@ json OutputFolder::summary(const Episode& episode) const {
                   {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
                    {"signal_sd", exploration.belief().signal_sd()},
                    {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
-                 {"warnings", warnings_},
+                 {"warnings", warnings},
                  {"stop_reason", exploration.stop_reason().empty() ? json(nullptr) : json(exploration.stop_reason())},
                  {"chart_hash", surface_.chart().hash()}};
   if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);

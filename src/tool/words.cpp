@@ -62,7 +62,9 @@ std::string episode_words(const Episode& episode) {
   const std::size_t readings = episode.exploration.belief().palpations().size();
   std::string words = counted(readings, "reading");
   if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
-  words += ".\n" + found_words(episode);
+  words += ".\n";
+  if (!episode.exploration.contrast_seen()) words += std::string(kNoContrast) + "\n";
+  words += found_words(episode);
   if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area());
   return words;
 }

@@ -10,6 +10,9 @@
 
 namespace palpation::tool {
 
+/// What is said of a field whose readings do not differ by more than noise.
+inline constexpr const char* kNoContrast = "The readings show no contrast beyond their noise: what is found below may be noise.";
+
 std::string fixed(double value, int digits);
 
 /// One line on the state after a batch.
