@@ -115,7 +115,7 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   all.insert(all.end(), palpations.begin(), palpations.end());
   belief_ = field_.learns() ? fitted(all) : belief_.condition_on(palpations);
   marginals_ = belief_.at_vertices();
-  if (belief_.site_count() > 0 && !level_rule_.known) level_ = level_from_range(marginals_, level_rule_.fraction);
+  if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) level_ = level_from_range(marginals_, level_rule_.fraction);
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
 }

@@ -21,11 +21,14 @@ void restate(Episode& episode) {
   row.batch = exploration.batch() - 1;
   row.measurements = static_cast<int>(exploration.belief().palpations().size());
   row.path_m = episode.path_m;
-  if (exploration.level() && exploration.belief().site_count() > 0) {
-    const Level level = *exploration.level();
-    row.level = level.value;
-    row.expected_error_m2 = expected_error(exploration.surface(), exploration.marginals(), level).symmetric_difference_m2();
-    episode.estimate = superlevel_region(exploration.surface(), exploration.marginals().mean, level.value);
+  if (exploration.belief().site_count() > 0) {
+    episode.estimate = Region();
+    if (exploration.level()) {
+      const Level level = *exploration.level();
+      row.level = level.value;
+      row.expected_error_m2 = expected_error(exploration.surface(), exploration.marginals(), level).symmetric_difference_m2();
+      episode.estimate = superlevel_region(exploration.surface(), exploration.marginals().mean, level.value);
+    }
     if (episode.truth) episode.error = compare(exploration.surface(), episode.estimate, *episode.truth);
     row.error = episode.error;
   }

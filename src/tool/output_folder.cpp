@@ -130,7 +130,7 @@ json OutputFolder::summary(const Episode& episode) const {
   for (const PolygonWithHoles& polygon : episode.estimate.polygons()) parts.push_back(part_json(polygon));
   const std::optional<Level>& level = exploration.level();
   std::vector<std::string> warnings = warnings_;
-  if (!exploration.contrast_seen()) warnings.emplace_back(kNoContrast);
+  if (exploration.belief().site_count() > 0 && !exploration.level()) warnings.emplace_back(kNoContrast);
   json result = {{"version", 1},
                  {"scene", scene_.name()},
                  {"seed", scene_.seed()},

@@ -10,7 +10,8 @@ std::string counted(std::size_t count, const std::string& noun) { return std::to
 
 std::string found_words(const Episode& episode) {
   const std::vector<PolygonWithHoles> parts = episode.estimate.polygons();
-  if (!episode.exploration.level()) return "No reading yet, so nothing is known.\n";
+  if (episode.exploration.belief().site_count() == 0) return "No reading yet, so nothing is known.\n";
+  if (!episode.exploration.level()) return std::string(kNoContrast) + "\n";
   const std::string level = "at the level " + fixed(episode.exploration.level()->value, 3);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
   std::string words =
@@ -62,9 +63,7 @@ std::string episode_words(const Episode& episode) {
   const std::size_t readings = episode.exploration.belief().palpations().size();
   std::string words = counted(readings, "reading");
   if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
-  words += ".\n";
-  if (!episode.exploration.contrast_seen()) words += std::string(kNoContrast) + "\n";
-  words += found_words(episode);
+  words += ".\n" + found_words(episode);
   if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area());
   return words;
 }

@@ -10,8 +10,8 @@
 
 namespace palpation::tool {
 
-/// What is said of a field whose readings do not differ by more than noise.
-inline constexpr const char* kNoContrast = "The readings show no contrast beyond their noise: what is found below may be noise.";
+/// What is said of readings that do not differ by more than noise.
+inline constexpr const char* kNoContrast = "Nothing found: the readings show no contrast beyond their noise.";
 
 std::string fixed(double value, int digits);
 

@@ -79,6 +79,7 @@ TEST(Exploration, ExploresByVarianceUntilThereIsContrast) {
   Random random(1);
   run(exploration, probe_of(healthy, random));
   EXPECT_FALSE(exploration.contrast_seen());
+  EXPECT_FALSE(exploration.level().has_value());  // the range of noise is no level
   // Fifty-six touches of 25 x 50 mm, spread evenly, leave no vertex farther than about 4.5 mm from one.
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
     double nearest = 1.0;

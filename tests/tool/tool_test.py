@@ -68,6 +68,17 @@ class Tool(unittest.TestCase):
         self.assertEqual(len((out / "trace.csv").read_text().splitlines()), 1 + 5)
         self.assertEqual(len((out / "waypoints.csv").read_text().splitlines()), 1 + 56)
 
+    def test_healthy_tissue_holds_nothing(self):
+        out = self.folder / "healthy"
+        words = self.done("simulate", self.scene, "--set", "probe.tumours=[]", "--out", out)
+        self.assertIn("Nothing found", words)
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertEqual(summary["parts"], [])
+        self.assertIsNone(summary["level"])
+        self.assertEqual(summary["error"]["dice"], 1.0)
+        self.assertIsNone(summary["error"]["hausdorff_mm"])
+        self.assertEqual((out / "boundary.wkt").read_text(), "MULTIPOLYGON EMPTY\n")
+
     def test_the_files_are_the_same_bytes_at_one_and_two_threads(self):
         for threads in (1, 2):
             self.done("simulate", self.scene, "--out", self.folder / str(threads), "--threads", threads, "--quiet")

@@ -80,7 +80,7 @@ class Exploration {
   const Surface& surface() const { return surface_; }
   const Belief& belief() const { return belief_; }
   const Marginals& marginals() const { return marginals_; }
-  /// The level as it is estimated now; nothing before the first reading unless it is known.
+  /// The level as it is estimated now; nothing before the readings show contrast, unless it is known: the range of noise is no level.
   const std::optional<Level>& level() const { return level_; }
   /// What the next batch maximizes, at the vertices.
   Field acquisition_field() const;
