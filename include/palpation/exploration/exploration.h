@@ -45,7 +45,7 @@ struct Plan {
   Acquisition acquisition = ils_ucb();
   Design initial = Design::Grid;
   int initial_count = 16;
-  BatchOptions batch{};
+  BatchOptions batch{.least_spacing_m = 0.0005};
   int batches = 9;             ///< after the initial one
   double stop_error_m2 = 0.0;  ///< stop once the expected symmetric difference is no larger; 0: never
   /// Explore by variance alone until the readings show contrast: for learned fields, which five readings of healthy tissue would teach that
