@@ -32,7 +32,8 @@ Result explored(const TriangleMesh& mesh, double scale = 1.0, const Eigen::Isome
   field.kernel.length_m = 0.0033 * scale;
   field.belief.noise_sd = 0.1;
   field.learn_length = field.learn_signal = field.learn_noise = false;
-  Exploration exploration(tissue, field, {.known = 8.0}, {.acquisition = straddle(), .initial_count = 0, .batches = 4}, 1);
+  Exploration exploration(tissue, field, {.known = 8.0},
+                          {.acquisition = straddle(), .initial_count = 0, .batch = {.least_spacing_m = 0.0005 * scale}, .batches = 4}, 1);
 
   // The first touches are at the same places of the tissue, wherever it lies.
   Random unused(0);
