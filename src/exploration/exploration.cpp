@@ -44,6 +44,22 @@ std::vector<double> used_readings(std::span<const Palpation> palpations) {
   return readings;
 }
 
+/// Mean and standard deviation of the readings, as BeliefOptions::standardize takes them.
+struct Spread {
+  double mean = 0.0;
+  double sd = 1.0;
+};
+
+Spread spread_of(const std::vector<double>& readings) {
+  Spread spread;
+  double square = 0.0;
+  for (double reading : readings) spread.mean += (reading - readings.front()) / static_cast<double>(readings.size());
+  spread.mean += readings.front();
+  for (double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / static_cast<double>(readings.size());
+  if (square > 0.0) spread.sd = std::sqrt(square);
+  return spread;
+}
+
 /// The vertex that a palpation touched, or -1.
 int touched_vertex(const Surface& surface, const Palpation& palpation) {
   for (int corner = 0; corner < 3; ++corner) {
@@ -71,7 +87,7 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
       plan_(std::move(plan)),
       random_(seed),
       reachable_(static_cast<std::size_t>(surface_.vertex_count()), reach.vertices.empty()),
-      touch_once_(reach.touch_once),
+      touch_once_(reach.touch_once || (!field_.learn_noise && field_.belief.noise_sd == 0.0)),
       belief_(unlearned(surface_, field_)),
       marginals_(belief_.at_vertices()) {
   require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
@@ -129,15 +145,20 @@ Belief Exploration::fitted(std::span<const Palpation> palpations) {
   if (!field_.learn_length) options.length_m = field_.kernel.length_m;
   if (!field_.learn_signal) options.signal_sd = field_.kernel.signal_sd;
   if (!field_.learn_noise) options.noise_sd = field_.belief.noise_sd;
-  const Learned learned = learn(fresh.prior(), palpations, learned_, options);
+  // A field of zero mean around the readings' mean, if they are standardized: what is learned is in reading units all the same.
+  const bool centred = field_.belief.standardize && field_.constant.sd == 0.0;
+  const Spread spread = centred ? spread_of(used_readings(palpations)) : Spread{};
+  std::vector<Palpation> shifted(palpations.begin(), palpations.end());
+  for (Palpation& palpation : shifted) palpation.reading -= spread.mean;
+  const Learned learned = learn(fresh.prior(), shifted, learned_, options);
   learned_ = learned.values;
   if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(palpations), learned.signal_evidence);
 
   Kernel kernel = field_.kernel;
   kernel.length_m = learned_.length_m;
-  kernel.signal_sd = learned_.signal_sd;
+  kernel.signal_sd = learned_.signal_sd / spread.sd;
   const Prior prior(surface_, field_.metric, kernel, field_.constant);
-  return Belief(prior, {.noise_sd = learned_.noise_sd}).condition_on(palpations);
+  return Belief(prior, {.noise_sd = learned_.noise_sd, .standardize = centred}).condition_on(palpations);
 }
 
 /// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length

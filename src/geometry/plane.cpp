@@ -7,7 +7,7 @@
 namespace palpation {
 namespace {
 
-constexpr double kFlatness = 1e-9;  // of the diameter
+constexpr double kFlatness = 1e-6;  // of the diameter: what single precision, as in STL, keeps of a tilted plane
 
 /// Twice the area times the normal.
 Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {

@@ -44,6 +44,7 @@ Region read_boundary_vtp(const std::filesystem::path& path, const Surface& surfa
   check_arrays(source, poly->GetCellData(), poly->GetNumberOfCells(), "cells");
   auto* kinds = vtkStringArray::SafeDownCast(poly->GetCellData()->GetAbstractArray("kind_name"));
   const VtpCells lines(source, poly->GetLines(), "Lines");
+  if (lines.count() == 0 && poly->GetNumberOfCells() > 0) source.fail("holds no lines, so it is no boundary");
   std::vector<Ring> rings;
   for (vtkIdType line = 0; line < lines.count(); ++line) {
     if (!is_estimate(kinds, poly->GetNumberOfVerts() + line)) continue;

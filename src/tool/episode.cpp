@@ -120,10 +120,13 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
 
 }  // namespace
 
-Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
+bool is_scan(const Scene& scene) {
   const std::string strategy = scene.word("plan.acquisition");
-  return strategy == "raster" || strategy == "refinement" ? run_scan(scene, surface, world, after_batch)
-                                                          : run_exploration(scene, surface, world, after_batch);
+  return strategy == "raster" || strategy == "refinement";
+}
+
+Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
+  return is_scan(scene) ? run_scan(scene, surface, world, after_batch) : run_exploration(scene, surface, world, after_batch);
 }
 
 Episode episode_from(const Scene& scene, const Surface& surface, std::span<const Palpation> palpations) {

@@ -41,6 +41,9 @@ struct Episode {
 
 using AfterBatch = std::function<void(const Episode&)>;
 
+/// Whether the scene asks for a classical scan in place of batches.
+bool is_scan(const Scene& scene);
+
 /// Runs the scene's plan to its end. Pictures of intermediate states are the caller's, by after_batch.
 Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch = {});
 

@@ -122,7 +122,7 @@ std::vector<Cell> table_cells(const Scene& base, bool keep_tumours) {
 
 struct Statistics {
   double mean = 0.0;
-  double standard_error = 0.0;
+  std::optional<double> standard_error{};  ///< nothing for a single trial
 };
 
 Statistics statistics(const std::vector<double>& values) {
@@ -181,11 +181,13 @@ void report_table(const std::vector<Cell>& cells, const Errors& errors, const Ex
           arguments.trials);
     }
     if (cell.algorithm == "evr") std::printf("%-12s%-12s", cell.row.c_str(), cell.shape.c_str());
-    std::printf("  %-8s%7.3f +-%6.3f (%s)", cell.algorithm.c_str(), result.mean, result.standard_error,
+    const std::string spread = result.standard_error ? fixed(*result.standard_error, 3) : "-";
+    std::printf("  %-8s%7.3f +- %-5s (%s)", cell.algorithm.c_str(), result.mean, spread.c_str(),
                 cell.printed ? fixed(*cell.printed, 3).c_str() : "  -  ");
     if (cell.algorithm == "ils-ucb") std::printf("\n");
     csv += cell.level + "," + cell.row + "," + cell.shape + "," + cell.algorithm + "," + std::to_string(arguments.trials) + "," +
-           text_of(result.mean) + "," + text_of(result.standard_error) + "," + (cell.printed ? text_of(*cell.printed) : "") + "\n";
+           text_of(result.mean) + "," + (result.standard_error ? text_of(*result.standard_error) : "") + "," +
+           (cell.printed ? text_of(*cell.printed) : "") + "\n";
   }
   if (!arguments.out.empty()) write_atomically(arguments.out / "table1.csv", csv);
 }
@@ -219,7 +221,7 @@ void report_figure(const std::vector<Cell>& cells, const Errors& errors, const S
           if (step < trial.size()) values.push_back(trial[step]);
         }
         const Statistics result = statistics(values);
-        line += "," + text_of(result.mean) + "," + text_of(result.standard_error);
+        line += "," + text_of(result.mean) + "," + (result.standard_error ? text_of(*result.standard_error) : "");
       }
       std::printf("%s\n", line.c_str());
       csv += line + "\n";

@@ -50,11 +50,17 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
   scene_command(app, arguments, "simulate", "Run the whole plan on a simulated phantom")->callback([&] { simulate(arguments.scene); });
 
   CLI::App* planning = scene_command(app, arguments, "plan", "Where to touch next, from what was measured so far");
-  planning->add_option("--measurements", arguments.measurements, "CSV with columns x,y,z,reading [m]")->required();
+  planning
+      ->add_option("--measurements", arguments.measurements,
+                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever robot.from_tissue says")
+      ->required();
   planning->callback([&] { plan(arguments.scene, arguments.measurements); });
 
   CLI::App* bounding = scene_command(app, arguments, "boundary", "Where the tumour ends, from what was measured");
-  bounding->add_option("--measurements", arguments.measurements, "CSV with columns x,y,z,reading [m]")->required();
+  bounding
+      ->add_option("--measurements", arguments.measurements,
+                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever robot.from_tissue says")
+      ->required();
   bounding->callback([&] { boundary(arguments.scene, arguments.measurements); });
 
   CLI::App* replaying = scene_command(app, arguments, "replay", "Run the whole plan, each touch answered from dense recordings");
@@ -72,7 +78,9 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
 void add_mesh_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* telling = app.add_subcommand("info", "What a mesh is, what it supports, and what to do next");
   telling->add_option("MESH", arguments.info.mesh, "OBJ, OFF, STL, PLY or VTP")->required();
-  telling->add_option("--unit", arguments.info.unit, "of its coordinates: mm, cm or m")->required();
+  telling->add_option("--unit", arguments.info.unit, "of its coordinates: mm, cm or m")
+      ->required()
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
   telling->callback([&] { info(arguments.info); });
 
   CLI::App* making = app.add_subcommand("mesh", "Make a phantom");
@@ -85,7 +93,7 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
   making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording");
   making->add_option("--edge-mm", arguments.mesh.edge_mm, "length of the cells around a recording");
   making->add_option("--seed", arguments.mesh.seed, "of the jitter");
-  making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m");
+  making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m")->check(CLI::IsMember({"mm", "cm", "m"}));
   making->callback([&] { make_mesh(arguments.mesh); });
 }
 
@@ -120,6 +128,8 @@ int explain(const char* words, int code) {
 int run_tool(int count, char** words) {
   CLI::App app("Decides where a robot should touch tissue next, and says where the tumour under the surface ends and how sure that is.");
   app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", PALPATION_VERSION);
   app.footer(
       "Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 wrong usage, 3 an input is at fault, 4 "
       "the machine or the arithmetic failed, 130 interrupted.");

@@ -66,9 +66,11 @@ void advise(const Surface& surface) {
     std::printf("Next: name it as surface.mesh of a scene (palpate help scene) and run palpate simulate or palpate plan.\n");
   } else if (topology.is_closed()) {
     std::printf("Closed: it cannot be laid flat as a whole, so it has no chart.\n");
-    std::printf("Next: choose the part to work on by surface.patch (centre_mm, radius_mm) in a scene; a flat part can be planned on.\n");
+    std::printf(
+        "Next: choose a flat part to work on by surface.patch (centre_mm, radius_mm) in a scene; boundaries are drawn on flat tissue only "
+        "so far.\n");
   } else {
-    std::printf("Curved: it has no chart of its own; the ambient metric models it, but a boundary needs a chart.\n");
+    std::printf("Curved: it has no chart of its own, and boundaries are drawn on flat tissue only so far.\n");
     std::printf("Next: choose a flat part by surface.patch (centre_mm, radius_mm) in a scene.\n");
   }
 }

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -170,7 +171,26 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
   write_boundary_vtp(folder_ / "boundary.vtp", surface_, curves);
 }
 
+/// A folder that holds two runs contradicts itself: a robot must not follow the waypoints of another plan.
+void OutputFolder::remove_what_an_earlier_run_left(const std::set<std::string>& written) const {
+  for (const char* name : {"waypoints.csv", "path.csv", "trace.csv", "steps.pvd", "picture.png", "convergence.png"}) {
+    if (!written.contains(name)) std::filesystem::remove(folder_ / name);
+  }
+  if (!std::filesystem::is_directory(folder_ / "steps")) return;
+  std::vector<std::filesystem::path> stale;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "steps")) {
+    const std::string name = "steps/" + entry.path().filename().string();
+    if (name.starts_with("steps/step_") && std::find(steps_.begin(), steps_.end(), name) == steps_.end()) stale.push_back(entry.path());
+  }
+  for (const auto& path : stale) std::filesystem::remove(path);
+}
+
 void OutputFolder::write(const Episode& episode, const World* world, const json& timings) {
+  std::set<std::string> written;
+  if (has_waypoints_) written.insert({"waypoints.csv", "path.csv"});
+  if (!episode.trace.empty()) written.insert("trace.csv");
+  if (!steps_.empty()) written.insert("steps.pvd");
+  remove_what_an_earlier_run_left(written);
   write_surface_vtp(folder_ / "surface.vtp", surface_, fields_of(episode, world));
   write_boundary(episode, world);
   write_atomically(folder_ / "measurements.csv", measurements_csv(surface_, episode.exploration.belief().palpations()));
@@ -183,6 +203,7 @@ void OutputFolder::write(const Episode& episode, const World* world, const json&
 void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way) {
   write_atomically(folder_ / "waypoints.csv", waypoint_csv(stops));
   write_atomically(folder_ / "path.csv", waypoint_csv(way));
+  has_waypoints_ = true;
 }
 
 void OutputFolder::write_comparison(const RegionError& error) {

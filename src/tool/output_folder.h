@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ class OutputFolder {
   /// summary.json, timings.json, trace.csv, measurements.csv, boundary.wkt, boundary.vtp, surface.vtp, steps.pvd.
   void write(const Episode& episode, const World* world, const nlohmann::json& timings);
 
-  /// waypoints.csv and path.csv: the stops, and the places between them.
+  /// waypoints.csv and path.csv: the stops, and the places between them. Before write().
   void write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way);
 
   /// summary.json of two boundaries that were compared.
@@ -37,6 +38,7 @@ class OutputFolder {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  void remove_what_an_earlier_run_left(const std::set<std::string>& written) const;
   nlohmann::json summary(const Episode& episode) const;
   void write_boundary(const Episode& episode, const World* world);
 
@@ -45,6 +47,7 @@ class OutputFolder {
   Surface surface_;
   std::vector<std::string> warnings_;
   std::vector<std::string> steps_;
+  bool has_waypoints_ = false;
 };
 
 /// Why the programs' picture could not be drawn, or nothing: runs palpate-draw, which lies beside this program, with the given arguments.

@@ -11,16 +11,27 @@ namespace palpation::tool {
 namespace {
 
 constexpr int kBarWidth = 30;
+constexpr int kInterruptedCode = 130;
 volatile std::sig_atomic_t interrupted = 0;
 
+constexpr unsigned kPatience_s = 2;
+
+/// Long arithmetic does not look at the mark: then the program ends by itself. Files are renamed only when they are whole, so nothing is
+/// half-written.
 void on_interrupt(int) {
+  if (interrupted != 0) ::_exit(kInterruptedCode);
   interrupted = 1;
-  std::signal(SIGINT, SIG_DFL);
+  ::alarm(kPatience_s);
 }
+
+void on_alarm(int) { ::_exit(kInterruptedCode); }
 
 }  // namespace
 
-void watch_for_interrupt() { std::signal(SIGINT, on_interrupt); }
+void watch_for_interrupt() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGALRM, on_alarm);
+}
 
 void check_interrupt() {
   if (interrupted != 0) throw Interrupted();

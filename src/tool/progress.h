@@ -12,7 +12,7 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// From now on Ctrl-C only sets a mark, and a second one kills.
+/// From now on Ctrl-C sets a mark; if nobody looks at it for two seconds, or at a second Ctrl-C, the program ends with 130.
 void watch_for_interrupt();
 /// Throws Interrupted if the mark is set.
 void check_interrupt();

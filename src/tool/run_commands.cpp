@@ -82,6 +82,9 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements) {
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
+  if (is_scan(scene))
+    scene.refuse("plan.acquisition",
+                 "raster and refinement are whole scans, which palpate simulate and replay run: there is no next batch");
   const Tissue tissue = tissue_of(scene);
   const std::vector<Palpation> palpations = read_measurements(measurements, tissue.surface);
   const Episode episode = episode_from(scene, tissue.surface, palpations);
@@ -99,8 +102,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
   for (const std::string& warning : tissue.warnings) output.warn(warning);
-  output.write(episode, nullptr, {{"run_s", running.seconds()}});
   output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot));
+  output.write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(output, arguments.quiet);
 }
 

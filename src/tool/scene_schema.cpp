@@ -68,11 +68,13 @@ std::vector<SceneKey> make_scene_keys() {
       number("field.noise_to_signal", "", 0.0, 1e6, nullptr, "in place of field.noise: the same as a fraction of a fixed signal_sd"),
       number("field.length_prior_mm", "mm", kLeastLength_mm, kMostLength_mm, 3.5,
              "what a learned length is likely to be: the median of a lognormal prior (spread 0.4)"),
-      number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "of the periodic kernel"),
+      number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "period of the periodic kernel, the same along both axes"),
       word("field.trend", {"zero", "constant"}, "constant", "mean of the field before any reading"),
       number("field.constant_sd", "reading", 0.0, 1e150, nullptr,
              "how well that constant is known beforehand (as signal_sd); left out: not at all"),
-      truth("field.standardize", true, "readings are z-scored, as GPy does; matters only where nothing is learned"),
+      truth("field.standardize", true,
+            "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
+            "mean"),
       word("level.estimate", {"known", "range"}, "range",
            "where tissue becomes tumour: known beforehand, or min + fraction (max - min) of the mean"),
       number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5, "of that range; it also defines the true outline of a simulated tumour"),
@@ -118,7 +120,7 @@ std::string join(const std::vector<std::string>& words, const std::string& betwe
 
 std::string range_text(const SceneKey& key) {
   if (key.least <= -kAny && key.most >= kAny) return "any number";
-  if (key.most >= 1e150) return "at least " + text_of(key.least);
+  if (key.most >= kAny) return "at least " + text_of(key.least);
   return text_of(key.least) + " to " + text_of(key.most);
 }
 

@@ -1,5 +1,6 @@
 #include "tool/setup.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "palpation/base/error.h"
@@ -14,6 +15,8 @@ TriangleMesh mesh_of(const Scene& scene, std::vector<std::string>& warnings) {
   if (scene.has("surface.plane.size_mm") && !scene.has("surface.mesh")) {
     const std::vector<double> size_mm = scene.numbers("surface.plane.size_mm");
     const std::vector<double> vertices = scene.numbers("surface.plane.vertices");
+    if (vertices[0] != std::floor(vertices[0]) || vertices[1] != std::floor(vertices[1]))
+      scene.refuse("surface.plane.vertices", "must be whole numbers");
     Random unused(0);
     return make_plane(
         {.size_m = Vec2(size_mm[0], size_mm[1]) / 1000.0, .columns = static_cast<int>(vertices[0]), .rows = static_cast<int>(vertices[1])},
@@ -37,10 +40,12 @@ void check_chart(const Scene& scene, const Surface& surface) {
   if (surface.has_chart()) return;
   if (surface.topology().is_closed()) {
     scene.refuse("surface",
-                 "the mesh is a closed surface, which cannot be laid flat as a whole: choose the part to work on by surface.patch "
+                 "the mesh is a closed surface, which cannot be laid flat as a whole: choose a flat part to work on by surface.patch "
                  "(centre_mm and radius_mm)");
   }
-  scene.refuse("surface", "the tissue has no chart: it is not flat");
+  scene.refuse("surface",
+               "the tissue is curved, and boundaries are drawn on flat tissue only so far: choose a flat part by surface.patch (palpate "
+               "info tells what the mesh is)");
 }
 
 Acquisition acquisition_of(const Scene& scene) {
@@ -62,6 +67,8 @@ Tissue tissue_of(const Scene& scene) {
     scene.refuse("surface", "has both a mesh and a plane: give one of them");
   if (!scene.has("surface.mesh") && !scene.has("surface.plane.size_mm"))
     scene.refuse("surface.mesh", "is needed: the file of the tissue's mesh");
+  if (scene.has("surface.patch.radius_mm") && !scene.has("surface.patch.centre_mm"))
+    scene.refuse("surface.patch", "has a radius but no centre_mm");
   std::vector<std::string> warnings;
   TriangleMesh mesh = mesh_of(scene, warnings);
   if (scene.has("surface.patch.centre_mm"))
@@ -83,6 +90,7 @@ FieldModel field_of(const Scene& scene) {
   if (!field.learn_signal) field.kernel.signal_sd = scene.number("field.signal_sd");
   field.learn_noise = scene.word("field.noise") == "learn" && !scene.has("field.noise_to_signal");
   if (scene.has("field.noise_to_signal")) {
+    if (scene.word("field.noise") != "learn") scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
     if (field.learn_length || field.learn_signal)
       scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
     field.belief.noise_sd = scene.number("field.noise_to_signal");
@@ -95,14 +103,16 @@ FieldModel field_of(const Scene& scene) {
     field.constant.sd = 0.0;
   else if (scene.has("field.constant_sd"))
     field.constant.sd = scene.number("field.constant_sd");
-  field.belief.standardize = scene.truth("field.standardize") && !field.learns();
+  field.belief.standardize = scene.truth("field.standardize");
   return field;
 }
 
 LevelRule level_rule_of(const Scene& scene) {
   LevelRule rule;
   rule.fraction = scene.number("level.fraction");
-  if (scene.word("level.estimate") == "known") rule.known = scene.number("level.value");
+  const bool known = scene.word("level.estimate") == "known";
+  if (!known && scene.has("level.value")) scene.refuse("level.value", "has no effect unless level.estimate is known");
+  if (known) rule.known = scene.number("level.value");
   return rule;
 }
 

@@ -187,11 +187,11 @@ TEST(Surface, IsPlanarWhereverThePlaneIs) {
   EXPECT_FALSE(Surface(zoo::tetrahedron_mesh()).is_planar());
 }
 
-TEST(Surface, IsNotPlanarOnceAVertexStandsOutByMoreThanABillionth) {
+TEST(Surface, IsNotPlanarOnceAVertexStandsOutByMoreThanAMillionth) {
   TriangleMesh mesh = zoo::unit_square_mesh(4);
-  mesh.vertices(12, 2) = 1e-9;
+  mesh.vertices(12, 2) = 1e-6;
   EXPECT_TRUE(Surface(mesh).is_planar());  // the diameter is 1.4
-  mesh.vertices(12, 2) = 2e-9;
+  mesh.vertices(12, 2) = 2e-6;
   EXPECT_FALSE(Surface(mesh).is_planar());
 }
 

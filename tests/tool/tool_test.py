@@ -99,6 +99,26 @@ class Tool(unittest.TestCase):
         self.assertEqual(len((planned / "waypoints.csv").read_text().splitlines()), 1 + 10)
         self.assertIn("budget", self.done("plan", self.scene, "--measurements", run / "measurements.csv"))
 
+    def test_a_second_run_leaves_nothing_of_the_first(self):
+        out = self.folder / "out"
+        self.done("simulate", self.scene, "--out", out)
+        measured = self.write("measured.csv", (out / "measurements.csv").read_text())
+        self.done("boundary", self.scene, "--measurements", measured, "--out", out)
+        names = {path.name for path in out.iterdir()}
+        self.assertNotIn("waypoints.csv", names, "a robot must not follow the waypoints of another plan")
+        self.assertNotIn("steps.pvd", names)
+
+    def test_a_field_of_zero_mean_is_about_the_readings_mean(self):
+        self.done("simulate", self.scene, "--set", "field.trend=zero", "--out", self.folder / "zero")
+        summary = json.loads((self.folder / "zero" / "summary.json").read_text())
+        self.assertLess(summary["error"]["percent_of_search_area"], 3.0)
+
+    def test_values_without_effect_are_refused(self):
+        for value in ("level.value=8", "surface.patch.radius_mm=5"):
+            self.refused(3, "simulate", self.scene, "--set", value)
+        nothing = self.write("nothing.csv", "x,y,z,reading\n")
+        self.assertIn("raster", self.refused(3, "plan", self.scene, "--set", "plan.acquisition=raster", "--measurements", nothing))
+
     def test_plan_without_measurements_asks_for_the_first_touches(self):
         nothing = self.write("nothing.csv", "x,y,z,reading\n")
         self.assertIn("Touch next", self.done("plan", self.scene, "--measurements", nothing))
@@ -108,8 +128,11 @@ class Tool(unittest.TestCase):
         b = self.write("b.wkt", "POLYGON ((0.005 0.01, 0.015 0.01, 0.015 0.03, 0.005 0.03, 0.005 0.01))")
         self.assertIn("100.00 mm2 wrong", self.done("compare", self.scene, a, b))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", self.scene, a, a))
+        millimetres = self.write("mm.wkt", "POLYGON ((10 10, 20 10, 20 20, 10 10))")
+        self.assertIn("off the tissue", self.refused(3, "compare", self.scene, a, millimetres))
         run = self.folder / "run"
         self.done("simulate", self.scene, "--out", run)
+        self.assertIn("no boundary", self.refused(3, "compare", self.scene, run / "surface.vtp", a))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", self.scene, run / "boundary.wkt", run / "boundary.vtp"))
 
     def test_mesh_makes_what_info_describes(self):

@@ -26,7 +26,8 @@ struct FieldModel {
   Metric metric = Metric::Chart;
   Kernel kernel{};  ///< its length and signal where they are not learned
   Constant constant{};
-  BeliefOptions belief{};  ///< noise_sd where it is not learned; `standardize` acts only where nothing is learned
+  BeliefOptions belief{};  ///< noise_sd where it is not learned; where anything is learned, `standardize` only centres a field of zero mean
+                           ///< on the readings' mean
   bool learn_length = true;
   bool learn_signal = true;
   bool learn_noise = true;
@@ -56,7 +57,7 @@ struct Plan {
 /// What may be touched.
 struct Reach {
   std::vector<int> vertices{};  ///< rising; empty: all
-  bool touch_once = false;      ///< a touched vertex is no candidate any more
+  bool touch_once = false;      ///< a touched vertex is no candidate any more; so too where readings have no noise
 };
 
 class Exploration {
