@@ -1,5 +1,6 @@
 #include "palpation/io/measurements.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,7 @@ namespace palpation {
 namespace {
 
 constexpr double kFarthest = 0.005;
+constexpr double kUnremarkable = 0.0001;
 
 using Cells = std::vector<std::optional<double>>;
 
@@ -76,24 +78,33 @@ std::string noise_text(double variance) { return std::isnan(variance) ? std::str
 
 }  // namespace
 
-std::vector<Palpation> read_measurements(const std::filesystem::path& path, const Surface& surface) {
+MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface) {
   const CsvTable table = read_csv(path);
   const std::vector<double> x = finite_numbers(table, "x"), y = finite_numbers(table, "y"), z = finite_numbers(table, "z");
   const std::vector<double> readings = finite_numbers(table, "reading");
   const Cells noise = optional_numbers(table, "noise_variance");
   const std::array<Cells, 3> travel = {optional_numbers(table, "tx"), optional_numbers(table, "ty"), optional_numbers(table, "tz")};
-  std::vector<Palpation> palpations;
-  palpations.reserve(table.rows.size());
+  MeasurementsFile file;
+  file.palpations.reserve(table.rows.size());
+  int moved = 0;
+  double farthest = 0.0;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    palpations.push_back({.where = place_on(surface, Vec3(x[row], y[row], z[row]), table, row),
-                          .reading = readings[row],
-                          .noise_variance = noise_variance_at(noise, table, row),
-                          .batch = batch_at(table, row),
-                          .kind = kind_at(table, row),
-                          .travel = travel_at(travel, table, row),
-                          .set_aside = word_at(table, row, "set_aside")});
+    file.palpations.push_back({.where = place_on(surface, Vec3(x[row], y[row], z[row]), table, row),
+                               .reading = readings[row],
+                               .noise_variance = noise_variance_at(noise, table, row),
+                               .batch = batch_at(table, row),
+                               .kind = kind_at(table, row),
+                               .travel = travel_at(travel, table, row),
+                               .set_aside = word_at(table, row, "set_aside")});
+    const double distance = (surface.position(file.palpations.back().where) - Vec3(x[row], y[row], z[row])).norm();
+    farthest = std::max(farthest, distance);
+    if (distance > kUnremarkable) ++moved;
   }
-  return palpations;
+  if (moved > 0) {
+    file.warnings.push_back(table.name + ": " + std::to_string(moved) + " of " + std::to_string(table.rows.size()) +
+                            " positions lay off the surface, by up to " + text_of(farthest) + " m, and were taken to its closest points.");
+  }
+  return file;
 }
 
 std::string measurements_csv(const Surface& surface, std::span<const Palpation> palpations) {

@@ -19,6 +19,10 @@ Scene scene_of(const SceneArguments& arguments) {
   return arguments.seed ? scene.with("seed", *arguments.seed) : scene;
 }
 
+void tell(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
+}
+
 /// The whole run of `simulate` and `replay`, to the files and the words.
 void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world,
                     double prepared_seconds) {
@@ -70,11 +74,14 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
   const Tissue tissue = tissue_of(scene);
-  const Episode episode = episode_from(scene, tissue.surface, read_measurements(measurements, tissue.surface));
+  const MeasurementsFile measured = read_measurements(measurements, tissue.surface);
+  tell(measured.warnings);
+  const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
   if (!arguments.quiet) std::fputs(episode_words(episode).c_str(), stdout);
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
   for (const std::string& warning : tissue.warnings) output.warn(warning);
+  for (const std::string& warning : measured.warnings) output.warn(warning);
   output.write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(output, arguments.quiet);
 }
@@ -86,7 +93,9 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
     scene.refuse("plan.acquisition",
                  "raster and refinement are whole scans, which palpate simulate and replay run: there is no next batch");
   const Tissue tissue = tissue_of(scene);
-  const std::vector<Palpation> palpations = read_measurements(measurements, tissue.surface);
+  const MeasurementsFile measured = read_measurements(measurements, tissue.surface);
+  tell(measured.warnings);
+  const std::vector<Palpation>& palpations = measured.palpations;
   const Episode episode = episode_from(scene, tissue.surface, palpations);
   const std::vector<int> next = episode.exploration.next();
 
@@ -102,6 +111,7 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
   for (const std::string& warning : tissue.warnings) output.warn(warning);
+  for (const std::string& warning : measured.warnings) output.warn(warning);
   output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot));
   output.write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(output, arguments.quiet);

@@ -21,7 +21,18 @@ Surface square() {
 
 std::vector<Palpation> measured(const std::string& text) {
   const TemporaryFolder folder;
-  return read_measurements(folder.file("m.csv", text), square());
+  return read_measurements(folder.file("m.csv", text), square()).palpations;
+}
+
+TEST(ReadMeasurements, SaysHowManyPositionsLayOffTheSurface) {
+  const TemporaryFolder folder;
+  const auto warnings = [&](const std::string& rows) {
+    return read_measurements(folder.file("m.csv", "x,y,z,reading\n" + rows), square()).warnings;
+  };
+  EXPECT_TRUE(warnings("0.01,0.01,0,7\n0.01,0.012,0.00005,7\n").empty());
+  const std::vector<std::string> said = warnings("0.01,0.01,0,7\n0.01,0.012,0.003,7\n");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("1 of 2 positions lay off the surface, by up to 0.003 m"), std::string::npos) << said[0];
 }
 
 std::string error_of(const std::string& text) {
