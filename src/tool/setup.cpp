@@ -110,9 +110,7 @@ FieldModel field_of(const Scene& scene) {
 LevelRule level_rule_of(const Scene& scene) {
   LevelRule rule;
   rule.fraction = scene.number("level.fraction");
-  const bool known = scene.word("level.estimate") == "known";
-  if (!known && scene.has("level.value")) scene.refuse("level.value", "has no effect unless level.estimate is known");
-  if (known) rule.known = scene.number("level.value");
+  if (scene.word("level.estimate") == "known") rule.known = scene.number("level.value");
   return rule;
 }
 

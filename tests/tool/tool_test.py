@@ -114,7 +114,7 @@ class Tool(unittest.TestCase):
         self.assertLess(summary["error"]["percent_of_search_area"], 3.0)
 
     def test_values_without_effect_are_refused(self):
-        for value in ("level.value=8", "surface.patch.radius_mm=5"):
+        for value in ("surface.patch.radius_mm=5", "surface.plane.vertices=[2.5,3]"):
             self.refused(3, "simulate", self.scene, "--set", value)
         nothing = self.write("nothing.csv", "x,y,z,reading\n")
         self.assertIn("raster", self.refused(3, "plan", self.scene, "--set", "plan.acquisition=raster", "--measurements", nothing))
