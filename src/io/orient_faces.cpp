@@ -2,15 +2,28 @@
 #include <algorithm>
 #include <numeric>
 
+#include "io/bucket_sort.h"
 #include "io/polygon_soup.h"
 
 namespace palpation {
 namespace {
 
-/// A side of a triangle: the edge between two vertices, low < high, and whether the triangle runs through it from low to high.
-struct Side {
-  int low, high, triangle;
-  bool upward;
+/// Side 3 t + i runs from corner i to corner i + 1 of triangle t; low and high are the vertices of its edge.
+class Sides {
+ public:
+  explicit Sides(const std::vector<SoupTriangle>& triangles) : triangles_(triangles) {}
+  std::size_t count() const { return 3 * triangles_.size(); }
+  static std::size_t triangle(int side) { return static_cast<std::size_t>(side) / 3; }
+  int low(int side) const { return std::min(start(side), end(side)); }
+  int high(int side) const { return std::max(start(side), end(side)); }
+  bool upward(int side) const { return start(side) < end(side); }
+  bool share_edge(int a, int b) const { return low(a) == low(b) && high(a) == high(b); }
+
+ private:
+  int start(int side) const { return triangles_[triangle(side)].corners[static_cast<std::size_t>(side) % 3]; }
+  int end(int side) const { return triangles_[triangle(side)].corners[(static_cast<std::size_t>(side) + 1) % 3]; }
+
+  const std::vector<SoupTriangle>& triangles_;
 };
 
 struct Neighbour {
@@ -25,36 +38,35 @@ struct Adjacency {
   std::vector<bool> has_open_or_crowded_edge;
 };
 
-std::vector<Side> sorted_sides(const std::vector<SoupTriangle>& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const int a = triangles[t].corners[i], b = triangles[t].corners[(i + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::array{a.low, a.high, a.triangle} < std::array{b.low, b.high, b.triangle};
-  });
-  return sides;
+/// Sides of the same edge one after the other, in the order of their triangles.
+std::vector<int> by_edge(const Sides& sides, std::size_t point_count) {
+  std::vector<int> numbers(sides.count());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return sorted_in_buckets(
+      numbers, point_count, [&](int side) { return static_cast<std::size_t>(sides.low(side)); },
+      [&](int a, int b) {
+        const int high_a = sides.high(a), high_b = sides.high(b);
+        return high_a != high_b ? high_a < high_b : a < b;
+      });
 }
 
-Adjacency adjacency_of(const std::vector<SoupTriangle>& triangles) {
-  const std::vector<Side> sides = sorted_sides(triangles);
+Adjacency adjacency_of(const std::vector<SoupTriangle>& triangles, std::size_t point_count) {
+  const Sides sides(triangles);
+  const std::vector<int> sorted = by_edge(sides, point_count);
   Adjacency adjacency{std::vector<std::array<Neighbour, 3>>(triangles.size()), std::vector<int>(triangles.size(), 0),
                       std::vector<bool>(triangles.size(), false)};
-  const auto connect = [&](const Side& from, const Side& to) {
-    const auto t = static_cast<std::size_t>(from.triangle);
-    adjacency.neighbours[t][static_cast<std::size_t>(adjacency.counts[t]++)] = {to.triangle, from.upward != to.upward};
+  const auto connect = [&](int from, int to) {
+    const std::size_t t = Sides::triangle(from);
+    adjacency.neighbours[t][static_cast<std::size_t>(adjacency.counts[t]++)] = {static_cast<int>(Sides::triangle(to)),
+                                                                                sides.upward(from) != sides.upward(to)};
   };
-  for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high) ++last;
+  for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
+    while (last < sorted.size() && sides.share_edge(sorted[first], sorted[last])) ++last;
     if (last - first == 2) {
-      connect(sides[first], sides[first + 1]);
-      connect(sides[first + 1], sides[first]);
+      connect(sorted[first], sorted[first + 1]);
+      connect(sorted[first + 1], sorted[first]);
     } else {
-      for (std::size_t i = first; i < last; ++i) adjacency.has_open_or_crowded_edge[static_cast<std::size_t>(sides[i].triangle)] = true;
+      for (std::size_t i = first; i < last; ++i) adjacency.has_open_or_crowded_edge[Sides::triangle(sorted[i])] = true;
     }
   }
   return adjacency;
@@ -118,7 +130,7 @@ double volume_of(const Component& component, const std::vector<SoupTriangle>& tr
 }  // namespace
 
 void orient_alike(std::vector<SoupTriangle>& triangles, const PolygonSoup& soup, std::vector<std::string>& warnings) {
-  const Adjacency adjacency = adjacency_of(triangles);
+  const Adjacency adjacency = adjacency_of(triangles, soup.points.size());
   std::vector<Turn> turns(triangles.size(), Turn::Unknown);
   std::int64_t turned = 0;
   std::vector<int> one_sided, inside_out;

@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
+
+#include "io/bucket_sort.h"
 
 namespace palpation {
 namespace {
@@ -121,7 +124,8 @@ void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup, const 
   std::vector<Entry> entries;
   entries.reserve(triangles.size());
   for (const SoupTriangle& triangle : triangles) entries.push_back({sorted_corners(triangle), triangle.face});
-  std::sort(entries.begin(), entries.end());
+  const auto lowest = [](const Entry& entry) { return static_cast<std::size_t>(entry.corners[0]); };
+  entries = sorted_in_buckets(entries, soup.points.size(), lowest, std::less<Entry>());
   const auto same = [](const Entry& a, const Entry& b) { return a.corners == b.corners; };
   const auto found = std::adjacent_find(entries.begin(), entries.end(), same);
   if (found == entries.end()) return;

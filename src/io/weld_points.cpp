@@ -1,25 +1,42 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
+#include "io/bucket_sort.h"
 #include "io/polygon_soup.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
 
-struct NumberedPoint {
-  double x, y, z;
-  std::size_t number;
-  auto operator<=>(const NumberedPoint&) const = default;
-  bool is_at(const NumberedPoint& other) const { return x == other.x && y == other.y && z == other.z; }
-};
+/// A number that equal points share and others hardly ever: their coordinates' bits, stirred. What a file does to make them meet only makes
+/// a bucket to be sorted.
+std::size_t stirred(const Vec3& point) {
+  std::uint64_t bits = 0;
+  for (const double coordinate : point) {
+    // Adding 0 turns -0 into 0.
+    bits = (bits ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0x9E3779B97F4A7C15u;
+    bits ^= bits >> 32;
+  }
+  return bits;
+}
 
-std::vector<NumberedPoint> sorted_points(const PolygonSoup& soup) {
-  std::vector<NumberedPoint> sorted;
-  sorted.reserve(soup.points.size());
-  for (std::size_t i = 0; i < soup.points.size(); ++i) sorted.push_back({soup.points[i].x(), soup.points[i].y(), soup.points[i].z(), i});
-  std::sort(sorted.begin(), sorted.end(), [](const NumberedPoint& a, const NumberedPoint& b) { return (a <=> b) < 0; });
-  return sorted;
+bool is_before(const Vec3& a, const Vec3& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); }
+
+/// Numbers of the points, equal ones one after the other and the lowest first.
+std::vector<int> by_place(const std::vector<Vec3>& points) {
+  std::vector<int> numbers(points.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  const auto point = [&](int number) -> const Vec3& { return points[static_cast<std::size_t>(number)]; };
+  const std::size_t buckets = std::bit_ceil(points.size() / 4 + 1);
+  return sorted_in_buckets(
+      numbers, buckets, [&](int number) { return stirred(point(number)) & (buckets - 1); },
+      [&](int a, int b) {
+        if (point(a) == point(b)) return a < b;
+        return is_before(point(a), point(b));
+      });
 }
 
 std::string text_of_point(const Vec3& p) { return "(" + text_of(p.x()) + ", " + text_of(p.y()) + ", " + text_of(p.z()) + ")"; }
@@ -51,16 +68,17 @@ std::vector<CloseUp> along_skew_direction(const PolygonSoup& soup) {
 }  // namespace
 
 std::int64_t weld_equal_points(PolygonSoup& soup) {
-  const std::vector<NumberedPoint> sorted = sorted_points(soup);
-  std::vector<std::size_t> first_of(soup.points.size());
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    first_of[sorted[i].number] = i > 0 && sorted[i].is_at(sorted[i - 1]) ? first_of[sorted[i - 1].number] : sorted[i].number;
+  std::vector<int> first_of(soup.points.size());
+  int first = -1;
+  for (const int i : by_place(soup.points)) {
+    if (first < 0 || soup.points[static_cast<std::size_t>(first)] != soup.points[static_cast<std::size_t>(i)]) first = i;
+    first_of[static_cast<std::size_t>(i)] = first;
   }
   std::vector<int> number(soup.points.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < number.size(); ++i) {
-    if (first_of[i] != i) {
-      number[i] = number[first_of[i]];
+    if (first_of[i] != static_cast<int>(i)) {
+      number[i] = number[static_cast<std::size_t>(first_of[i])];
       continue;
     }
     soup.points[kept] = soup.points[i];
