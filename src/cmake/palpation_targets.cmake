@@ -4,15 +4,16 @@
 add_library(palpation_flags INTERFACE)
 # -Wno-restrict: GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
 target_compile_options(palpation_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-restrict -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -ffp-contract=off)
 if(PALPATION_WERROR)
   target_compile_options(palpation_flags INTERFACE -Werror)
 endif()
 if(PALPATION_SANITIZE)
-  set(palpation_sanitizers -fsanitize=address,undefined)
+  set(palpation_sanitizers -fsanitize=${PALPATION_SANITIZE})
   # -Wno-maybe-uninitialized: under its sanitizers GCC sees variables without values that are not there; the release build keeps the warning.
   target_compile_options(palpation_flags INTERFACE
-    ${palpation_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1 -Wno-maybe-uninitialized)
+    ${palpation_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_compile_definitions(palpation_flags INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(palpation_flags INTERFACE ${palpation_sanitizers})
 endif()

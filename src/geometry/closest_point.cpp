@@ -138,7 +138,7 @@ struct ClosestPoint::Tree {
 };
 
 ClosestPoint::ClosestPoint(const TriangleMesh& mesh, const std::vector<int>& face_of_vertex, double diameter) {
-  auto tree = std::make_unique<Tree>(mesh, diameter, AabbTree());
+  std::unique_ptr<Tree> tree(new Tree{mesh, diameter, {}});
   for (int face = 0; face < mesh.triangles.rows(); ++face) tree->boxes.insert(FacePrimitive(&mesh, face));
   tree->boxes.build();
   std::vector<std::pair<Kernel::Point_3, int>> hints;

@@ -17,7 +17,7 @@ struct Palpation {
   int batch = 0;                                                     ///< 0: the initial design
   TouchKind kind = TouchKind::Stop;
   Vec3 travel = Vec3::Zero();  ///< unit direction of travel, or zero if unknown
-  std::string set_aside;       ///< why the reading is not used; empty if it is
+  std::string set_aside{};     ///< why the reading is not used; empty if it is
 };
 
 }  // namespace palpation
