@@ -59,9 +59,9 @@ Plane find_plane(const TriangleMesh& mesh, double diameter) {
   const Eigen::VectorXd height = (mesh.vertices.rowwise() - mesh.vertices.row(0)) * normal;
   if (height.maxCoeff() - height.minCoeff() > kFlatness * diameter) return {};
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    if (area_vector(mesh, f).dot(normal) <= 0.0) return {};
+    if (area_vector(mesh, f).dot(normal) <= 0.0) return {.folded_face = f};
   }
-  return {true, normal};
+  return {.is_plane = true, .normal = normal};
 }
 
 Chart lay_flat(const TriangleMesh& mesh, const Plane& plane, double diameter) {

@@ -6,7 +6,7 @@
 
 namespace palpation {
 
-/// Whether all vertices are in one plane to 1e-9 of the diameter and all faces look the same way.
+/// Whether all vertices are in one plane to 1e-6 of the diameter and all faces look the same way.
 Plane find_plane(const TriangleMesh& mesh, double diameter);
 
 /// The frame of chart.h, for a mesh in that plane.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/overlap.h"
 #include "geometry/plane.h"
 #include "geometry/surface_state.h"
 #include "geometry/topology.h"
@@ -160,7 +161,7 @@ const Points& Surface::vertex_normals() const {
 double Surface::diameter() const { return state_->diameter; }
 const std::vector<std::vector<int>>& Surface::border_loops() const { return state_->border_loops; }
 Topology Surface::topology() const { return state_->topology; }
-bool Surface::is_planar() const { return state_->plane.is_plane; }
+bool Surface::is_planar() const { return state_->plane.is_plane && !state_->laid_flat().overlap; }
 
 SurfacePoint Surface::at_vertex(int vertex) const {
   const int face = face_of_vertex(vertex);
@@ -214,9 +215,30 @@ int Surface::nearest_vertex(const Vec3& position) const {
   return nearest;
 }
 
+const Surface::State& Surface::State::laid_flat() const {
+  std::call_once(chart_once, [this] {
+    chart = lay_flat(mesh, plane, diameter);
+    overlap = place_of_overlap(mesh.triangles, connectivity.neighbours, border_loops, chart.uv);
+  });
+  return *this;
+}
+
+void Surface::State::refuse_chart() const {
+  std::string what = "a surface that is not flat";
+  std::string rule = "has no chart: use the ambient metric, or a flat patch of it";
+  if (plane.folded_face) {
+    what = "a flat surface that is folded";
+    rule = "has no chart: triangle " + std::to_string(*plane.folded_face) + " looks the other way";
+  } else if (plane.is_plane) {
+    const Vec2 place = laid_flat().overlap.value_or(Vec2::Zero());
+    what = "a flat surface that lies over itself";
+    rule = "has no chart: two of its sheets cover u = " + text_of(place.x()) + " m, v = " + text_of(place.y()) + " m of its plane";
+  }
+  require(false, "Surface::chart", what, rule);
+}
+
 const Chart& Surface::chart() const {
-  require(has_chart(), "Surface::chart", "a surface that is not flat", "has no chart: use the ambient metric, or a flat patch of it");
-  std::call_once(state_->chart_once, [this] { state_->chart = lay_flat(state_->mesh, state_->plane, state_->diameter); });
+  if (!has_chart()) state_->refuse_chart();
   return state_->chart;
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,10 +20,16 @@ class ClosestPoint;
 struct Plane {
   bool is_plane = false;
   Vec3 normal = Vec3::UnitZ();
+  std::optional<Eigen::Index> folded_face = std::nullopt;  ///< a face that looks the other way, where all else is flat
 };
 
 /// All but the last group is fixed when the constructor is done. What is mutable is made at first use, each under its own flag.
 struct Surface::State {
+  /// With the chart, and the overlap if there is one. Only for what is in a plane.
+  const State& laid_flat() const;
+  /// Throws InvalidInput that says why there is none.
+  void refuse_chart() const;
+
   TriangleMesh mesh;
   Connectivity connectivity;
   HalfEdgeMesh half_edges;
@@ -37,6 +44,7 @@ struct Surface::State {
   mutable Field vertex_areas;
   mutable Points vertex_normals;
   mutable Chart chart;
+  mutable std::optional<Vec2> overlap;  ///< where a flat surface lies over itself, in its plane
   mutable std::shared_ptr<const ClosestPoint> closest_point;
 
   mutable std::mutex computed_guard;

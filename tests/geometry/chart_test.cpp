@@ -69,6 +69,57 @@ TEST(Chart, IsNoneWhereASurfaceIsNotFlat) {
   EXPECT_TRUE(cylinder.computed().empty());
 }
 
+std::string refusal(const TriangleMesh& mesh) {
+  const Surface surface(mesh);
+  EXPECT_FALSE(surface.is_planar());
+  EXPECT_FALSE(surface.has_chart());
+  try {
+    surface.chart();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Chart, IsNoneWhereATriangleIsTurnedOver) {
+  TriangleMesh mesh = zoo::unit_square_mesh(4);
+  mesh.vertices.row(12) << 0.8, 0.5, 0.0;  // the middle vertex, dragged over its neighbour at 0.75
+  EXPECT_NE(refusal(mesh).find("folded has no chart: triangle"), std::string::npos) << refusal(mesh);
+  mesh.vertices.row(12) << 0.7, 0.5, 0.0;
+  EXPECT_TRUE(Surface(mesh).has_chart());
+}
+
+TEST(Chart, IsNoneWhereTwoSheetsLieOverEachOther) {
+  const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
+  const TriangleMesh square = zoo::unit_square_mesh(4);
+  // Corner over corner, edges along mesh edges, vertices on vertices; and one sheet whole inside the other.
+  for (const Vec3& shift : {Vec3(0.5, 0.0, 0.0), Vec3(0.75, 0.75, 0.0), Vec3(0.0, 0.0, 0.0), Vec3(0.1, 0.9, 0.0), Vec3(-0.999, 0.0, 0.0)}) {
+    EXPECT_NE(refusal(zoo::together(square, zoo::moved(square, same, shift))).find("lies over itself"), std::string::npos);
+  }
+  EXPECT_NE(refusal(zoo::together(square, zoo::moved(square, same, Vec3(0.3, 0.3, 0.0), 0.1))).find("lies over itself"), std::string::npos);
+  // Side by side, corner to corner, and apart they have a chart, tilted too.
+  for (const Vec3& shift : {Vec3(1.0, 0.0, 0.0), Vec3(1.0, 1.0, 0.0), Vec3(1.0, 0.3, 0.0), Vec3(5.0, 0.0, 0.0)}) {
+    const TriangleMesh two = zoo::together(square, zoo::moved(square, same, shift));
+    EXPECT_TRUE(Surface(two).has_chart());
+    EXPECT_TRUE(Surface(zoo::moved(two, zoo::some_rotation(), Vec3(3.0, 1.0, 2.0))).has_chart());
+  }
+}
+
+// A strip that winds around twice: every triangle runs counter-clockwise, and each place of the ring is covered two times.
+TEST(Chart, IsNoneWhereAStripWindsAroundTwice) {
+  const auto strip = [](double degrees) {
+    return zoo::rolled_grid_mesh(40, 2, false, false, [=](double u, double v) {
+      const double angle = -degrees / 180.0 * std::numbers::pi * u, radius = 1.0 + v;
+      return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    });
+  };
+  EXPECT_NE(refusal(strip(720.0)).find("lies over itself"), std::string::npos);
+  EXPECT_NE(refusal(strip(361.0)).find("lies over itself"), std::string::npos);
+  EXPECT_TRUE(Surface(strip(360.0)).has_chart()) << "its ends meet, and that is all";
+  EXPECT_TRUE(Surface(strip(300.0)).has_chart());
+  EXPECT_TRUE(Surface(zoo::annulus_mesh(0.5, 1.0, 12, 3)).has_chart());
+}
+
 TEST(ChartHash, IsFnvOfNanometres) {
   // By hand, offset basis 0xcbf29ce484222325 and prime 0x100000001b3: no bytes; and the 16 bytes of (1, 0) nanometres.
   Chart chart{Points2(0, 2)};

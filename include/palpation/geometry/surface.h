@@ -58,7 +58,7 @@ class Surface {
   /// Loops of border vertices, each with the tissue on its left seen from outside; the loop with the lowest vertex first, from that vertex.
   const std::vector<std::vector<int>>& border_loops() const;
   Topology topology() const;
-  bool is_planar() const;  ///< all vertices in one plane to 1e-6 of the diameter, all normals alike
+  bool is_planar() const;  ///< all vertices in one plane to 1e-6 of the diameter, all normals alike, nowhere two sheets
 
   SurfacePoint at_vertex(int vertex) const;
   Vec3 position(const SurfacePoint& point) const;
