@@ -11,7 +11,7 @@ void MeshSource::fail_at_line(std::int64_t line, const std::string& what) const 
 }
 
 void MeshSource::fail_at_byte(std::size_t byte, const std::string& what) const {
-  throw IoError(path.string() + ", byte " + std::to_string(byte) + ": " + what);
+  throw IoError(path.string() + ", byte " + std::to_string(skipped + byte) + ": " + what);
 }
 
 void MeshSource::refuse_nul_bytes() const {

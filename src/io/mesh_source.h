@@ -11,6 +11,7 @@ namespace palpation {
 struct MeshSource {
   std::filesystem::path path;
   std::string_view bytes;
+  std::size_t skipped = 0;  ///< bytes of the file in front of them, a byte order mark
 
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_at_line(std::int64_t line, const std::string& what) const;

@@ -47,10 +47,10 @@ void WordCursor::skip_line() {
   while (position_ < text_.size() && !is_line_end(text_[position_])) ++position_;
 }
 
-void split_words(std::string_view line, std::vector<std::string_view>& words) {
+void split_words(std::string_view line, std::vector<std::string_view>& words, std::size_t most) {
   words.clear();
   std::size_t position = 0;
-  while (position < line.size()) {
+  while (position < line.size() && words.size() < most) {
     while (position < line.size() && is_blank(line[position])) ++position;
     const std::size_t first = position;
     while (position < line.size() && !is_blank(line[position])) ++position;
@@ -58,7 +58,11 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+std::string_view without_comment(std::string_view line) {
+  std::size_t mark = line.find('#');
+  while (mark != std::string_view::npos && mark > 0 && !is_blank(line[mark - 1])) mark = line.find('#', mark + 1);
+  return line.substr(0, mark);
+}
 
 std::string lower_case(std::string_view word) {
   std::string lower(word);

@@ -16,11 +16,6 @@ constexpr double kLeastFanArea = 1e-12;
 
 void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_t face, std::vector<int>& sorted) {
   const std::span<const int> corners = soup.face(face);
-  if (corners.size() < 3) soup.fail_at_face(source, face, "has " + std::to_string(corners.size()) + " corners; a face has at least 3");
-  if (corners.size() > kMostCorners) {
-    soup.fail_at_face(source, face,
-                      "has " + std::to_string(corners.size()) + " corners; at most " + std::to_string(kMostCorners) + " are taken");
-  }
   const auto count = static_cast<std::int64_t>(soup.points.size());
   for (const int corner : corners) {
     if (corner >= 0 && corner < count) continue;
@@ -91,6 +86,14 @@ void PolygonSoup::begin_face(std::int64_t place) {
   places.push_back(place);
 }
 
+void PolygonSoup::end_face(const MeshSource& source) const {
+  const std::int64_t count = static_cast<std::int64_t>(corners.size()) - first_corner.back();
+  if (count >= 3 && count <= kMostCorners) return;
+  fail_at_face(source, face_count() - 1,
+               count < 3 ? "has " + std::to_string(count) + " corners; a face has at least 3"
+                         : "has more than " + std::to_string(kMostCorners) + " corners: cut it into triangles");
+}
+
 void PolygonSoup::fail_at_face(const MeshSource& source, std::size_t index, const std::string& what) const {
   const std::string text = "face " + std::to_string(index + static_cast<std::size_t>(first_number)) + ": " + what;
   if (place_kind == PlaceKind::Line) source.fail_at_line(places[index], text);
@@ -98,10 +101,25 @@ void PolygonSoup::fail_at_face(const MeshSource& source, std::size_t index, cons
   source.fail(text);
 }
 
+void refuse_crowds(const MeshSource& source, const PolygonSoup& soup) {
+  // Small meshes may be any tangle: Surface names the edge at fault. A closed surface has two triangles for each vertex, and two more for
+  // every handle.
+  constexpr std::size_t kFew = 250'000;
+  const std::size_t triangles = soup.corners.size() - 2 * soup.face_count();
+  if (triangles <= kFew) return;
+  std::vector<bool> used(soup.points.size(), false);
+  for (const int corner : soup.corners) {
+    if (corner >= 0 && static_cast<std::size_t>(corner) < used.size()) used[static_cast<std::size_t>(corner)] = true;
+  }
+  const auto vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  if (triangles <= 3 * vertices) return;
+  source.fail(std::to_string(triangles) + " triangles on " + std::to_string(vertices) +
+              " vertices are more than three for each: a surface has about two, so these cannot be one");
+}
+
 std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup) {
-  // Three times the triangles must be countable in an int, as must the faces.
-  const std::size_t most = static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3;
-  if (soup.corners.size() > 3 * most || soup.points.size() > 3 * most) source.fail("more than 2^31 corners or vertices");
+  constexpr auto kMost = static_cast<std::size_t>(kMostPoints);
+  if (soup.corners.size() > kMost || soup.points.size() > kMost) source.fail("more than 2^31 corners or vertices");
   std::vector<SoupTriangle> triangles;
   triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.face_count()));
   std::vector<int> sorted;

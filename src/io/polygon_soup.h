@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,11 @@
 namespace palpation {
 
 enum class PlaceKind { Line, Byte, None };
+
+/// A polygon with more corners than this is refused.
+inline constexpr int kMostCorners = 256;
+/// Three times the triangles must be countable in an int, as must the vertices.
+inline constexpr std::int64_t kMostPoints = std::numeric_limits<int>::max() / 3 * 3;
 
 struct PolygonSoup {
   std::string format;
@@ -29,6 +35,8 @@ struct PolygonSoup {
   std::span<const int> face(std::size_t index) const;
   /// Starts a face; its corners are pushed next.
   void begin_face(std::int64_t place);
+  /// Throws IoError if the face begun last has fewer than three corners or more than kMostCorners.
+  void end_face(const MeshSource& source) const;
   [[noreturn]] void fail_at_face(const MeshSource& source, std::size_t face, const std::string& what) const;
 };
 
@@ -43,18 +51,18 @@ PolygonSoup read_vtp(const MeshSource& source);
 /// True if the size is what the count in a binary STL's header asks for.
 bool has_size_of_binary_stl(std::string_view bytes);
 
-/// A polygon with more corners than this is refused.
-inline constexpr int kMostCorners = 256;
-
 /// One triangle of a face.
 struct SoupTriangle {
   std::array<int, 3> corners;
   int face;
 };
 
-/// All faces as fans of triangles, after the check of every corner. Throws IoError for a face with fewer than three corners, with more than
-/// kMostCorners, with a corner out of range or used twice, and for a polygon that none of its corners sees as a whole: its fan would
-/// overlap itself.
+/// Throws IoError if the faces make far more triangles than the vertices that they use: no surface has that, and what is done with
+/// triangles takes memory for each, not for each byte of the file.
+void refuse_crowds(const MeshSource& source, const PolygonSoup& soup);
+
+/// All faces as fans of triangles, after the check of every corner. Throws IoError for a corner out of range or used twice, and for a
+/// polygon that none of its corners sees as a whole: its fan would overlap itself.
 std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup);
 
 /// Throws IoError if two triangles have the same three corners.

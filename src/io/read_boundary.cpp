@@ -1,11 +1,5 @@
 #include "palpation/io/read_boundary.h"
 
-#include <vtkAbstractArray.h>
-#include <vtkCellData.h>
-#include <vtkPoints.h>
-#include <vtkStringArray.h>
-
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -20,9 +14,6 @@ namespace {
 constexpr double kFarthest_m = 0.005;
 
 Vec2 chart_place(const MeshSource& source, const Surface& surface, const Vec3& position) {
-  for (double coordinate : position) {
-    if (!std::isfinite(coordinate)) source.fail("a point of the boundary is not finite");
-  }
   const SurfacePoint point = surface.project(position);
   const double distance = (surface.position(point) - position).norm();
   require(distance <= kFarthest_m, source.path.string(), "a point " + text_of(distance) + " m from the tissue",
@@ -33,29 +24,35 @@ Vec2 chart_place(const MeshSource& source, const Surface& surface, const Vec3& p
   return place;
 }
 
-bool is_estimate(vtkStringArray* kinds, vtkIdType line) { return kinds == nullptr || kinds->GetValue(line) == "estimate"; }
+/// The kind of every cell, or nothing where the file does not tell.
+std::vector<std::string> kinds_of(VtpFile& file, const VtpPiece& piece) {
+  for (const VtpArray& array : piece.cell_arrays) {
+    if (array.name == "kind_name") return file.numbers().texts(array, piece.cells(), "array \"kind_name\" of the cells");
+  }
+  return {};
+}
 
 }  // namespace
 
 Region read_boundary_vtp(const std::filesystem::path& path, const Surface& surface) {
   const std::string bytes = read_file(path);
   const MeshSource source{path, bytes};
-  const vtkSmartPointer<vtkPolyData> poly = read_poly_data(source);
-  check_arrays(source, poly->GetCellData(), poly->GetNumberOfCells(), "cells");
-  auto* kinds = vtkStringArray::SafeDownCast(poly->GetCellData()->GetAbstractArray("kind_name"));
-  const VtpCells lines(source, poly->GetLines(), "Lines");
-  if (lines.count() == 0 && poly->GetNumberOfCells() > 0) source.fail("holds no lines, so it is no boundary");
+  VtpFile file(source);
   std::vector<Ring> rings;
-  for (vtkIdType line = 0; line < lines.count(); ++line) {
-    if (!is_estimate(kinds, poly->GetNumberOfVerts() + line)) continue;
-    Ring ring;
-    for (vtkIdType i = 0; i < lines.size(line); ++i) {
-      Vec3 position;
-      poly->GetPoint(lines.corner(line, i, static_cast<std::size_t>(poly->GetNumberOfPoints())), position.data());
-      ring.push_back(chart_place(source, surface, position));
-    }
-    if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-    rings.push_back(std::move(ring));
+  for (const VtpPiece& piece : file.pieces()) {
+    if (piece.lines.count == 0 && piece.cells() > 0) source.fail("holds no lines, so it is no boundary");
+    const std::vector<std::string> kinds = kinds_of(file, piece);
+    std::vector<Vec3> points;
+    file.append_points(piece, points);
+    // Cells are counted kind by kind, points before lines.
+    auto cell = static_cast<std::size_t>(piece.verts.count);
+    file.each_cell(piece, piece.lines, [&](const std::vector<int>& corners) {
+      if (!kinds.empty() && kinds[cell++] != "estimate") return;
+      Ring ring;
+      for (const int corner : corners) ring.push_back(chart_place(source, surface, points[static_cast<std::size_t>(corner)]));
+      if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+      rings.push_back(std::move(ring));
+    });
   }
   return Region::even_odd(rings);
 }

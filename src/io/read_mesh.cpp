@@ -46,16 +46,34 @@ bool begins_like_obj(std::string_view word) {
 
 enum class Format { Obj, Off, AsciiStl, BinaryStl, Ply, Vtp };
 
+/// "ply" by itself on the first line.
+bool begins_like_ply(std::string_view bytes) {
+  const std::string_view line = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  return line.substr(0, 3) == "ply" && line.find_first_not_of(" \t", 3) == std::string_view::npos;
+}
+
+/// What other files say at their beginning, that the reason is told and not its consequence.
+void refuse_other_kinds(const MeshSource& source) {
+  const auto begins = [&](std::string_view mark) { return source.bytes.substr(0, mark.size()) == mark; };
+  if (begins("\x1F\x8B") || begins("PK\3\4") || begins("BZh") ||
+      begins("\xFD"
+             "7zXZ"))
+    source.fail_at_byte(0, "the file is compressed: unpack it first");
+  if (begins("\xFF\xFE") || begins("\xFE\xFF")) source.fail_at_byte(0, "the file is text in UTF-16: save it as UTF-8 or ASCII");
+  if (begins("# vtk DataFile")) source.fail_at_line(1, "VTK's legacy format is not read: write it as VTP or PLY");
+}
+
 /// Recognizes the format by content. Binary STL has no mark but its size, and may begin with "solid" like its ASCII cousin.
 Format format_of(const MeshSource& source) {
   const std::string_view bytes = source.bytes;
   const std::string_view word = first_word(bytes);
-  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r" || bytes == "ply") return Format::Ply;
+  if (begins_like_ply(bytes)) return Format::Ply;
   if (has_size_of_binary_stl(bytes)) return Format::BinaryStl;
-  if (lower_case(word) == "solid") return Format::AsciiStl;
+  refuse_other_kinds(source);
+  // A binary STL cut short has NUL bytes in its title or count.
+  if (lower_case(word) == "solid") return bytes.substr(0, 84).find('\0') == std::string_view::npos ? Format::AsciiStl : Format::BinaryStl;
   if (is_off_header(word)) return Format::Off;
   if (!word.empty() && word[0] == '<') return Format::Vtp;
-  if (bytes.substr(0, 14) == "# vtk DataFile") source.fail("VTK's legacy format is not read: write it as VTP or PLY");
   if (begins_like_obj(word)) return Format::Obj;
   const std::string extension = lower_case(source.path.extension().string());
   if (extension == ".stl") return Format::BinaryStl;
@@ -111,6 +129,7 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
     const std::int64_t welded = weld_equal_points(soup);
     if (welded > 0) soup.warnings.push_back(std::to_string(welded) + " vertices were joined with another at the same place.");
   }
+  refuse_crowds(source, soup);
   std::vector<SoupTriangle> triangles = triangles_of(source, soup);
   refuse_duplicates(source, soup, triangles);
   orient_alike(triangles, soup, soup.warnings);
@@ -160,7 +179,9 @@ MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit, const Mes
 
 MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair) {
   const std::string bytes = read_file(path);
-  const MeshSource source{path, without_byte_order_mark(bytes)};
+  // To the count in a binary STL every byte matters.
+  const std::string_view content = has_size_of_binary_stl(bytes) ? bytes : without_byte_order_mark(bytes);
+  const MeshSource source{path, content, bytes.size() - content.size()};
   if (source.bytes.empty()) source.fail("the file is empty: no vertices");
   return assembled(source, unit, repair);
 }

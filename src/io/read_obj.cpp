@@ -8,12 +8,22 @@
 namespace palpation {
 namespace {
 
-/// Statements that carry no triangles: names, materials (whose files are never opened), texture, free-form geometry.
-constexpr std::array kIgnored = {"vt",       "vn",     "vp",     "g",      "o",      "s",     "l",          "p",         "mg",
-                                 "usemtl",   "mtllib", "usemap", "maplib", "lod",    "bevel", "shadow_obj", "trace_obj", "c_interp",
-                                 "d_interp", "deg",    "bmat",   "step",   "cstype", "curv",  "curv2",      "surf",      "parm",
-                                 "trim",     "hole",   "scrv",   "sp",     "end",    "con",   "call",       "csh",       "ctech",
-                                 "stech",    "bzp",    "bsp",    "cdc",    "cdp",    "res"};
+/// Statements that carry no geometry of their own: names, materials (whose files are never opened), texture, what free-form geometry needs.
+constexpr std::array kIgnored = {"vt",     "vn",   "vp",     "g",     "o",          "s",         "mg",       "usemtl",   "mtllib",
+                                 "usemap", "lod",  "maplib", "bevel", "shadow_obj", "trace_obj", "c_interp", "d_interp", "deg",
+                                 "bmat",   "step", "cstype", "parm",  "trim",       "hole",      "scrv",     "sp",       "end",
+                                 "con",    "call", "csh",    "ctech", "stech",      "res"};
+/// Geometry that is not made of faces.
+constexpr std::array kLeftOut = {"p", "l", "curv", "curv2", "surf", "bzp", "bsp", "cdc", "cdp"};
+/// x, y, z; a weight, or a colour of up to four numbers.
+constexpr std::size_t kMostNumbersOfVertex = 8;
+
+bool is_among(std::span<const char* const> words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Of a comment that may tell counts.
+constexpr std::size_t kMostWordsOfComment = 16;
 
 class ObjReader {
  public:
@@ -26,13 +36,15 @@ class ObjReader {
   PolygonSoup read() {
     source_.refuse_nul_bytes();
     while (const std::optional<std::string_view> statement = next_statement()) {
-      split_words(without_comment(*statement), words_);
-      if (!words_.empty()) take_statement();
+      // A word more than a face may have, so that it is seen that it has too many.
+      split_words(without_comment(*statement), words_, kMostCorners + 2);
+      if (words_.empty()) {
+        take_comment(*statement);
+      } else {
+        take_statement();
+      }
     }
-    coordinates_.warn(soup_.warnings);
-    if (last_was_face_ && lines_.ended_without_line_end()) {
-      soup_.warnings.push_back("The last line, a face, has no line end: the file may have been cut short.");
-    }
+    warn();
     return std::move(soup_);
   }
 
@@ -57,16 +69,44 @@ class ObjReader {
     return !line.empty() && line.back() == '\\' && line[first] != '#';
   }
 
+  /// In front of all statements many programs say how much will follow, as "# Vertices: 8" or "# 8 vertices, 12 faces": the only counts
+  /// that an OBJ file has.
+  void take_comment(std::string_view line) {
+    if (!in_preamble_) return;
+    split_words(line.substr(std::min(line.find_first_not_of("# \t"), line.size())), words_, kMostWordsOfComment);
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      const std::string word = lower_case(words_[i].substr(0, words_[i].find_last_not_of(":,.") + 1));
+      std::optional<std::int64_t>* count = word == "vertices" ? &announced_vertices_ : word == "faces" ? &announced_faces_ : nullptr;
+      if (count == nullptr) continue;
+      const bool number_follows = words_[i].back() == ':' && i + 1 < words_.size();
+      if (number_follows || i > 0) *count = parse_integer(words_[number_follows ? i + 1 : i - 1]);
+    }
+  }
+
   void take_statement() {
-    last_was_face_ = false;
+    in_preamble_ = false;
     if (words_[0] == "v") {
       take_vertex();
     } else if (words_[0] == "f" || words_[0] == "fo") {
       take_face();
-      last_was_face_ = true;
-    } else if (std::find(kIgnored.begin(), kIgnored.end(), words_[0]) == kIgnored.end()) {
+    } else if (is_among(kLeftOut, words_[0])) {
+      ++left_out_;
+    } else if (!is_among(kIgnored, words_[0])) {
       source_.fail_at_line(line_, in_quotes(words_[0]) + " is no statement of an OBJ file");
     }
+  }
+
+  void warn() {
+    coordinates_.warn(soup_.warnings);
+    if (left_out_ > 0) soup_.warnings.push_back(std::to_string(left_out_) + " points, lines or free forms were left out.");
+    if (lines_.ended_without_line_end()) soup_.warnings.push_back("The last line has no line end: the file may have been cut short.");
+    const auto compare = [&](std::optional<std::int64_t> announced, std::size_t found, const std::string& what) {
+      if (!announced || *announced == static_cast<std::int64_t>(found)) return;
+      soup_.warnings.push_back("A comment at the top says " + std::to_string(*announced) + " " + what + ", but there are " +
+                               std::to_string(found) + ": the file may be damaged.");
+    };
+    compare(announced_vertices_, soup_.points.size(), "vertices");
+    compare(announced_faces_, soup_.face_count(), "faces");
   }
 
   void take_vertex() {
@@ -75,11 +115,26 @@ class ObjReader {
       source_.fail_at_line(line_, "vertex " + std::to_string(number) + " has " + std::to_string(words_.size() - 1) + " coordinates, not 3");
     }
     soup_.points.push_back(coordinates_.point(std::span<const std::string_view, 3>(words_.data() + 1, 3), number, line_));
+    check_numbers_behind(number);
+  }
+
+  /// They are of no use here, but what is no number may be the next line, its end lost.
+  void check_numbers_behind(std::int64_t vertex) const {
+    if (words_.size() > kMostNumbersOfVertex + 1) {
+      source_.fail_at_line(line_,
+                           "vertex " + std::to_string(vertex) + " has more than " + std::to_string(kMostNumbersOfVertex) + " numbers");
+    }
+    for (std::size_t i = 4; i < words_.size(); ++i) {
+      if (parse_number(words_[i]).status == NumberStatus::NotANumber)
+        source_.fail_at_line(line_,
+                             "vertex " + std::to_string(vertex) + ": " + in_quotes(words_[i]) + " behind its coordinates is no number");
+    }
   }
 
   void take_face() {
     soup_.begin_face(line_);
     for (std::size_t i = 1; i < words_.size(); ++i) soup_.corners.push_back(vertex_of(words_[i]));
+    soup_.end_face(source_);
   }
 
   /// "7", "7/1", "7//3", "7/1/3": the index before the first slash.
@@ -119,7 +174,9 @@ class ObjReader {
   std::vector<std::string_view> words_;
   std::string joined_;
   std::int64_t line_ = 0;
-  bool last_was_face_ = false;
+  std::int64_t left_out_ = 0;
+  std::optional<std::int64_t> announced_vertices_, announced_faces_;
+  bool in_preamble_ = true;
 };
 
 }  // namespace

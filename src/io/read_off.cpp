@@ -7,8 +7,11 @@
 namespace palpation {
 namespace {
 
+/// What may follow the coordinates of a vertex (normal, colour, texture) or the corners of a face (colour).
+constexpr std::size_t kMostNumbersBehind = 12;
+
 /// Line by line: a header, the counts (on its line or the next), a line for each vertex and each face. What follows the coordinates or the
-/// corners (normals, colours) is ignored.
+/// corners is ignored, so long as it is numbers.
 class OffReader {
  public:
   explicit OffReader(const MeshSource& source) : source_(source), lines_(source.bytes), coordinates_(source) {
@@ -17,8 +20,8 @@ class OffReader {
   }
 
   PolygonSoup read() {
-    source_.refuse_nul_bytes();
     read_header();
+    source_.refuse_nul_bytes();
     for (std::int64_t vertex = 0; vertex < vertex_count_; ++vertex) read_vertex(vertex);
     for (std::int64_t face = 0; face < face_count_; ++face) read_face(face);
     if (next_words()) source_.fail_at_line(lines_.line(), "more lines than the header's counts announce");
@@ -30,7 +33,8 @@ class OffReader {
   /// Splits the next line that holds anything; false at the end.
   bool next_words() {
     while (const std::optional<std::string_view> line = lines_.next()) {
-      split_words(without_comment(*line), words_);
+      // A word more than a face may have, so that it is seen that it has too many.
+      split_words(without_comment(*line), words_, kMostCorners + kMostNumbersBehind + 2);
       if (!words_.empty()) return true;
     }
     return false;
@@ -50,11 +54,13 @@ class OffReader {
     if (words_.empty()) expect_words("the line of the counts");
     if (words_[0] == "BINARY") source_.fail_at_line(lines_.line(), "binary OFF is not read: write it as ASCII, or as PLY");
     if (words_.size() < 2) source_.fail_at_line(lines_.line(), "the counts of vertices and faces are expected");
+    if (words_.size() > 3) source_.fail_at_line(lines_.line(), "more than three counts: every vertex and every face has its own line");
     const std::int64_t line = lines_.line();
     // The shortest records are "0 0 0" and "3 0 1 2" (a face with fewer corners is an error); the last line end may be missing.
     const auto bytes = static_cast<std::int64_t>(lines_.bytes_left()) + 1;
     vertex_count_ = count_of(words_[0], "vertices", bytes / 6, line);
     face_count_ = count_of(words_[1], "faces", bytes / 2, line);
+    if (words_.size() == 3) count_of(words_[2], "edges", std::numeric_limits<std::int64_t>::max(), line);
     soup_.points.reserve(static_cast<std::size_t>(vertex_count_));
   }
 
@@ -75,6 +81,17 @@ class OffReader {
                            "vertex " + std::to_string(vertex) + " has " + std::to_string(words_.size()) + " coordinates, not 3");
     }
     soup_.points.push_back(coordinates_.point(std::span<const std::string_view, 3>(words_.data(), 3), vertex, lines_.line()));
+    check_numbers_behind(3, "vertex " + std::to_string(vertex));
+  }
+
+  /// They are of no use here, but what is no number may be the next line, its end lost.
+  void check_numbers_behind(std::size_t first, const std::string& element) const {
+    if (words_.size() > first + kMostNumbersBehind)
+      source_.fail_at_line(lines_.line(), element + " has more than " + std::to_string(kMostNumbersBehind) + " numbers too many");
+    for (std::size_t i = first; i < words_.size(); ++i) {
+      if (parse_number(words_[i]).status == NumberStatus::NotANumber)
+        source_.fail_at_line(lines_.line(), element + ": " + in_quotes(words_[i]) + " at the end of its line is no number");
+    }
   }
 
   void read_face(std::int64_t face) {
@@ -82,6 +99,9 @@ class OffReader {
     const std::string name = "face " + std::to_string(face) + ": ";
     const std::optional<std::int64_t> count = parse_integer(words_[0]);
     if (!count || *count < 0) source_.fail_at_line(lines_.line(), name + in_quotes(words_[0]) + " is not a count of corners");
+    if (*count > kMostCorners)
+      source_.fail_at_line(lines_.line(),
+                           name + std::to_string(*count) + " corners; at most " + std::to_string(kMostCorners) + " are taken");
     if (*count > static_cast<std::int64_t>(words_.size()) - 1) {
       source_.fail_at_line(lines_.line(),
                            name + std::to_string(*count) + " corners announced, " + std::to_string(words_.size() - 1) + " there");
@@ -96,6 +116,8 @@ class OffReader {
       }
       soup_.corners.push_back(static_cast<int>(*index));
     }
+    soup_.end_face(source_);
+    check_numbers_behind(static_cast<std::size_t>(*count) + 1, "face " + std::to_string(face));
   }
 
   const MeshSource& source_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "io/byte_order.h"
 #include "io/mesh_text.h"
@@ -58,6 +59,26 @@ std::size_t size_of(Scalar type) {
 
 bool is_real(Scalar type) { return type == Scalar::Float32 || type == Scalar::Float64; }
 
+/// Whether a whole number is one that the type holds.
+bool holds(Scalar type, std::int64_t value) {
+  switch (type) {
+    case Scalar::Int8:
+      return std::in_range<std::int8_t>(value);
+    case Scalar::UInt8:
+      return std::in_range<std::uint8_t>(value);
+    case Scalar::Int16:
+      return std::in_range<std::int16_t>(value);
+    case Scalar::UInt16:
+      return std::in_range<std::uint16_t>(value);
+    case Scalar::Int32:
+      return std::in_range<std::int32_t>(value);
+    case Scalar::UInt32:
+      return std::in_range<std::uint32_t>(value);
+    default:
+      return false;
+  }
+}
+
 std::optional<Scalar> scalar_of(std::string_view name) {
   if (name == "char" || name == "int8") return Scalar::Int8;
   if (name == "uchar" || name == "uint8") return Scalar::UInt8;
@@ -110,7 +131,7 @@ class HeaderReader {
       take_element();
     } else if (words_[0] == "property") {
       take_property();
-    } else if (words_[0] == "end_header") {
+    } else if (words_[0] == "end_header" && words_.size() == 1) {
       done_ = true;
     } else {
       fail(in_quotes(words_[0]) + " is no statement of a PLY header");
@@ -140,6 +161,8 @@ class HeaderReader {
     for (const Element& element : header_.elements) {
       if (element.name == name) fail("element " + in_quotes(name) + " appears twice");
     }
+    // They would be faces, left out without a word.
+    if (name == "tristrips" && *count > 0) fail("strips of triangles are not read: write them as faces");
     header_.elements.push_back({name, *count, {}, line_});
   }
 
@@ -192,6 +215,7 @@ class BinaryBody {
   static constexpr PlaceKind kPlaceKind = PlaceKind::Byte;
   std::int64_t place() const { return static_cast<std::int64_t>(position_); }
   std::int64_t warned_underflows() const { return 0; }
+  static void begin_record() {}
 
   double real(Scalar type, std::string_view what) {
     return is_real(type) ? real_number(type, what) : static_cast<double>(integer(type, what));
@@ -243,7 +267,7 @@ class BinaryBody {
   ByteOrder order_;
 };
 
-/// The same for an ASCII body.
+/// The same for an ASCII body, where every record has a line of its own.
 class AsciiBody {
  public:
   AsciiBody(const MeshSource& source, const Header& header) : source_(source), words_(source.bytes.substr(header.size), header.lines + 1) {
@@ -256,8 +280,10 @@ class AsciiBody {
   static constexpr PlaceKind kPlaceKind = PlaceKind::Line;
   std::int64_t place() const { return words_.line(); }
   std::int64_t warned_underflows() const { return underflows_; }
+  void begin_record() { is_first_of_record_ = true; }
 
-  double real(Scalar, std::string_view what) {
+  double real(Scalar type, std::string_view what) {
+    if (!is_real(type)) return static_cast<double>(integer(type, what));
     const std::string_view word = next(what);
     const ParsedNumber number = parse_number(word);
     if (number.status == NumberStatus::NotANumber) fail(std::string(what) + " = " + in_quotes(word) + " is not a number");
@@ -266,10 +292,10 @@ class AsciiBody {
     return number.value;
   }
 
-  std::int64_t integer(Scalar, std::string_view what) {
+  std::int64_t integer(Scalar type, std::string_view what) {
     const std::string_view word = next(what);
     const std::optional<std::int64_t> value = parse_integer(word);
-    if (!value) fail(std::string(what) + " = " + in_quotes(word) + " is not a whole number that fits");
+    if (!value || !holds(type, *value)) fail(std::string(what) + " = " + in_quotes(word) + " is not a whole number that fits its type");
     return *value;
   }
 
@@ -286,13 +312,20 @@ class AsciiBody {
 
  private:
   std::string_view next(std::string_view what) {
+    const std::int64_t line_before = words_.line();
     const std::optional<std::string_view> word = words_.next();
     if (!word) fail("the file ends where " + std::string(what) + " is expected");
+    if (is_first_of_record_ && line_before == words_.line() && !is_first_of_all_)
+      fail("more numbers on the line than the header announces");
+    if (!is_first_of_record_ && line_before != words_.line())
+      source_.fail_at_line(line_before, "the line ends where " + std::string(what) + " is expected");
+    is_first_of_record_ = is_first_of_all_ = false;
     return *word;
   }
 
   const MeshSource& source_;
   WordCursor words_;
+  bool is_first_of_record_ = true, is_first_of_all_ = true;
   std::int64_t underflows_ = 0;
 };
 
@@ -349,6 +382,7 @@ class BodyReader {
   }
 
   void read_vertex(const Element& element, const std::vector<int>& component, std::int64_t vertex) {
+    body_.begin_record();
     Vec3 point = Vec3::Zero();
     for (std::size_t i = 0; i < component.size(); ++i) {
       const Property& property = element.properties[i];
@@ -370,7 +404,10 @@ class BodyReader {
     if (found == element.properties.end() || !found->count_type || is_real(found->type)) {
       source_.fail_at_line(element.line, "element \"face\" has no list of whole numbers \"vertex_indices\"");
     }
+    if (std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) > 1)
+      source_.fail_at_line(element.line, "element \"face\" has both \"vertex_indices\" and \"vertex_index\"");
     for (std::int64_t face = 0; face < element.count; ++face) {
+      body_.begin_record();
       for (const Property& property : element.properties) {
         if (&property == &*found) {
           read_corners(property);
@@ -394,6 +431,7 @@ class BodyReader {
       }
       soup_.corners.push_back(static_cast<int>(index));
     }
+    soup_.end_face(source_);
   }
 
   std::int64_t list_length(const Property& property) {
@@ -413,6 +451,7 @@ class BodyReader {
   void skip_element(const Element& element) {
     if (element.properties.empty()) return;
     for (std::int64_t i = 0; i < element.count; ++i) {
+      body_.begin_record();
       for (const Property& property : element.properties) skip_property(property);
     }
   }

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,23 @@ namespace {
 
 constexpr std::size_t kHeader = 84;
 constexpr std::size_t kFacet = 50;
+
+/// Counts the facets whose normal looks to the other side than the order of their corners. Normals may be zero, or no number.
+class NormalCheck {
+ public:
+  void take(const Vec3& normal, const PolygonSoup& soup) {
+    const Vec3* corner = soup.points.data() + soup.points.size() - 3;
+    if (normal.dot((corner[1] - corner[0]).cross(corner[2] - corner[0])) < 0.0) ++opposed_;
+  }
+  void warn(PolygonSoup& soup) const {
+    if (opposed_ == 0) return;
+    soup.warnings.push_back(std::to_string(opposed_) +
+                            " facets have a normal that contradicts the order of their corners: the order counts.");
+  }
+
+ private:
+  std::int64_t opposed_ = 0;
+};
 
 /// Three corners of their own for each facet, until equal ones are welded.
 void push_corner(PolygonSoup& soup, const Vec3& point) {
@@ -34,8 +52,11 @@ class AsciiStlReader {
       if (lower_case(*word) != "solid") source_.fail_at_line(words_.line(), "\"solid\" is expected, not " + in_quotes(*word));
       words_.skip_line();
       read_solid();
+      ++solids_;
     }
     coordinates_.warn(soup_.warnings);
+    normals_.warn(soup_);
+    if (solids_ > 1) soup_.warnings.push_back("The file holds " + std::to_string(solids_) + " solids, which were read as one mesh.");
     weld_equal_points(soup_);
     return std::move(soup_);
   }
@@ -54,12 +75,22 @@ class AsciiStlReader {
   void read_facet() {
     soup_.begin_face(words_.line());
     expect("normal");
-    for (int i = 0; i < 3; ++i) next_word("a normal");
+    Vec3 normal;
+    for (double& component : normal) component = normal_component();
     expect("outer");
     expect("loop");
     for (int i = 0; i < 3; ++i) read_vertex();
+    normals_.take(normal, soup_);
     expect("endloop");
     expect("endfacet");
+  }
+
+  double normal_component() {
+    const std::string_view word = next_word("a normal");
+    const ParsedNumber number = parse_number(word);
+    if (number.status == NumberStatus::NotANumber)
+      source_.fail_at_line(words_.line(), in_facet("its normal has " + in_quotes(word) + ", which is no number"));
+    return number.value;
   }
 
   void read_vertex() {
@@ -92,10 +123,19 @@ class AsciiStlReader {
   const MeshSource& source_;
   WordCursor words_;
   CoordinateReader coordinates_;
+  NormalCheck normals_;
   PolygonSoup soup_;
+  int solids_ = 0;
 };
 
 std::uint32_t facet_count(std::string_view bytes) { return number_from<std::uint32_t>(bytes.substr(80), ByteOrder::Little); }
+
+Vec3 binary_vector(const MeshSource& source, std::size_t byte) {
+  Vec3 vector;
+  for (std::size_t i = 0; i < 3; ++i)
+    vector[static_cast<Eigen::Index>(i)] = double{number_from<float>(source.bytes.substr(byte + 4 * i), ByteOrder::Little)};
+  return vector;
+}
 
 Vec3 binary_corner(const MeshSource& source, std::size_t byte, std::size_t facet) {
   Vec3 point;
@@ -125,19 +165,25 @@ PolygonSoup read_binary_stl(const MeshSource& source) {
   }
   const std::size_t count = facet_count(source.bytes);
   if (!has_size_of_binary_stl(source.bytes)) {
-    source.fail_at_byte(80, std::to_string(count) + " facets make " + std::to_string(kHeader + kFacet * count) +
-                                " bytes, but the file has " + std::to_string(source.bytes.size()));
+    const std::size_t needed = kHeader + kFacet * count;
+    source.fail_at_byte(
+        80, std::to_string(count) + " facets make " + std::to_string(needed) + " bytes, but the file has " +
+                std::to_string(source.bytes.size()) +
+                (count > 0 && needed < source.bytes.size() ? ": cut off what follows them, if it is some program's own addition" : ""));
   }
   PolygonSoup soup;
   soup.format = "binary STL";
   soup.place_kind = PlaceKind::Byte;
+  NormalCheck normals;
   soup.points.reserve(3 * count);
   soup.corners.reserve(3 * count);
   for (std::size_t facet = 0; facet < count; ++facet) {
     const std::size_t byte = kHeader + kFacet * facet;
     soup.begin_face(static_cast<std::int64_t>(byte));
     for (std::size_t corner = 0; corner < 3; ++corner) push_corner(soup, binary_corner(source, byte + 12 * (corner + 1), facet));
+    normals.take(binary_vector(source, byte), soup);
   }
+  normals.warn(soup);
   weld_equal_points(soup);
   return soup;
 }

@@ -1,69 +1,45 @@
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <cmath>
-#include <stdexcept>
-
 #include "io/polygon_soup.h"
 #include "io/vtp_file.h"
-#include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
 
-void append_points(const MeshSource& source, vtkPoints* points, PolygonSoup& soup) {
-  if (points == nullptr) return;
-  if (points->GetData()->GetNumberOfComponents() != 3) source.fail("points must have three components");
-  soup.points.reserve(static_cast<std::size_t>(points->GetNumberOfPoints()));
-  for (vtkIdType id = 0; id < points->GetNumberOfPoints(); ++id) {
-    Vec3 point;
-    points->GetPoint(id, point.data());
-    for (int component = 0; component < 3; ++component) {
-      if (std::isfinite(point[component])) continue;
-      source.fail("vertex " + std::to_string(id) + ": " + "xyz"[component] + " = " + text_of(point[component]) + " is not finite");
-    }
-    soup.points.push_back(point);
-  }
-}
-
-void append_polygons(const MeshSource& source, vtkCellArray* array, PolygonSoup& soup) {
-  const VtpCells cells(source, array, "Polys");
-  for (vtkIdType cell = 0; cell < cells.count(); ++cell) {
-    soup.begin_face(0);
-    for (vtkIdType i = 0; i < cells.size(cell); ++i) soup.corners.push_back(cells.corner(cell, i, soup.points.size()));
-  }
+/// The corners of a cell, which its piece counts from 0 and the file from `first`.
+void append_face(const MeshSource& source, const std::vector<int>& corners, int first, PolygonSoup& soup) {
+  soup.begin_face(0);
+  for (const int corner : corners) soup.corners.push_back(first + corner);
+  soup.end_face(source);
 }
 
 /// Every other triangle of a strip runs the other way.
-void append_strips(const MeshSource& source, vtkCellArray* array, PolygonSoup& soup) {
-  const VtpCells cells(source, array, "Strips");
-  for (vtkIdType cell = 0; cell < cells.count(); ++cell) {
-    for (vtkIdType i = 0; i + 2 < cells.size(cell); ++i) {
-      soup.begin_face(0);
-      for (const vtkIdType k : {i, i + 1 + i % 2, i + 2 - i % 2}) soup.corners.push_back(cells.corner(cell, k, soup.points.size()));
-    }
-  }
-}
-
-PolygonSoup soup_of(const MeshSource& source, vtkPolyData& poly) {
-  check_arrays(source, poly.GetPointData(), poly.GetNumberOfPoints(), "points");
-  check_arrays(source, poly.GetCellData(), poly.GetNumberOfCells(), "cells");
-  PolygonSoup soup;
-  soup.format = "VTP";
-  append_points(source, poly.GetPoints(), soup);
-  append_polygons(source, poly.GetPolys(), soup);
-  append_strips(source, poly.GetStrips(), soup);
-  const vtkIdType others = poly.GetNumberOfVerts() + poly.GetNumberOfLines();
-  if (others > 0) soup.warnings.push_back(std::to_string(others) + " cells are points or lines and were left out.");
-  return soup;
+void append_strip(const MeshSource& source, const std::vector<int>& corners, int first, PolygonSoup& soup) {
+  if (corners.size() < 3) source.fail("a strip of " + std::to_string(corners.size()) + " corners; it has at least 3");
+  for (std::size_t i = 0; i + 2 < corners.size(); ++i)
+    append_face(source, {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]}, first, soup);
 }
 
 }  // namespace
 
-PolygonSoup read_vtp(const MeshSource& source) { return soup_of(source, *read_poly_data(source)); }
+PolygonSoup read_vtp(const MeshSource& source) {
+  VtpFile file(source);
+  PolygonSoup soup;
+  soup.format = "VTP";
+  std::int64_t others = 0;
+  for (const VtpPiece& piece : file.pieces()) {
+    const auto first = static_cast<std::int64_t>(soup.points.size());
+    if (first + piece.points > kMostPoints) source.fail_at_byte(piece.place, "more than " + std::to_string(kMostPoints) + " points in all");
+    file.append_points(piece, soup.points);
+    const auto with = [&](auto append) {
+      return [&source, &soup, first, append](const std::vector<int>& corners) { append(source, corners, static_cast<int>(first), soup); };
+    };
+    file.each_cell(piece, piece.polys, with(append_face));
+    file.each_cell(piece, piece.strips, with(append_strip));
+    others += piece.verts.count + piece.lines.count;
+  }
+  if (file.numbers().underflows() > 0)
+    soup.warnings.push_back(std::to_string(file.numbers().underflows()) + " numbers are too small for a double and were taken as 0.");
+  if (others > 0) soup.warnings.push_back(std::to_string(others) + " cells are points or lines and were left out.");
+  return soup;
+}
 
 }  // namespace palpation

@@ -1,172 +1,273 @@
 #include "io/vtp_file.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkFieldData.h>
-#include <vtkLogger.h>
-#include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
-#include <vtkXMLPolyDataReader.h>
-
 #include <algorithm>
-#include <cstdint>
-#include <mutex>
-#include <new>
-#include <stdexcept>
-#include <string>
-#include <utility>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "io/number_text.h"
-#include "io/vtp_scan.h"
+#include "io/xml_cursor.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
 
-/// What VTK complained of first, on one line; empty as long as it did not.
-class Complaint {
+/// Walks through the elements of a file and notes what its arrays say.
+class StructureReader {
  public:
-  void take(const char* text) {
-    if (first_.empty()) first_ = text != nullptr ? one_line(text) : "no reason given";
-  }
-  const std::string& first() const { return first_; }
+  StructureReader(const MeshSource& source, VtpLayout& layout) : source_(source), layout_(layout), xml_(source) {}
 
- private:
-  /// VTK's messages say "ERROR: In <source file>, line n\n<class> (<address>): <text>": only the text is for the user.
-  static std::string one_line(std::string text) {
-    for (char& c : text) {
-      if (c == '\n' || c == '\r') c = ' ';
+  std::vector<VtpPiece> read() {
+    const std::optional<XmlTag> root = xml_.enter_child();
+    if (!root || root->name != "VTKFile") source_.fail_at_byte(root ? root->place : 0, "<VTKFile> is expected: this XML is no file of VTK");
+    take_root(*root);
+    while (const std::optional<XmlTag> child = xml_.enter_child()) {
+      if (child->name == "PolyData") {
+        take_poly_data(*child);
+      } else if (child->name == "AppendedData") {
+        take_appended_data(*child);
+      } else {
+        xml_.skip_content();
+      }
     }
-    const std::size_t start = text.find("): ");
-    text = start == std::string::npos ? text : text.substr(start + 3);
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text.empty() ? "no reason given" : text;
+    if (!has_poly_data_) source_.fail_at_byte(root->place, "the file has no element <PolyData>");
+    xml_.expect_end();
+    return std::move(pieces_);
   }
-
-  std::string first_;
-};
-
-/// Stands in for VTK's window: hears the objects inside the reader, which nobody can observe.
-class ListeningWindow : public vtkOutputWindow {
- public:
-  static ListeningWindow* New();
-  void listen_for(Complaint& complaint) { complaint_ = &complaint; }
-  void DisplayText(const char*) override {}
-  void DisplayErrorText(const char* text) override { hear(text); }
-  void DisplayWarningText(const char* text) override { hear(text); }
-  void DisplayGenericWarningText(const char* text) override { hear(text); }
-  void DisplayDebugText(const char*) override {}
 
  private:
-  void hear(const char* text) {
-    if (complaint_ != nullptr) complaint_->take(text);
+  void take_root(const XmlTag& tag) {
+    const std::string type = tag.attribute("type").value_or("");
+    if (type != "PolyData") {
+      source_.fail_at_byte(tag.place,
+                           "the file holds " + in_quotes(type) + ", and only \"PolyData\" is read: save the surface of it as VTP");
+    }
+    const std::string version = tag.attribute("version").value_or("1.0");
+    if (version.substr(0, version.find('.')).find_first_not_of("012") != std::string::npos)
+      source_.fail_at_byte(tag.place, "version " + in_quotes(version) + " of the format is not known");
+    const std::string order = tag.attribute("byte_order").value_or("LittleEndian");
+    if (order != "LittleEndian" && order != "BigEndian")
+      source_.fail_at_byte(tag.place, "byte_order " + in_quotes(order) + " must be LittleEndian or BigEndian");
+    layout_.order = order == "BigEndian" ? ByteOrder::Big : ByteOrder::Little;
+    const std::string word = tag.attribute("header_type").value_or("UInt32");
+    if (word != "UInt32" && word != "UInt64")
+      source_.fail_at_byte(tag.place, "header_type " + in_quotes(word) + " must be UInt32 or UInt64");
+    layout_.word = word == "UInt64" ? 8 : 4;
+    const std::string compressor = tag.attribute("compressor").value_or("");
+    if (compressor == "vtkZLibDataCompressor") {
+      layout_.compressor = VtpCompressor::ZLib;
+    } else if (compressor == "vtkLZ4DataCompressor") {
+      layout_.compressor = VtpCompressor::Lz4;
+    } else if (compressor == "vtkLZMADataCompressor") {
+      layout_.compressor = VtpCompressor::Lzma;
+    } else if (!compressor.empty()) {
+      source_.fail_at_byte(tag.place, "compressor " + in_quotes(compressor) + " is not known");
+    }
   }
-  Complaint* complaint_ = nullptr;
+
+  /// From "_" to the last end tag: bytes that are no XML may look like tags.
+  void take_appended_data(const XmlTag& tag) {
+    if (layout_.appended) source_.fail_at_byte(tag.place, "a second element <AppendedData>");
+    const std::string encoding = tag.attribute("encoding").value_or("");
+    if (encoding != "raw" && encoding != "base64")
+      source_.fail_at_byte(tag.place, "encoding " + in_quotes(encoding) + " of appended data must be raw or base64");
+    layout_.appended_is_base64 = encoding == "base64";
+    const std::size_t end = source_.bytes.rfind("</AppendedData");
+    if (end == std::string_view::npos || end < xml_.position())
+      source_.fail_at_byte(source_.bytes.size(), "the file ends inside <AppendedData>");
+    const std::size_t mark = source_.bytes.find_first_not_of(" \t\r\n", xml_.position());
+    if (source_.bytes[mark] != '_') source_.fail_at_byte(mark, "appended data must begin with \"_\"");
+    layout_.appended = source_.bytes.substr(mark + 1, end - std::min(end, mark + 1));
+    xml_.jump_to(end);
+    if (xml_.enter_child()) source_.fail_at_byte(end, "appended data must end here");
+  }
+
+  void take_poly_data(const XmlTag& tag) {
+    if (has_poly_data_) source_.fail_at_byte(tag.place, "a second element <PolyData>");
+    has_poly_data_ = true;
+    while (const std::optional<XmlTag> child = xml_.enter_child()) {
+      if (child->name == "Piece") {
+        take_piece(*child);
+      } else {
+        xml_.skip_content();
+      }
+    }
+  }
+
+  void take_piece(const XmlTag& tag) {
+    VtpPiece& piece = pieces_.emplace_back();
+    piece.place = tag.place;
+    piece.points = count_of(tag, "NumberOfPoints");
+    const std::array<std::pair<const char*, VtpCells*>, 4> kinds = {
+        {{"Verts", &piece.verts}, {"Lines", &piece.lines}, {"Strips", &piece.strips}, {"Polys", &piece.polys}}};
+    for (const auto& [kind, cells] : kinds) *cells = {kind, count_of(tag, std::string("NumberOf") + kind), {}, {}, tag.place};
+    while (const std::optional<XmlTag> child = xml_.enter_child()) {
+      const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return child->name == kind.first; });
+      if (found != kinds.end()) {
+        take_cells(*child, *found->second);
+      } else if (child->name == "Points") {
+        take_positions(*child, piece);
+      } else if (child->name == "PointData") {
+        each_array([&](VtpArray array) { piece.point_arrays.push_back(std::move(array)); });
+      } else if (child->name == "CellData") {
+        each_array([&](VtpArray array) { piece.cell_arrays.push_back(std::move(array)); });
+      } else {
+        xml_.skip_content();
+      }
+    }
+  }
+
+  std::int64_t count_of(const XmlTag& tag, const std::string& name) const {
+    const std::string text = tag.attribute(name).value_or("0");
+    const std::optional<std::int64_t> count = parse_integer(without_blanks_around(text));
+    if (count && *count >= 0 && *count <= std::numeric_limits<int>::max()) return *count;
+    source_.fail_at_byte(tag.place, name + " = " + in_quotes(text) + " must be a whole number from 0 to 2147483647");
+  }
+
+  void take_positions(const XmlTag& tag, VtpPiece& piece) {
+    if (piece.positions) source_.fail_at_byte(tag.place, "a second element <Points> of a piece");
+    int arrays = 0;
+    each_array([&](VtpArray array) {
+      ++arrays;
+      piece.positions = std::move(array);
+    });
+    if (arrays != 1 && (arrays > 1 || piece.points > 0)) source_.fail_at_byte(tag.place, "<Points> must hold one array");
+    if (piece.positions && piece.positions->components != 3) {
+      source_.fail_at_byte(piece.positions->place, "points must have three components, not " + std::to_string(piece.positions->components));
+    }
+  }
+
+  void take_cells(const XmlTag& tag, VtpCells& cells) {
+    if (cells.connectivity || cells.offsets) source_.fail_at_byte(tag.place, "a second element <" + cells.kind + "> of a piece");
+    each_array([&](VtpArray array) {
+      if (array.name == "connectivity" && !cells.connectivity) {
+        cells.connectivity = std::move(array);
+      } else if (array.name == "offsets" && !cells.offsets) {
+        cells.offsets = std::move(array);
+      } else {
+        source_.fail_at_byte(array.place,
+                             "<" + cells.kind + "> must hold one array \"connectivity\" and one \"offsets\", not " + in_quotes(array.name));
+      }
+    });
+  }
+
+  /// Calls for each array in the element that was entered last.
+  template <typename Take>
+  void each_array(Take take) {
+    while (const std::optional<XmlTag> child = xml_.enter_child()) {
+      if (child->name != "DataArray" && child->name != "Array") {
+        xml_.skip_content();
+        continue;
+      }
+      VtpArray array = vtp_array(source_, *child);
+      array.text = text_of_array();
+      take(std::move(array));
+    }
+  }
+
+  /// The numbers may stand before, between or behind what else an array may hold (keys with information on it), in one stretch.
+  std::string_view text_of_array() {
+    std::string_view text;
+    while (true) {
+      const std::optional<XmlTag> child = xml_.enter_child();
+      const std::string_view here = xml_.text_before();
+      if (!here.empty() && !text.empty()) source_.fail_at_byte(xml_.position(), "an array's numbers must stand in one place");
+      if (!here.empty()) text = here;
+      if (!child) return text;
+      xml_.skip_content();
+    }
+  }
+
+  const MeshSource& source_;
+  VtpLayout& layout_;
+  XmlCursor xml_;
+  std::vector<VtpPiece> pieces_;
+  bool has_poly_data_ = false;
 };
-vtkStandardNewMacro(ListeningWindow)
 
-    /// VTK's window and log are one for the process, so reading takes turns. The log would print to stderr besides.
-    class Silence {
- public:
-  explicit Silence(Complaint& complaint)
-      : lock_(mutex()), window_before_(vtkOutputWindow::GetInstance()), verbosity_before_(vtkLogger::GetCurrentVerbosityCutoff()) {
-    vtkNew<ListeningWindow> window;
-    window->listen_for(complaint);
-    vtkOutputWindow::SetInstance(window);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~Silence() {
-    vtkLogger::SetStderrVerbosity(verbosity_before_);
-    vtkOutputWindow::SetInstance(window_before_);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex the_mutex;
-    return the_mutex;
-  }
-  std::lock_guard<std::mutex> lock_;
-  vtkSmartPointer<vtkOutputWindow> window_before_;
-  vtkLogger::Verbosity verbosity_before_;
-};
-
-vtkSmartPointer<vtkCallbackCommand> observer_for(Complaint& complaint) {
-  vtkSmartPointer<vtkCallbackCommand> command = vtkSmartPointer<vtkCallbackCommand>::New();
-  command->SetClientData(&complaint);
-  command->SetCallback(
-      [](vtkObject*, unsigned long, void* client, void* text) { static_cast<Complaint*>(client)->take(static_cast<const char*>(text)); });
-  return command;
-}
-
-vtkSmartPointer<vtkPolyData> parsed(const std::string& bytes, Complaint& complaint) {
-  const vtkSmartPointer<vtkCallbackCommand> observer = observer_for(complaint);
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, observer);
-  reader->AddObserver(vtkCommand::WarningEvent, observer);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, observer);
-  reader->SetReaderErrorObserver(observer);
-  reader->SetParserErrorObserver(observer);
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(bytes);
-  reader->Update();
-  return reader->GetOutput();
+/// Numbers that follow each other may not decrease, which makes the last the largest.
+std::vector<std::int64_t> ends_of(const MeshSource& source, VtpNumbers& numbers, const VtpCells& cells) {
+  std::vector<std::int64_t> ends;
+  numbers.each_integer(*cells.offsets, cells.count, "offsets of " + cells.kind, [&](std::int64_t end) {
+    if (end < (ends.empty() ? 0 : ends.back())) {
+      source.fail_at_byte(cells.offsets->place, "offsets of " + cells.kind + " must not decrease, but that of cell " +
+                                                    std::to_string(ends.size()) + " is " + std::to_string(end));
+    }
+    ends.push_back(end);
+  });
+  return ends;
 }
 
 }  // namespace
 
-vtkSmartPointer<vtkPolyData> read_poly_data(const MeshSource& source) {
-  const std::string bytes = vetted_vtp(source);
-  Complaint complaint;
-  const Silence silence(complaint);
-  try {
-    vtkSmartPointer<vtkPolyData> poly = parsed(bytes, complaint);
-    if (!complaint.first().empty()) source.fail("not a sound VTP file: " + complaint.first());
-    if (poly == nullptr) source.fail("not a sound VTP file");
-    return poly;
-  } catch (const std::bad_alloc&) {
-    source.fail("a count or size in the file asks for more memory than there is");
-  } catch (const std::length_error&) {
-    source.fail("a count or size in the file is beyond any memory");
+VtpFile::VtpFile(const MeshSource& source) : source_(source), pieces_(StructureReader(source, layout_).read()), numbers_(source, layout_) {
+  for (const VtpPiece& piece : pieces_) check_arrays(piece);
+}
+
+void VtpFile::append_points(const VtpPiece& piece, std::vector<Vec3>& points) {
+  if (piece.points == 0) return;
+  numbers_.check_size(*piece.positions, 3 * piece.points, "points");
+  points.reserve(points.size() + static_cast<std::size_t>(piece.points));
+  Vec3 point;
+  int component = 0;
+  numbers_.each_real(*piece.positions, 3 * piece.points, "points", [&](double coordinate) {
+    if (!std::isfinite(coordinate)) {
+      source_.fail_at_byte(piece.positions->place, "vertex " + std::to_string(points.size()) + ": " + "xyz"[component] + " = " +
+                                                       text_of(coordinate) + " is not finite");
+    }
+    point[component++] = coordinate;
+    if (component < 3) return;
+    points.push_back(point);
+    component = 0;
+  });
+}
+
+void VtpFile::each_cell(const VtpPiece& piece, const VtpCells& cells, const std::function<void(const std::vector<int>&)>& take) {
+  if (cells.count == 0) return;
+  const std::vector<std::int64_t> ends = ends_of(source_, numbers_, cells);
+  std::size_t cell = 0;
+  std::int64_t taken = 0;
+  std::vector<int> corners;
+  const auto pass_on = [&] {
+    for (; cell < ends.size() && ends[cell] == taken; ++cell) {
+      take(corners);
+      corners.clear();
+    }
+  };
+  pass_on();
+  numbers_.each_integer(*cells.connectivity, ends.back(), "connectivity of " + cells.kind, [&](std::int64_t index) {
+    if (index < 0 || index >= piece.points) {
+      source_.fail_at_byte(cells.connectivity->place, "cell " + std::to_string(cell) + " of " + cells.kind + ": vertex index " +
+                                                          std::to_string(index) + " is out of range 0 to " +
+                                                          std::to_string(piece.points - 1));
+    }
+    corners.push_back(static_cast<int>(index));
+    ++taken;
+    pass_on();
+  });
+}
+
+void VtpFile::check_arrays(const VtpPiece& piece) {
+  if (piece.points > 0 && !piece.positions)
+    source_.fail_at_byte(piece.place, std::to_string(piece.points) + " points are announced, but there is no element <Points>");
+  for (const VtpCells* cells : {&piece.verts, &piece.lines, &piece.strips, &piece.polys}) {
+    if (cells->count > 0 && (!cells->offsets || !cells->connectivity)) {
+      source_.fail_at_byte(cells->place, std::to_string(cells->count) + " " + cells->kind + " are announced, but <" + cells->kind +
+                                             "> has no arrays \"connectivity\" and \"offsets\"");
+    }
+    if (cells->count == 0 && cells->offsets) numbers_.check(*cells->offsets, 0, "offsets of " + cells->kind);
+    if (cells->count == 0 && cells->connectivity) numbers_.check(*cells->connectivity, 0, "connectivity of " + cells->kind);
   }
+  const auto check = [&](const std::vector<VtpArray>& arrays, std::int64_t count, const std::string& where) {
+    for (const VtpArray& array : arrays) {
+      if (array.name.empty()) source_.fail_at_byte(array.place, "an array of the " + where + " has no name");
+      const std::string name = "array " + in_quotes(array.name) + " of the " + where;
+      if (array.components == 0) source_.fail_at_byte(array.place, name + " has no components");
+      numbers_.check(array, array.components * count, name);
+    }
+  };
+  check(piece.point_arrays, piece.points, "points");
+  check(piece.cell_arrays, piece.cells(), "cells");
 }
-
-void check_arrays(const MeshSource& source, vtkFieldData* arrays, vtkIdType tuples, const std::string& where) {
-  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
-    vtkAbstractArray* array = arrays->GetAbstractArray(i);
-    const std::string name = array->GetName() != nullptr ? array->GetName() : "";
-    if (name.empty()) source.fail("array " + std::to_string(i) + " of the " + where + " has no name");
-    if (array->GetNumberOfTuples() == tuples) continue;
-    source.fail("array " + in_quotes(name) + " of the " + where + " has " + std::to_string(array->GetNumberOfTuples()) + " entries, not " +
-                std::to_string(tuples));
-  }
-}
-
-VtpCells::VtpCells(const MeshSource& source, vtkCellArray* cells, std::string name)
-    : source_(source), offsets_(cells->GetOffsetsArray()), connectivity_(cells->GetConnectivityArray()), name_(std::move(name)) {
-  for (vtkIdType cell = 0; cell < count(); ++cell) {
-    if (offset(cell) >= 0 && offset(cell) <= offset(cell + 1)) continue;
-    source.fail("offsets of " + name_ + " must not decrease, but they do at cell " + std::to_string(cell));
-  }
-  if (count() > 0 && offset(count()) > connectivity_->GetNumberOfValues())
-    source.fail("offsets of " + name_ + " point behind the connectivity");
-}
-
-vtkIdType VtpCells::count() const { return std::max<vtkIdType>(offsets_->GetNumberOfValues() - 1, 0); }
-
-vtkIdType VtpCells::size(vtkIdType cell) const { return offset(cell + 1) - offset(cell); }
-
-int VtpCells::corner(vtkIdType cell, vtkIdType i, std::size_t vertices) const {
-  const double index = connectivity_->GetComponent(offset(cell) + i, 0);
-  if (index >= 0.0 && index < static_cast<double>(vertices)) return static_cast<int>(index);
-  source_.fail("cell " + std::to_string(cell) + " of " + name_ + ": vertex index " + text_of(index) + " is out of range 0 to " +
-               std::to_string(static_cast<std::int64_t>(vertices) - 1));
-}
-
-// Indices up to 2^53 pass through a double unharmed, and larger ones stay out of range.
-vtkIdType VtpCells::offset(vtkIdType cell) const { return static_cast<vtkIdType>(offsets_->GetComponent(cell, 0)); }
 
 }  // namespace palpation

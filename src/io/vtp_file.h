@@ -1,41 +1,62 @@
-/// VTK's own poly data files, read without trust: counts are checked against the bytes first, and nothing is printed.
+/// VTK's own poly data files (VTP), read without trust: the structure of the file is checked against its counts before a number is read.
+///
+/// What VTK's parser takes in silence is refused: a count of cells or points that the arrays do not have, arrays of points and cells that
+/// are too short, too long, or without a name.
 #pragma once
 
-#include <vtkCellArray.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "io/mesh_source.h"
+#include "io/vtp_array.h"
+#include "palpation/base/types.h"
 
 namespace palpation {
 
-/// What VTK makes of the file. Indices, sizes of arrays and numbers in it are still to be checked. Throws IoError with path and VTK's first
-/// complaint.
-vtkSmartPointer<vtkPolyData> read_poly_data(const MeshSource& source);
+/// Cells of one kind: cell i has the corners [ends[i-1], ends[i]) of the connectivity.
+struct VtpCells {
+  std::string kind;  ///< "Verts", "Lines", "Strips" or "Polys"
+  std::int64_t count = 0;
+  std::optional<VtpArray> connectivity, offsets;
+  std::size_t place = 0;  ///< byte of the tag that tells the count
+};
 
-/// Throws IoError unless every array has a name and the given number of entries.
-void check_arrays(const MeshSource& source, vtkFieldData* arrays, vtkIdType tuples, const std::string& where);
+struct VtpPiece {
+  std::int64_t points = 0;
+  std::optional<VtpArray> positions;
+  VtpCells verts, lines, strips, polys;
+  std::vector<VtpArray> point_arrays, cell_arrays;
+  std::size_t place = 0;
 
-/// Cells as VTK stores them: cell i holds connectivity [offset i, offset i+1). Nothing of it may be trusted.
-class VtpCells {
+  std::int64_t cells() const { return verts.count + lines.count + strips.count + polys.count; }
+};
+
+class VtpFile {
  public:
-  /// Throws IoError if offsets decrease or point behind the connectivity.
-  VtpCells(const MeshSource& source, vtkCellArray* cells, std::string name);
+  /// Reads the structure and looks whether all arrays of points and cells hold what the counts promise. Throws IoError.
+  explicit VtpFile(const MeshSource& source);
 
-  vtkIdType count() const;
-  vtkIdType size(vtkIdType cell) const;
-  /// Throws IoError unless the index lies in [0, vertices).
-  int corner(vtkIdType cell, vtkIdType i, std::size_t vertices) const;
+  VtpFile(const VtpFile&) = delete;
+  VtpFile& operator=(const VtpFile&) = delete;
+
+  const std::vector<VtpPiece>& pieces() const { return pieces_; }
+  VtpNumbers& numbers() { return numbers_; }
+
+  /// Appends the finite positions of a piece's points. Throws IoError.
+  void append_points(const VtpPiece& piece, std::vector<Vec3>& points);
+  /// Calls for each cell with its corners, all in [0, points of the piece). Throws IoError.
+  void each_cell(const VtpPiece& piece, const VtpCells& cells, const std::function<void(const std::vector<int>&)>& take);
 
  private:
-  vtkIdType offset(vtkIdType cell) const;
+  void check_arrays(const VtpPiece& piece);
 
   const MeshSource& source_;
-  vtkDataArray* offsets_;
-  vtkDataArray* connectivity_;
-  std::string name_;
+  VtpLayout layout_;
+  std::vector<VtpPiece> pieces_;
+  VtpNumbers numbers_;
 };
 
 }  // namespace palpation

@@ -52,7 +52,8 @@ std::string ply_of(const ScaledMesh& mesh) {
 }
 
 std::string obj_of(const ScaledMesh& mesh) {
-  std::string text;
+  // The only counts that an OBJ file can have, by which a reader may see that it was cut.
+  std::string text = "# " + std::to_string(mesh.vertices.rows()) + " vertices, " + std::to_string(mesh.triangles.rows()) + " faces\n";
   for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex) append_vertex(text += "v ", mesh, vertex);
   for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle) append_triangle(text += "f", mesh, triangle, 1);
   return text;

@@ -250,7 +250,7 @@ TEST(ReadMesh, RefusesPolygonsThatNoFanCovers) {
     vertices += "v " + std::to_string(std::cos(i * 0.02)) + " " + std::to_string(std::sin(i * 0.02)) + " 0\n";
     face += " " + std::to_string(i);
   }
-  EXPECT_TRUE(contains(error_of("a.obj", vertices + face + "\n"), "has 300 corners; at most 256"));
+  EXPECT_TRUE(contains(error_of("a.obj", vertices + face + "\n"), "has more than 256 corners"));
 }
 
 TEST(ReadMesh, RefusesFacesWithTooFewOrRepeatedCorners) {
@@ -332,7 +332,7 @@ TEST(ReadOff, RefusesMoreOrFewerLinesThanItsCounts) {
   EXPECT_TRUE(contains(error_of("a.off", replaced(kOff, "4 2 0", "4 3 0")), "the file ends where face 2 is expected"));
   EXPECT_TRUE(
       contains(error_of("a.off", replaced(kOff, "3 0 2 3", "3 0 2 4")), "a.off:8: face 1: vertex index \"4\" is out of range 0 to 3"));
-  EXPECT_TRUE(contains(error_of("a.off", replaced(kOff, "3 0 2 3", "1000000000 0 2 3")), "1000000000 corners announced, 3 there"));
+  EXPECT_TRUE(contains(error_of("a.off", replaced(kOff, "3 0 2 3", "1000000000 0 2 3")), "1000000000 corners; at most 256"));
 }
 
 TEST(ReadStl, NamesTheLineWhereAKeywordIsMissing) {
@@ -363,7 +363,9 @@ TEST(ReadPly, RefusesListsLongerThanTheFile) {
   long_list[list] = '\xFF';
   EXPECT_TRUE(contains(error_of("a.ply", long_list), "of 255 numbers does not fit"));
   for (const std::string count : {"-1", "2147483647"}) {
-    EXPECT_TRUE(contains(error_of("a.ply", replaced(kAsciiPly, "3 0 2 3", count + " 0 2 3")), "does not fit")) << count;
+    EXPECT_TRUE(contains(error_of("a.ply", replaced(kAsciiPly, "3 0 2 3", count + " 0 2 3")),
+                         "\"" + count + "\" is not a whole number that fits its type"))
+        << count;
   }
   EXPECT_TRUE(contains(error_of("a.ply", replaced(ply, "little", "big")), "a.ply, byte"));
   EXPECT_TRUE(contains(error_of("a.ply", ply + "x"), "1 bytes more than"));
@@ -379,7 +381,7 @@ TEST(ReadPly, SkipsOtherElementsPropertiesAndLists) {
 TEST(ReadVtp, RefusesIndicesOffsetsAndArraysThatDoNotFit) {
   EXPECT_TRUE(contains(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 99", "3 6")), "cell 1 of Polys: vertex index 99 is out of range 0 to 3"));
   EXPECT_TRUE(contains(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 -7", "3 6")), "vertex index -7"));
-  EXPECT_TRUE(contains(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 1000000000000", "3 6")), "vertex index 1e+12 is out of range"));
+  EXPECT_TRUE(contains(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 1000000000000", "3 6")), "vertex index 1000000000000 is out of range"));
   EXPECT_FALSE(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 3", "6 3")).empty());
   EXPECT_FALSE(error_of("a.vtp", vtp("4", "3", "0 1 2 0 2 3", "3 600")).empty());
   EXPECT_FALSE(error_of("a.vtp", vtp("4", "2000000000", "0 1 2 0 2 3", "3 6")).empty());
@@ -412,10 +414,12 @@ TEST(ReadVtp, ReadsCompressedBlocks) {
 TEST(ReadVtp, RefusesSizesOfBlocksThatDoNotAddUp) {
   const std::string sound = "AQAAAACAAAAwAAAAFgAAAA==", binary = "format=\"binary\"";
   // Little-endian words: blocks, their size, the size of the last, compressed sizes.
-  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AAAAAACAAAAwAAAA", binary)), "a block size or count of 48"));  // 0, 32768, 48
-  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("/////wCAAAAwAAAAFgAAAA==", binary)), "a block size or count of 4294967295"));
-  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AQAAAACAAAAwAAAA////fw==", binary)), "a block size or count of 2147483647"));
-  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AQAAAP///3////9/FgAAAA==", binary)), "a block size or count of 2147483647"));
+  EXPECT_TRUE(
+      contains(error_of("a.vtp", compressed_vtp("AAAAAACAAAAwAAAA", binary)), "0 blocks of 32768 bytes, the last of 48"));  // 0, 32768, 48
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("/////wCAAAAwAAAAFgAAAA==", binary)), "4294967295 blocks"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AQAAAACAAAAwAAAA////fw==", binary)), "a block of 2147483647 bytes does not fit"));
+  EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp("AQAAAP///3////9/FgAAAA==", binary)),
+                       "2147483647 bytes, but 6 numbers of its type have 48"));
   EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp(sound, "format=\"appen3ed\" offset=\"0\"")), "an array's format"));
   EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp(sound, "format=\"binary\" offset=\"0\"")), "an array's format"));
   EXPECT_TRUE(contains(error_of("a.vtp", compressed_vtp(sound, "format=\"&#98;inary\"")), "entities"));
