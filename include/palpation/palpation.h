@@ -14,6 +14,7 @@
 #include "palpation/boundary/level_set.h"
 #include "palpation/boundary/region.h"
 #include "palpation/boundary/region_error.h"
+#include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/expected_error.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/acquisition.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "palpation/base/error.h"
+#include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/expected_error.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
@@ -131,9 +132,14 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   all.insert(all.end(), palpations.begin(), palpations.end());
   belief_ = field_.learns() ? fitted(all) : belief_.condition_on(palpations);
   marginals_ = belief_.at_vertices();
-  if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) level_ = level_from_range(marginals_, level_rule_.fraction);
+  if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) level_ = estimated_level();
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
+}
+
+Level Exploration::estimated_level() const {
+  if (level_rule_.estimate == LevelEstimate::Edge) return level_from_edge(surface_, belief_, marginals_, level_rule_.fraction);
+  return level_from_range(marginals_, level_rule_.fraction);
 }
 
 /// A new belief with the hyperparameters that the readings teach.

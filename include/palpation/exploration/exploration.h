@@ -36,10 +36,15 @@ struct FieldModel {
   bool learns() const { return learn_length || learn_signal || learn_noise; }
 };
 
+/// What the level is estimated from, where it is not known: the range of the mean (the paper's way), or the profile of the readings across
+/// the edge (edge_profile.h), which knows how sure it is.
+enum class LevelEstimate { Range, Edge };
+
 /// How the level is found.
 struct LevelRule {
-  std::optional<double> known{};  ///< in reading units; else from the range of the mean
-  double fraction = 0.5;          ///< of the range
+  std::optional<double> known{};  ///< in reading units
+  double fraction = 0.5;          ///< of the way from the low plateau to the high one
+  LevelEstimate estimate = LevelEstimate::Range;
 };
 
 struct Plan {
@@ -91,6 +96,7 @@ class Exploration {
  private:
   void learn_from(std::span<const Palpation> palpations);
   Belief fitted(std::span<const Palpation> palpations);
+  Level estimated_level() const;
   void plan_next();
   Acquisition acquisition_in_force() const;
   std::vector<int> in_tour_order(std::vector<int> stops) const;

@@ -1,0 +1,15 @@
+/// How deep places lie inside a boundary. Private to this folder.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "palpation/boundary/level_set.h"
+
+namespace palpation {
+
+/// Distance of each place from the loops' pieces along the level, in a straight line (which at the depths that matter, a few millimetres,
+/// tissue leaves unchanged), unsigned; pieces along the tissue's border do not count. Empty if there are no others.
+std::vector<double> distances_from(const Surface& surface, std::span<const LevelLoop> loops, std::span<const Vec3> places);
+
+}  // namespace palpation
