@@ -92,8 +92,4 @@ Vec3 CoordinateReader::point(std::span<const std::string_view, 3> words, std::in
   return point;
 }
 
-void CoordinateReader::warn(std::vector<std::string>& warnings) const {
-  if (underflows_ > 0) warnings.push_back(std::to_string(underflows_) + " coordinates are too small for a double and were taken as 0.");
-}
-
 }  // namespace palpation

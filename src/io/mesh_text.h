@@ -67,8 +67,8 @@ class CoordinateReader {
   /// Throws IoError naming line, vertex and component unless the word is a finite number.
   double coordinate(std::string_view word, int component, std::int64_t vertex, std::int64_t line);
   Vec3 point(std::span<const std::string_view, 3> words, std::int64_t vertex, std::int64_t line);
-  /// A sentence if any coordinate became 0.
-  void warn(std::vector<std::string>& warnings) const;
+  /// How many were taken as 0.
+  std::int64_t underflows() const { return underflows_; }
 
  private:
   const MeshSource& source_;

@@ -129,13 +129,14 @@ double volume_of(const Component& component, const std::vector<SoupTriangle>& tr
 
 }  // namespace
 
-void orient_alike(std::vector<SoupTriangle>& triangles, const PolygonSoup& soup, std::vector<std::string>& warnings) {
+void orient_alike(std::vector<SoupTriangle>& triangles, PolygonSoup& soup) {
   const Adjacency adjacency = adjacency_of(triangles, soup.points.size());
   std::vector<Turn> turns(triangles.size(), Turn::Unknown);
-  std::int64_t turned = 0;
+  std::int64_t turned = 0, components = 0;
   std::vector<int> one_sided, inside_out;
   for (std::size_t seed = 0; seed < triangles.size(); ++seed) {
     if (turns[seed] != Turn::Unknown) continue;
+    ++components;
     const Component component = spread(static_cast<int>(seed), adjacency, turns);
     if (!component.orientable) {
       one_sided.push_back(triangles[seed].face);
@@ -144,14 +145,24 @@ void orient_alike(std::vector<SoupTriangle>& triangles, const PolygonSoup& soup,
     turned += turn_fewest(component, turns, triangles);
     if (component.closed && volume_of(component, triangles, soup) < 0.0) inside_out.push_back(triangles[seed].face);
   }
-  const auto say = [&](const std::vector<int>& faces, const std::string& what) {
+  const auto say = [&](const std::vector<int>& faces, const std::string& what, const std::string& advice) {
     if (faces.empty()) return;
-    warnings.push_back(std::to_string(faces.size()) + " of the components, such as that of face " +
-                       std::to_string(faces.front() + soup.first_number) + ", " + what);
+    soup.warn(std::to_string(faces.size()) + " of the components, such as that of face " +
+                  std::to_string(faces.front() + soup.first_number) + ", " + what,
+              advice);
   };
-  if (turned > 0) warnings.push_back(std::to_string(turned) + " triangles were turned round to agree with their neighbours.");
-  say(one_sided, "cannot be oriented: no turning makes all neighbours agree.");
-  say(inside_out, "are closed with faces that look inward: if tissue is inside, the normals point the wrong way.");
+  if (components > 1) {
+    soup.warn("The mesh is in " + std::to_string(components) + " components, which share no edge.",
+              "Nothing is known across a gap. Delete what is not tissue; if they should be one, weld their seams.");
+  }
+  if (turned > 0) {
+    soup.warn(std::to_string(turned) + " triangles were turned round to agree with their neighbours.",
+              "Nothing to do, so long as the outside is where it should be.");
+  }
+  say(one_sided, "cannot be oriented: no turning makes all neighbours agree.",
+      "A surface with one side (a Moebius strip) has no outside to touch. Delete the faces where it closes on itself.");
+  say(inside_out, "are closed with faces that look inward: if tissue is inside, the normals point the wrong way.",
+      "The probe would come from inside. Flip all faces in a mesh editor.");
 }
 
 }  // namespace palpation

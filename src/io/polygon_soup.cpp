@@ -86,6 +86,12 @@ void PolygonSoup::begin_face(std::int64_t place) {
   places.push_back(place);
 }
 
+void PolygonSoup::warn_of_underflows(std::int64_t count) {
+  if (count == 0) return;
+  warn(std::to_string(count) + " coordinates are too small for a double and were taken as 0.",
+       "Harmless: nothing can be measured that is so small.");
+}
+
 void PolygonSoup::end_face(const MeshSource& source) const {
   const std::int64_t count = static_cast<std::int64_t>(corners.size()) - first_corner.back();
   if (count >= 3 && count <= kMostCorners) return;

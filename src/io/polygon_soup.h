@@ -6,10 +6,12 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/mesh_source.h"
 #include "palpation/base/types.h"
+#include "palpation/io/read_mesh.h"
 
 namespace palpation {
 
@@ -23,7 +25,7 @@ inline constexpr std::int64_t kMostPoints = std::numeric_limits<int>::max() / 3 
 struct PolygonSoup {
   std::string format;
   std::vector<Vec3> points;  ///< in the file's unit, finite
-  std::vector<std::string> warnings;
+  std::vector<MeshWarning> warnings;
   PlaceKind place_kind = PlaceKind::None;
   int first_number = 0;  ///< what the format calls its first vertex and face: 0 or 1
 
@@ -37,6 +39,9 @@ struct PolygonSoup {
   void begin_face(std::int64_t place);
   /// Throws IoError if the face begun last has fewer than three corners or more than kMostCorners.
   void end_face(const MeshSource& source) const;
+  void warn(std::string text, std::string advice) { warnings.push_back({std::move(text), std::move(advice)}); }
+  /// Says how many numbers became 0, if any did.
+  void warn_of_underflows(std::int64_t count);
   [[noreturn]] void fail_at_face(const MeshSource& source, std::size_t face, const std::string& what) const;
 };
 
@@ -50,6 +55,10 @@ PolygonSoup read_vtp(const MeshSource& source);
 
 /// True if the size is what the count in a binary STL's header asks for.
 bool has_size_of_binary_stl(std::string_view bytes);
+
+/// Advice that several readers give.
+inline constexpr const char* kFacesOnly = "Harmless if the tissue is made of faces.";
+inline constexpr const char* kFreshCopy = "Look whether faces are missing. If so, copy or export the file again.";
 
 /// One triangle of a face.
 struct SoupTriangle {
@@ -68,9 +77,9 @@ std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSo
 /// Throws IoError if two triangles have the same three corners.
 void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles);
 
-/// Turns triangles round until neighbours agree, the fewest in each component; a component that no turning mends stays as it is. Adds
-/// warnings.
-void orient_alike(std::vector<SoupTriangle>& triangles, const PolygonSoup& soup, std::vector<std::string>& warnings);
+/// Turns triangles round until neighbours agree, the fewest in each component; a component that no turning mends stays as it is. Warns of
+/// that, and of more components than one.
+void orient_alike(std::vector<SoupTriangle>& triangles, PolygonSoup& soup);
 
 /// Gives points with equal coordinates (0 and -0 are equal) the number of the first of them, and drops the others. Returns how many were
 /// dropped.
@@ -80,6 +89,9 @@ std::int64_t weld_equal_points(PolygonSoup& soup);
 std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& triangles);
 
 /// Warns of points that are equal, or closer to each other than 1e-12 of the extent.
-void warn_of_close_points(const PolygonSoup& soup, std::vector<std::string>& warnings);
+void warn_of_close_points(PolygonSoup& soup);
+
+/// Warns of triangles with an angle below 1e-6 rad: their longest side is more than a million times their height.
+void warn_of_slivers(PolygonSoup& soup, const std::vector<SoupTriangle>& triangles);
 
 }  // namespace palpation

@@ -99,12 +99,13 @@ PolygonSoup read_soup(const MeshSource& source) {
   source.fail("its content is none of OBJ, OFF, STL, PLY and VTP");
 }
 
-void warn_of_extension(const MeshSource& source, const std::string& format, std::vector<std::string>& warnings) {
+void warn_of_extension(const MeshSource& source, PolygonSoup& soup) {
   const std::string extension = lower_case(source.path.extension().string());
   constexpr std::array<std::string_view, 5> kExtensions = {".obj", ".off", ".stl", ".ply", ".vtp"};
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) return;
-  if (lower_case(format).find(extension.substr(1)) != std::string::npos) return;
-  warnings.push_back("The file is named " + extension + " but holds " + format + ": it was read as what it holds.");
+  if (lower_case(soup.format).find(extension.substr(1)) != std::string::npos) return;
+  soup.warn("The file is named " + extension + " but holds " + soup.format + ": it was read as what it holds.",
+            "Rename it: other programs may go by the name.");
 }
 
 TriangleMesh in_metres(const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles, LengthUnit unit) {
@@ -124,18 +125,22 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
   PolygonSoup soup = read_soup(source);
   if (soup.points.empty()) source.fail("the " + soup.format + " holds no vertices");
   if (soup.face_count() == 0) source.fail("the " + soup.format + " holds no faces");
-  warn_of_extension(source, soup.format, soup.warnings);
+  warn_of_extension(source, soup);
   if (repair.weld_equal_vertices) {
     const std::int64_t welded = weld_equal_points(soup);
-    if (welded > 0) soup.warnings.push_back(std::to_string(welded) + " vertices were joined with another at the same place.");
+    if (welded > 0) soup.warn(std::to_string(welded) + " vertices were joined with another at the same place.", "As was asked for.");
   }
   refuse_crowds(source, soup);
   std::vector<SoupTriangle> triangles = triangles_of(source, soup);
   refuse_duplicates(source, soup, triangles);
-  orient_alike(triangles, soup, soup.warnings);
+  orient_alike(triangles, soup);
   const std::int64_t unused = drop_unused_points(soup, triangles);
-  if (unused > 0) soup.warnings.push_back(std::to_string(unused) + " vertices belong to no face and were dropped.");
-  warn_of_close_points(soup, soup.warnings);
+  if (unused > 0) {
+    soup.warn(std::to_string(unused) + " vertices belong to no face and were dropped.",
+              "Harmless, unless faces are missing. Vertices are counted without them.");
+  }
+  warn_of_close_points(soup);
+  warn_of_slivers(soup, triangles);
   return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format)};
 }
 

@@ -97,13 +97,14 @@ class ObjReader {
   }
 
   void warn() {
-    coordinates_.warn(soup_.warnings);
-    if (left_out_ > 0) soup_.warnings.push_back(std::to_string(left_out_) + " points, lines or free forms were left out.");
-    if (lines_.ended_without_line_end()) soup_.warnings.push_back("The last line has no line end: the file may have been cut short.");
+    soup_.warn_of_underflows(coordinates_.underflows());
+    if (left_out_ > 0) soup_.warn(std::to_string(left_out_) + " points, lines or free forms were left out.", kFacesOnly);
+    if (lines_.ended_without_line_end()) soup_.warn("The last line has no line end: the file may have been cut short.", kFreshCopy);
     const auto compare = [&](std::optional<std::int64_t> announced, std::size_t found, const std::string& what) {
       if (!announced || *announced == static_cast<std::int64_t>(found)) return;
-      soup_.warnings.push_back("A comment at the top says " + std::to_string(*announced) + " " + what + ", but there are " +
-                               std::to_string(found) + ": the file may be damaged.");
+      soup_.warn("A comment at the top says " + std::to_string(*announced) + " " + what + ", but there are " + std::to_string(found) +
+                     ": the file may be damaged.",
+                 kFreshCopy);
     };
     compare(announced_vertices_, soup_.points.size(), "vertices");
     compare(announced_faces_, soup_.face_count(), "faces");

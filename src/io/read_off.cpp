@@ -25,7 +25,7 @@ class OffReader {
     for (std::int64_t vertex = 0; vertex < vertex_count_; ++vertex) read_vertex(vertex);
     for (std::int64_t face = 0; face < face_count_; ++face) read_face(face);
     if (next_words()) source_.fail_at_line(lines_.line(), "more lines than the header's counts announce");
-    coordinates_.warn(soup_.warnings);
+    soup_.warn_of_underflows(coordinates_.underflows());
     return std::move(soup_);
   }
 

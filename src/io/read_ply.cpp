@@ -348,9 +348,7 @@ class BodyReader {
       }
     }
     body_.expect_end();
-    if (body_.warned_underflows() > 0) {
-      soup_.warnings.push_back(std::to_string(body_.warned_underflows()) + " numbers are too small for a double and were taken as 0.");
-    }
+    soup_.warn_of_underflows(body_.warned_underflows());
     return std::move(soup_);
   }
 

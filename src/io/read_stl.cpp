@@ -24,8 +24,8 @@ class NormalCheck {
   }
   void warn(PolygonSoup& soup) const {
     if (opposed_ == 0) return;
-    soup.warnings.push_back(std::to_string(opposed_) +
-                            " facets have a normal that contradicts the order of their corners: the order counts.");
+    soup.warn(std::to_string(opposed_) + " facets have a normal that contradicts the order of their corners: the order counts.",
+              "Look at the mesh in a viewer: if it shows its inside, flip all faces in a mesh editor.");
   }
 
  private:
@@ -54,9 +54,12 @@ class AsciiStlReader {
       read_solid();
       ++solids_;
     }
-    coordinates_.warn(soup_.warnings);
+    soup_.warn_of_underflows(coordinates_.underflows());
     normals_.warn(soup_);
-    if (solids_ > 1) soup_.warnings.push_back("The file holds " + std::to_string(solids_) + " solids, which were read as one mesh.");
+    if (solids_ > 1) {
+      soup_.warn("The file holds " + std::to_string(solids_) + " solids, which were read as one mesh.",
+                 "Harmless if all of them are tissue. Otherwise delete the others from the file.");
+    }
     weld_equal_points(soup_);
     return std::move(soup_);
   }

@@ -36,9 +36,8 @@ PolygonSoup read_vtp(const MeshSource& source) {
     file.each_cell(piece, piece.strips, with(append_strip));
     others += piece.verts.count + piece.lines.count;
   }
-  if (file.numbers().underflows() > 0)
-    soup.warnings.push_back(std::to_string(file.numbers().underflows()) + " numbers are too small for a double and were taken as 0.");
-  if (others > 0) soup.warnings.push_back(std::to_string(others) + " cells are points or lines and were left out.");
+  soup.warn_of_underflows(file.numbers().underflows());
+  if (others > 0) soup.warn(std::to_string(others) + " cells are points or lines and were left out.", kFacesOnly);
   return soup;
 }
 

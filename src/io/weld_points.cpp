@@ -93,7 +93,7 @@ std::int64_t weld_equal_points(PolygonSoup& soup) {
   return dropped;
 }
 
-void warn_of_close_points(const PolygonSoup& soup, std::vector<std::string>& warnings) {
+void warn_of_close_points(PolygonSoup& soup) {
   constexpr double kClose = 1e-12;
   // A bound on the work for points that were laid out to be costly: this is a warning, not a promise.
   constexpr std::size_t kMostNeighbours = 32;
@@ -118,14 +118,18 @@ void warn_of_close_points(const PolygonSoup& soup, std::vector<std::string>& war
     if (has_equal && equal++ == 0) first_equal = {keys[i].number, equal_to};
     if (has_near && near++ == 0) first_near = {keys[i].number, near_to};
   }
-  const auto say = [&](std::int64_t count, const std::string& what, std::pair<std::size_t, std::size_t> pair) {
+  const auto say = [&](std::int64_t count, const std::string& what, std::pair<std::size_t, std::size_t> pair, const std::string& advice) {
     if (count == 0) return;
-    warnings.push_back(std::to_string(count) + " vertices have " + what + ", such as vertices " + std::to_string(pair.first) + " and " +
-                       std::to_string(pair.second) + " (counted from 0 among those in use) at " + text_of_point(soup.points[pair.first]) +
-                       " in the file's unit: they are not joined unless asked for.");
+    soup.warn(std::to_string(count) + " vertices have " + what + ", such as vertices " + std::to_string(pair.first) + " and " +
+                  std::to_string(pair.second) + " (counted from 0 among those in use) at " + text_of_point(soup.points[pair.first]) +
+                  " in the file's unit: they are not joined unless asked for.",
+              advice);
   };
-  say(equal, "the same coordinates as another", first_equal);
-  say(near, "a near-duplicate within 1e-12 of the extent", first_near);
+  say(equal, "the same coordinates as another", first_equal,
+      "The mesh has seams, across which it does not hang together. Weld them: surface.weld in a scene, or \"merge by distance\" in an "
+      "editor.");
+  say(near, "a near-duplicate within 1e-12 of the extent", first_near,
+      "Two vertices were meant to be one. Merge them by distance in a mesh editor.");
 }
 
 }  // namespace palpation

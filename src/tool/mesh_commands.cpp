@@ -85,7 +85,7 @@ void info(const InfoArguments& arguments) {
   if (extent < kLeastExtent_m || extent > kMostExtent_m) {
     std::printf("Implausible size: tissue is between 1 mm and 2 m across. Is --unit right?\n");
   }
-  for (const std::string& warning : file.warnings) std::printf("Warning: %s\n", warning.c_str());
+  for (const MeshWarning& warning : file.warnings) std::printf("Warning: %s\n  %s\n", warning.text.c_str(), warning.advice.c_str());
   try {
     const Surface surface(file.mesh);
     const Topology topology = surface.topology();

@@ -23,7 +23,7 @@ TriangleMesh mesh_of(const Scene& scene, std::vector<std::string>& warnings) {
         unused);
   }
   MeshFile file = read_mesh(scene.folder() / scene.word("surface.mesh"), length_unit(scene.word("surface.unit")));
-  warnings = file.warnings;
+  for (const MeshWarning& warning : file.warnings) warnings.push_back(warning.text);
   return file.mesh;
 }
 

@@ -44,8 +44,8 @@ std::vector<std::vector<int>> faces_of(const MeshFile& file) {
 }
 
 bool warns(const MeshFile& file, const std::string& part) {
-  for (const std::string& warning : file.warnings) {
-    if (contains(warning, part)) return true;
+  for (const MeshWarning& warning : file.warnings) {
+    if (contains(warning.text, part)) return true;
   }
   return false;
 }
@@ -102,7 +102,7 @@ void expect_square(const MeshFile& file, const std::string& format) {
   ASSERT_EQ(file.mesh.vertices.rows(), 4) << format;
   EXPECT_EQ(file.mesh.vertices.row(2), Vec3(1, 1, 0).transpose()) << format;
   EXPECT_EQ(faces_of(file), (Faces{{0, 1, 2}, {0, 2, 3}})) << format;
-  EXPECT_TRUE(file.warnings.empty()) << file.warnings.front();
+  EXPECT_TRUE(file.warnings.empty()) << file.warnings.front().text;
 }
 
 TEST(ReadMesh, ReadsTheSameSquareFromEveryFormat) {

@@ -18,10 +18,16 @@ enum class LengthUnit { Millimetre, Centimetre, Metre };
 /// "mm", "cm" or "m"; throws InvalidInput for anything else.
 LengthUnit length_unit(const std::string& name);
 
+/// What was repaired or looks odd in a file.
+struct MeshWarning {
+  std::string text;    ///< one plain sentence
+  std::string advice;  ///< what it means and what to do, for a person
+};
+
 struct MeshFile {
-  TriangleMesh mesh;                  ///< metres
-  std::vector<std::string> warnings;  ///< what was repaired or looks odd, one plain sentence each
-  std::string format;                 ///< "OBJ", "binary PLY", ...
+  TriangleMesh mesh;  ///< metres
+  std::vector<MeshWarning> warnings;
+  std::string format;  ///< "OBJ", "binary PLY", ...
 };
 
 /// What is repaired only on request.
