@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "io/mesh_text.h"
 #include "io/number_text.h"
@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
 constexpr std::size_t kMostColumns = 1024;
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -79,93 +80,125 @@ class LineCutter {
   std::int64_t number_;
 };
 
-void check_columns(const CsvTable& table, std::int64_t line) {
-  std::vector<std::string> sorted = table.columns;
+bool is_number(const std::string& word) { return parse_number(word).status != NumberStatus::NotANumber; }
+
+void check_columns(const std::vector<std::string>& columns, const std::string& name, std::int64_t line) {
+  if (columns.size() == 1) {
+    const std::string_view header = columns.front();
+    for (const auto& [mark, word] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
+      if (header.find(mark) != std::string_view::npos)
+        fail_at_line(name, line, std::string("the header has ") + word + " between its cells: commas are expected, and points in decimals");
+    }
+  }
+  if (std::all_of(columns.begin(), columns.end(), is_number))
+    fail_at_line(name, line, "the header line, which names the columns, is missing: this one holds numbers");
+  std::vector<std::string> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted.front().empty()) fail_at_line(table.name, line, "a column has no name");
+  if (sorted.front().empty()) fail_at_line(name, line, "a column has no name");
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) fail_at_line(table.name, line, "column " + in_quotes(*twice) + " appears twice");
+  if (twice != sorted.end()) fail_at_line(name, line, "column " + in_quotes(*twice) + " appears twice");
 }
 
-void append_row(CsvTable& table, std::vector<std::string> cells, std::int64_t line) {
-  if (cells.size() != table.columns.size()) {
-    fail_at_line(table.name, line,
-                 std::to_string(cells.size()) + " cells, but the header names " + std::to_string(table.columns.size()) + " columns");
-  }
-  if (line > std::numeric_limits<int>::max()) fail_at_line(table.name, line, "more than 2^31 - 1 lines");
-  table.rows.push_back(std::move(cells));
-  table.lines.push_back(static_cast<int>(line));
+void check_row(std::size_t cells, std::size_t columns, const std::string& name, std::int64_t line) {
+  if (cells == columns) return;
+  fail_at_line(name, line,
+               std::to_string(cells) + (cells == 1 ? " cell" : " cells") + ", but the header names " + std::to_string(columns) +
+                   (cells > columns ? " columns (decimals take a point, not a comma)" : " columns"));
+}
+
+std::string_view without_mark(std::string_view text, const std::string& name) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  const std::size_t nul = text.find('\0');
+  if (nul != std::string_view::npos)
+    throw IoError(name + ", byte " + std::to_string(nul) +
+                  ": a NUL byte has no place in a text file (if this is UTF-16, save it as UTF-8)");
+  return text.substr(0, kByteOrderMark.size()) == kByteOrderMark ? text.substr(kByteOrderMark.size()) : text;
 }
 
 }  // namespace
 
-CsvTable read_csv(const std::filesystem::path& path) { return parse_csv(read_file(path), path.string()); }
+std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
+  const std::size_t index = row * columns_.size() + column;
+  const std::size_t start = index == 0 ? 0 : ends_[index - 1];
+  return std::string_view(cells_).substr(start, ends_[index] - start);
+}
+
+CsvTable read_csv(const std::filesystem::path& path) { return parse_csv(read_file(path, kMostBytes), path.string()); }
 
 CsvTable parse_csv(std::string_view text, const std::string& name) {
-  const std::size_t nul = text.find('\0');
-  if (nul != std::string_view::npos) throw IoError(name + ", byte " + std::to_string(nul) + ": a NUL byte has no place in a text file");
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  CsvTable table{name, {}, {}, {}};
+  if (text.size() > kMostBytes) throw IoError(name + ": more than " + std::to_string(kMostBytes) + " bytes");
+  text = without_mark(text, name);
+  CsvTable table;
+  table.name_ = name;
+  table.cells_.reserve(text.size());
+  table.ends_.reserve(
+      static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '\n' || c == '\r'; })) + 1);
+  table.lines_.reserve(static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; })) +
+                       1);
   LineCursor lines(text);
   while (const std::optional<std::string_view> line = lines.next()) {
     if (line->size() > kLongestLine) fail_at_line(name, lines.line(), "a line of more than " + std::to_string(kLongestLine) + " bytes");
     if (trimmed(*line).empty()) continue;
-    std::vector<std::string> cells = LineCutter(*line, name, lines.line()).cells();
-    if (table.columns.empty()) {
-      table.columns = std::move(cells);
-      check_columns(table, lines.line());
-    } else {
-      append_row(table, std::move(cells), lines.line());
+    const std::vector<std::string> cells = LineCutter(*line, name, lines.line()).cells();
+    const int number = static_cast<int>(lines.line());
+    if (table.columns_.empty()) {
+      check_columns(cells, name, number);
+      table.columns_ = cells;
+      table.header_line_ = number;
+      continue;
     }
+    check_row(cells.size(), table.columns_.size(), name, number);
+    for (const std::string& cell : cells) {
+      table.cells_ += cell;
+      table.ends_.push_back(static_cast<std::uint32_t>(table.cells_.size()));
+    }
+    table.lines_.push_back(number);
   }
-  if (table.columns.empty()) throw IoError(name + ": the file is empty; a header line that names the columns is expected");
+  if (table.columns_.empty()) throw IoError(name + ": the file is empty; a header line that names the columns is expected");
   return table;
 }
 
-std::optional<int> find_column(const CsvTable& table, std::string_view column) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), column);
-  if (found == table.columns.end()) return std::nullopt;
-  return static_cast<int>(found - table.columns.begin());
+std::optional<std::size_t> find_column(const CsvTable& table, std::string_view column) {
+  const auto found = std::find(table.columns().begin(), table.columns().end(), column);
+  if (found == table.columns().end()) return std::nullopt;
+  return static_cast<std::size_t>(found - table.columns().begin());
 }
 
-int column_index(const CsvTable& table, std::string_view column) {
-  if (const std::optional<int> index = find_column(table, column)) return *index;
+std::size_t column_index(const CsvTable& table, std::string_view column) {
+  if (const std::optional<std::size_t> index = find_column(table, column)) return *index;
   std::string names;
-  for (const std::string& other : table.columns) names += (names.empty() ? "" : ", ") + other;
-  throw IoError(table.name + ": no column " + in_quotes(column) + " among " + in_quotes(names));
+  for (const std::string& other : table.columns()) names += (names.empty() ? "" : ", ") + other;
+  fail_at_line(table.name(), table.header_line(), "no column " + in_quotes(column) + " among " + in_quotes(names));
 }
 
-void fail_at_cell(const CsvTable& table, int row, std::string_view column, const std::string& rule) {
-  const auto index = static_cast<std::size_t>(row);
-  const std::optional<int> cell = find_column(table, column);
-  const std::string value = cell ? in_quotes(table.rows[index][static_cast<std::size_t>(*cell)]) + " " : "";
-  fail_at_line(table.name, table.lines[index], "column " + std::string(column) + ": " + value + rule);
+void fail_at_row(const CsvTable& table, std::size_t row, const std::string& what) { fail_at_line(table.name(), table.line(row), what); }
+
+void fail_at_cell(const CsvTable& table, std::size_t row, std::size_t column, const std::string& rule) {
+  fail_at_row(table, row, "column " + table.columns()[column] + ": " + in_quotes(table.cell(row, column)) + " " + rule);
 }
 
-std::vector<std::optional<double>> numbers(const CsvTable& table, std::string_view column) {
-  const auto index = static_cast<std::size_t>(column_index(table, column));
-  std::vector<std::optional<double>> values(table.rows.size());
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const std::string& cell = table.rows[row][index];
-    if (cell.empty()) continue;
-    const ParsedNumber number = parse_number(cell);
-    if (number.status == NumberStatus::NotANumber) fail_at_cell(table, static_cast<int>(row), column, "is not a number");
-    if (number.status == NumberStatus::TooLarge) fail_at_cell(table, static_cast<int>(row), column, "is too large for a double");
-    values[row] = number.value;
+std::optional<double> number_at(const CsvTable& table, std::size_t row, std::size_t column) {
+  const std::string_view cell = table.cell(row, column);
+  if (cell.empty()) return std::nullopt;
+  const ParsedNumber number = parse_number(cell);
+  switch (number.status) {
+    case NumberStatus::Fine:
+      return number.value;
+    case NumberStatus::NotANumber:
+      fail_at_cell(table, row, column,
+                   cell.find(',') == std::string_view::npos ? "is not a number" : "is not a number: decimals take a point");
+    case NumberStatus::TooLarge:
+      fail_at_cell(table, row, column, "is too large for a double");
+    case NumberStatus::Underflow:
+      fail_at_cell(table, row, column, "is too small for a double: write 0");
   }
-  return values;
+  return std::nullopt;
 }
 
-std::vector<double> finite_numbers(const CsvTable& table, std::string_view column) {
-  const std::vector<std::optional<double>> cells = numbers(table, column);
-  std::vector<double> values;
-  values.reserve(cells.size());
-  for (std::size_t row = 0; row < cells.size(); ++row) {
-    if (!cells[row] || !std::isfinite(*cells[row])) fail_at_cell(table, static_cast<int>(row), column, "must be a finite number");
-    values.push_back(*cells[row]);
-  }
-  return values;
+double finite_number_at(const CsvTable& table, std::size_t row, std::size_t column) {
+  const std::optional<double> value = number_at(table, row, column);
+  if (!value || !std::isfinite(*value)) fail_at_cell(table, row, column, "must be a finite number");
+  return *value;
 }
 
 std::string csv_line(std::span<const std::string> cells) {

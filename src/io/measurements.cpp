@@ -6,104 +6,209 @@
 #include <limits>
 #include <optional>
 
+#include "io/landing.h"
 #include "io/number_text.h"
+#include "io/places.h"
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
 
 namespace palpation {
 namespace {
 
-constexpr double kFarthest = 0.005;
-constexpr double kUnremarkable = 0.0001;
+constexpr double kRounding_m = 1e-15;
+constexpr double kGreatestReading = 1e30;
+constexpr double kLeastRange = 1e-30;
+constexpr double kGreatestVariance = 1e60;
+constexpr double kLeastVariance = 1e-60;
+constexpr std::int64_t kLastBatch = 1'000'000;
+constexpr std::size_t kEnoughForOutliers = 8;
+constexpr double kFarOut = 1000.0;  // times the width of the middle half: neither noise nor a tumour
 
-using Cells = std::vector<std::optional<double>>;
+struct Columns {
+  explicit Columns(const CsvTable& table)
+      : position{column_index(table, "x"), column_index(table, "y"), column_index(table, "z")},
+        reading(column_index(table, "reading")),
+        noise_variance(find_column(table, "noise_variance")),
+        batch(find_column(table, "batch")),
+        kind(find_column(table, "kind")),
+        travel{find_column(table, "tx"), find_column(table, "ty"), find_column(table, "tz")},
+        set_aside(find_column(table, "set_aside")) {}
 
-/// A column that may be missing: then all its cells are empty.
-Cells optional_numbers(const CsvTable& table, std::string_view column) {
-  return find_column(table, column) ? numbers(table, column) : Cells(table.rows.size());
+  std::array<std::size_t, 3> position;
+  std::size_t reading;
+  std::optional<std::size_t> noise_variance, batch, kind;
+  std::array<std::optional<std::size_t>, 3> travel;
+  std::optional<std::size_t> set_aside;
+};
+
+/// A cell of a column that may be missing: then all its cells are empty.
+std::string_view word_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+  return column ? table.cell(row, *column) : std::string_view();
 }
 
-std::string word_at(const CsvTable& table, std::size_t row, std::string_view column) {
-  const std::optional<int> index = find_column(table, column);
-  return index ? table.rows[row][static_cast<std::size_t>(*index)] : std::string();
+double reading_at(const CsvTable& table, std::size_t row, std::size_t column) {
+  const double reading = finite_number_at(table, row, column);
+  if (std::abs(reading) <= kGreatestReading) return reading;
+  fail_at_cell(table, row, column, "must be at most 1e30 in size: write it in another unit");
 }
 
-SurfacePoint place_on(const Surface& surface, const Vec3& position, const CsvTable& table, std::size_t row) {
-  const SurfacePoint place = surface.project(position);
-  const double distance = (surface.position(place) - position).norm();
-  if (distance <= kFarthest) return place;
-  throw IoError(table.name + ":" + std::to_string(table.lines[row]) + ": the position (" + text_of(position.x()) + ", " +
-                text_of(position.y()) + ", " + text_of(position.z()) + ") m is " + text_of(distance) +
-                " m from the surface; at most 0.005 m is allowed");
+double noise_variance_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+  if (word_at(table, row, column).empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double variance = finite_number_at(table, row, *column);
+  if (variance == 0.0 || (variance >= kLeastVariance && variance <= kGreatestVariance)) return variance;
+  fail_at_cell(table, row, *column, "must be empty, 0, or 1e-60 to 1e60");
 }
 
-double noise_variance_at(const Cells& cells, const CsvTable& table, std::size_t row) {
-  if (!cells[row]) return std::numeric_limits<double>::quiet_NaN();
-  if (std::isfinite(*cells[row]) && *cells[row] >= 0.0) return *cells[row];
-  fail_at_cell(table, static_cast<int>(row), "noise_variance", "must be empty, or a finite number that is not negative");
-}
-
-int batch_at(const CsvTable& table, std::size_t row) {
-  const std::string word = word_at(table, row, "batch");
+int batch_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+  const std::string_view word = word_at(table, row, column);
   if (word.empty()) return 0;
   const std::optional<std::int64_t> batch = parse_integer(word);
-  if (batch && *batch >= 0 && *batch <= std::numeric_limits<int>::max()) return static_cast<int>(*batch);
-  fail_at_cell(table, static_cast<int>(row), "batch", "must be empty, or a whole number that is not negative");
+  if (batch && *batch >= 0 && *batch <= kLastBatch) return static_cast<int>(*batch);
+  fail_at_cell(table, row, *column, "must be empty, or a whole number from 0 to 1000000");
 }
 
-TouchKind kind_at(const CsvTable& table, std::size_t row) {
-  const std::string word = word_at(table, row, "kind");
+TouchKind kind_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+  const std::string_view word = word_at(table, row, column);
   if (word.empty() || word == "stop") return TouchKind::Stop;
   if (word == "way") return TouchKind::Way;
-  fail_at_cell(table, static_cast<int>(row), "kind", "must be stop, way or empty");
+  fail_at_cell(table, row, *column, "must be stop, way or empty");
 }
 
 /// Zero stands for an unknown direction, as do three empty cells.
-Vec3 travel_at(const std::array<Cells, 3>& cells, const CsvTable& table, std::size_t row) {
-  if (!cells[0][row] && !cells[1][row] && !cells[2][row]) return Vec3::Zero();
+Vec3 travel_at(const CsvTable& table, std::size_t row, const std::array<std::optional<std::size_t>, 3>& columns) {
+  const auto is_empty = [&](const std::optional<std::size_t>& column) { return word_at(table, row, column).empty(); };
+  if (std::all_of(columns.begin(), columns.end(), is_empty)) return Vec3::Zero();
   Vec3 travel;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string column = std::string("t") + "xyz"[i];
-    if (!cells[i][row] || !std::isfinite(*cells[i][row])) {
-      fail_at_cell(table, static_cast<int>(row), column, "must be a finite number, or tx, ty and tz be empty");
-    }
-    travel[static_cast<Eigen::Index>(i)] = *cells[i][row];
+    if (!columns[i]) fail_at_row(table, row, "there is no column t" + std::string(1, "xyz"[i]) + ": a direction needs tx, ty and tz");
+    if (is_empty(columns[i])) fail_at_cell(table, row, *columns[i], "must be a finite number, or tx, ty and tz be empty");
+    travel[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, *columns[i]);
   }
   // What is a unit vector but for rounding keeps its digits, so that a file comes back as it was written.
   const bool is_unit = std::abs(travel.norm() - 1.0) <= 1e-12;
   return is_unit ? travel : Vec3(travel.stableNormalized());
 }
 
+SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& table, std::size_t row) {
+  std::string fault;
+  const std::optional<SurfacePoint> place = landing.place(position, fault);
+  if (!place) fail_at_row(table, row, fault);
+  return *place;
+}
+
+/// Readings by place: repeats are at one place exactly, and without noise they agree.
+class Repeats {
+ public:
+  /// The place that a reading counts for: its own, or an earlier one within reach.
+  SurfacePoint settle(const SurfacePoint& where, const Vec3& position, const CsvTable& table, std::size_t row, double reading, bool exact) {
+    const std::size_t number = places_.number_of(where, position);
+    if (number == exact_rows_.size()) exact_rows_.emplace_back();
+    if ((places_[number].position - position).norm() > kRounding_m) ++joined_;
+    std::optional<Exact>& first = exact_rows_[number];
+    if (exact && first && first->reading != reading) {
+      fail_at_row(table, row,
+                  "the reading " + text_of(reading) + " contradicts " + text_of(first->reading) + " in line " +
+                      std::to_string(table.line(first->row)) + ": both are at one place and without noise");
+    }
+    if (exact && !first) first = Exact{row, reading};
+    return places_[number].where;
+  }
+
+  std::size_t places() const { return places_.size(); }
+
+  void tell(const std::string& name, std::vector<std::string>& warnings) const {
+    if (joined_ == 0) return;
+    warnings.push_back(name + ": " + std::to_string(joined_) + (joined_ == 1 ? " position lies" : " positions lie") +
+                       " within a nanometre of an earlier one, and counts as the same place.");
+  }
+
+ private:
+  struct Exact {
+    std::size_t row;
+    double reading;
+  };
+  Places places_;
+  std::vector<std::optional<Exact>> exact_rows_;  // by place
+  int joined_ = 0;
+};
+
+double at_rank(std::vector<double>& values, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+/// Readings that stand out by more than any tissue does are kept, and told: a probe that slipped decides where the level lies.
+void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpations, std::vector<std::string>& warnings) {
+  std::vector<double> used;
+  for (const Palpation& palpation : palpations) {
+    if (palpation.set_aside.empty()) used.push_back(palpation.reading);
+  }
+  if (used.size() < kEnoughForOutliers) return;
+  const double low = at_rank(used, 0.25), middle = at_rank(used, 0.5), high = at_rank(used, 0.75);
+  if (!(high > low)) return;
+  std::string lines;
+  int count = 0;
+  for (std::size_t row = 0; row < palpations.size(); ++row) {
+    const Palpation& palpation = palpations[row];
+    if (!palpation.set_aside.empty() || std::abs(palpation.reading - middle) <= kFarOut * (high - low)) continue;
+    if (++count <= 5) lines += (lines.empty() ? "" : ", ") + std::to_string(table.line(row)) + " (" + text_of(palpation.reading) + ")";
+  }
+  if (count == 0) return;
+  warnings.push_back(table.name() + ": " + (count == 1 ? "1 reading stands" : std::to_string(count) + " readings stand") +
+                     " more than 1000 times as far out as the middle half of all readings is wide, in line " + lines +
+                     (count > 5 ? " and others" : "") +
+                     ". It counts like the others; if the probe slipped, say so in the column set_aside.");
+}
+
+void check_range(const CsvTable& table, const std::vector<Palpation>& palpations) {
+  double least = kGreatestReading, most = -kGreatestReading;
+  for (const Palpation& palpation : palpations) {
+    if (!palpation.set_aside.empty()) continue;
+    least = std::min(least, palpation.reading);
+    most = std::max(most, palpation.reading);
+  }
+  if (most > least && most - least < kLeastRange)
+    throw IoError(table.name() + ": column reading: the readings differ by " + text_of(most - least) +
+                  " at most; where they differ it must be by 1e-30 at least: write them in another unit");
+}
+
 std::string noise_text(double variance) { return std::isnan(variance) ? std::string() : text_of(variance); }
 
 }  // namespace
 
-MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface) {
+MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface, const MeasurementRules& rules) {
   const CsvTable table = read_csv(path);
-  const std::vector<double> x = finite_numbers(table, "x"), y = finite_numbers(table, "y"), z = finite_numbers(table, "z");
-  const std::vector<double> readings = finite_numbers(table, "reading");
-  const Cells noise = optional_numbers(table, "noise_variance");
-  const std::array<Cells, 3> travel = {optional_numbers(table, "tx"), optional_numbers(table, "ty"), optional_numbers(table, "tz")};
+  const Columns columns(table);
+  Landing landing(surface);
+  Repeats repeats;
   MeasurementsFile file;
-  file.palpations.reserve(table.rows.size());
-  int moved = 0;
-  double farthest = 0.0;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    file.palpations.push_back({.where = place_on(surface, Vec3(x[row], y[row], z[row]), table, row),
-                               .reading = readings[row],
-                               .noise_variance = noise_variance_at(noise, table, row),
-                               .batch = batch_at(table, row),
-                               .kind = kind_at(table, row),
-                               .travel = travel_at(travel, table, row),
-                               .set_aside = word_at(table, row, "set_aside")});
-    const double distance = (surface.position(file.palpations.back().where) - Vec3(x[row], y[row], z[row])).norm();
-    farthest = std::max(farthest, distance);
-    if (distance > kUnremarkable) ++moved;
+  file.palpations.reserve(table.row_count());
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    Vec3 position;
+    for (std::size_t i = 0; i < 3; ++i) position[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, columns.position[i]);
+    Palpation palpation{.where = place_at(landing, position, table, row),
+                        .reading = reading_at(table, row, columns.reading),
+                        .noise_variance = noise_variance_at(table, row, columns.noise_variance),
+                        .batch = batch_at(table, row, columns.batch),
+                        .kind = kind_at(table, row, columns.kind),
+                        .travel = travel_at(table, row, columns.travel),
+                        .set_aside = std::string(word_at(table, row, columns.set_aside))};
+    if (palpation.set_aside.empty()) {
+      const bool exact = palpation.noise_variance == 0.0 || (rules.empty_noise_is_none && std::isnan(palpation.noise_variance));
+      palpation.where = repeats.settle(palpation.where, surface.position(palpation.where), table, row, palpation.reading, exact);
+    }
+    file.palpations.push_back(std::move(palpation));
   }
-  if (moved > 0) {
-    file.warnings.push_back(table.name + ": " + std::to_string(moved) + " of " + std::to_string(table.rows.size()) +
-                            " positions lay off the surface, by up to " + text_of(farthest) + " m, and were taken to its closest points.");
+  check_range(table, file.palpations);
+  file.places = static_cast<int>(repeats.places());
+  if (landing.moved() > 0) {
+    file.warnings.push_back(table.name() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(table.row_count()) +
+                            " positions lay off the surface, by up to " + text_of(landing.farthest_m()) +
+                            " m, and were taken to its closest points.");
   }
+  repeats.tell(table.name(), file.warnings);
+  tell_outliers(table, file.palpations, file.warnings);
   return file;
 }
 
