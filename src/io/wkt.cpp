@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,8 @@
 
 namespace palpation {
 namespace {
+
+constexpr double kFarthest_m = 1e9;  // as Region has it
 
 void append_point(std::string& text, const Vec2& point) { text += text_of(point.x()) + " " + text_of(point.y()); }
 
@@ -34,16 +37,25 @@ void append_polygon(std::string& text, const PolygonWithHoles& polygon) {
   text += ')';
 }
 
+/// A polygon and the byte where it begins.
+struct PlacedPolygon {
+  PolygonWithHoles polygon;
+  std::size_t byte = 0;
+};
+
 /// The grammar nests three deep at most, so each level is a function of its own and nothing recurses.
 class WktParser {
  public:
   explicit WktParser(const MeshSource& source) : source_(source) {}
 
-  std::vector<PolygonWithHoles> parse() {
+  std::vector<PlacedPolygon> parse() {
+    skip_byte_order_mark();
     const std::size_t start = skip_blanks();
-    const std::string kind = lower_case(take_word());
-    if (kind != "polygon" && kind != "multipolygon") source_.fail_at_byte(start, "POLYGON or MULTIPOLYGON is expected");
-    std::vector<PolygonWithHoles> polygons;
+    const std::string_view word = take_word();
+    const std::string kind = lower_case(word);
+    if (kind != "polygon" && kind != "multipolygon")
+      source_.fail_at_byte(start, "POLYGON or MULTIPOLYGON is expected, not " + (word.empty() ? found() : in_quotes(word)));
+    std::vector<PlacedPolygon> polygons;
     if (!take_empty()) {
       if (kind == "polygon") {
         polygons.push_back(polygon());
@@ -51,13 +63,13 @@ class WktParser {
         polygons = all_polygons();
       }
     }
-    if (skip_blanks() < source_.bytes.size()) fail("text behind the geometry");
+    if (skip_blanks() < source_.bytes.size()) fail("there is text behind the geometry: " + found());
     return polygons;
   }
 
  private:
-  std::vector<PolygonWithHoles> all_polygons() {
-    std::vector<PolygonWithHoles> polygons;
+  std::vector<PlacedPolygon> all_polygons() {
+    std::vector<PlacedPolygon> polygons;
     expect('(');
     do {
       if (!take_empty()) polygons.push_back(polygon());
@@ -66,13 +78,13 @@ class WktParser {
     return polygons;
   }
 
-  PolygonWithHoles polygon() {
-    PolygonWithHoles polygon;
+  PlacedPolygon polygon() {
+    PlacedPolygon placed{{}, skip_blanks()};
     expect('(');
-    polygon.outer = ring();
-    while (take(',')) polygon.holes.push_back(ring());
+    placed.polygon.outer = ring();
+    while (take(',')) placed.polygon.holes.push_back(ring());
     expect(')');
-    return polygon;
+    return placed;
   }
 
   Ring ring() {
@@ -83,9 +95,9 @@ class WktParser {
       const double x = coordinate();
       ring.emplace_back(x, coordinate());
     } while (take(','));
-    expect(')');
+    if (!take(')')) fail("\",\" or \")\" is expected behind a point of two coordinates, not " + found());
     if (ring.size() < 4)
-      source_.fail_at_byte(start, "a ring of " + std::to_string(ring.size()) + " points; it has at least 4, the last like the first");
+      source_.fail_at_byte(start, "a ring of " + std::to_string(ring.size()) + " points: it has at least 4, the last like the first");
     if (ring.front() != ring.back()) source_.fail_at_byte(start, "the ring does not end where it began");
     ring.pop_back();
     return ring;
@@ -96,8 +108,10 @@ class WktParser {
     const std::size_t end = std::min(source_.bytes.find_first_of(" \t\r\n,()", start), source_.bytes.size());
     const std::string_view word = source_.bytes.substr(start, end - start);
     const ParsedNumber number = parse_number(word);
+    if (word.empty()) fail("a number is expected, not " + found());
     if (number.status == NumberStatus::NotANumber) fail(in_quotes(word) + " is not a number");
     if (number.status == NumberStatus::TooLarge || !std::isfinite(number.value)) fail(in_quotes(word) + " is not finite");
+    if (std::abs(number.value) > kFarthest_m) fail(in_quotes(word) + " is more than 1e9 m from the origin");
     position_ = end;
     return number.value;
   }
@@ -119,7 +133,12 @@ class WktParser {
     const std::string_view word = take_word();
     if (word.empty()) return false;
     if (lower_case(word) == "empty") return true;
-    fail(in_quotes(word) + ": EMPTY or \"(\" is expected; only two coordinates are read");
+    fail("EMPTY or \"(\" is expected, not " + in_quotes(word) + ": points have two coordinates");
+  }
+
+  void skip_byte_order_mark() {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (source_.bytes.substr(0, kMark.size()) == kMark) position_ = kMark.size();
   }
 
   bool take(char c) {
@@ -130,9 +149,12 @@ class WktParser {
   }
 
   void expect(char c) {
-    if (take(c)) return;
-    const std::string found = position_ == source_.bytes.size() ? "the end of the file" : in_quotes(source_.bytes.substr(position_, 1));
-    fail("\"" + std::string(1, c) + "\" is expected, not " + found);
+    if (!take(c)) fail("\"" + std::string(1, c) + "\" is expected, not " + found());
+  }
+
+  /// What stands where something else is expected.
+  std::string found() const {
+    return position_ >= source_.bytes.size() ? "the end of the file" : in_quotes(source_.bytes.substr(position_, 20));
   }
 
   [[noreturn]] void fail(const std::string& what) const { source_.fail_at_byte(position_, what); }
@@ -140,6 +162,29 @@ class WktParser {
   const MeshSource& source_;
   std::size_t position_ = 0;
 };
+
+std::vector<PolygonWithHoles> polygons_of(std::span<const PlacedPolygon> placed) {
+  std::vector<PolygonWithHoles> polygons;
+  for (const PlacedPolygon& one : placed) polygons.push_back(one.polygon);
+  return polygons;
+}
+
+std::string without_function(const std::string& words) {
+  constexpr std::string_view kFunction = "Region: ";
+  return words.starts_with(kFunction) ? words.substr(kFunction.size()) : words;
+}
+
+/// Says which of the polygons is at fault, if one of them is by itself.
+[[noreturn]] void refuse(const MeshSource& source, std::span<const PlacedPolygon> placed, const InvalidInput& error) {
+  for (const PlacedPolygon& one : placed) {
+    try {
+      const Region region(std::span(&one.polygon, 1));
+    } catch (const InvalidInput& of_one) {
+      source.fail_at_byte(one.byte, without_function(of_one.what()));
+    }
+  }
+  source.fail(without_function(error.what()));
+}
 
 }  // namespace
 
@@ -154,11 +199,14 @@ std::string to_wkt(const Region& region) {
 Region read_wkt(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const MeshSource source{path, bytes};
-  const std::vector<PolygonWithHoles> polygons = WktParser(source).parse();
+  const std::vector<PlacedPolygon> placed = WktParser(source).parse();
   try {
-    return Region(polygons);
+    const Region region(polygons_of(placed));
+    if (region.empty() && !placed.empty())
+      source.fail_at_byte(placed.front().byte, "no area is inside: MULTIPOLYGON EMPTY says so without doubt");
+    return region;
   } catch (const InvalidInput& error) {
-    source.fail(error.what());
+    refuse(source, placed, error);
   }
 }
 
