@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr int kFewReadings = 10;
 constexpr double kEnoughEvidence = 3.0;
 /// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
 constexpr double kDistinct_m = 1e-12;
+constexpr double kRounding = 1e-13;
 
 /// A belief to start from: what is learned has no value yet, so the priors' medians stand in.
 Belief unlearned(const Surface& surface, const FieldModel& field) {
@@ -59,6 +61,17 @@ Spread spread_of(const std::vector<double>& readings) {
   for (double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / static_cast<double>(readings.size());
   if (square > 0.0) spread.sd = std::sqrt(square);
   return spread;
+}
+
+bool all_equal(const std::vector<double>& readings) {
+  return std::adjacent_find(readings.begin(), readings.end(), std::not_equal_to<>()) == readings.end();
+}
+
+/// Whether the mean has a range: that of rounding is none, and to cut it would make tumours of noise.
+bool has_range(const Marginals& marginals) {
+  const double least = marginals.mean.minCoeff(), greatest = marginals.mean.maxCoeff();
+  const double scale = std::max({std::abs(least), std::abs(greatest), std::sqrt(marginals.variance.maxCoeff())});
+  return greatest - least > kRounding * scale;
 }
 
 /// The vertex that a palpation touched, or -1.
@@ -132,7 +145,10 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   all.insert(all.end(), palpations.begin(), palpations.end());
   belief_ = field_.learns() ? fitted(all) : belief_.condition_on(palpations);
   marginals_ = belief_.at_vertices();
-  if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) level_ = estimated_level();
+  if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) {
+    const bool is_flat = all_equal(used_readings(all)) || !has_range(marginals_);
+    level_ = is_flat ? std::nullopt : std::optional(estimated_level());
+  }
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
 }
@@ -145,7 +161,7 @@ Level Exploration::estimated_level() const {
 /// A new belief with the hyperparameters that the readings teach.
 Belief Exploration::fitted(std::span<const Palpation> palpations) {
   Belief fresh = unlearned(surface_, field_);
-  if (gather_sites(fresh.prior(), palpations).size() < 2) return fresh.condition_on(palpations);
+  if (gather_sites(fresh.prior(), palpations).size() < 2 || all_equal(used_readings(palpations))) return fresh.condition_on(palpations);
   LearnOptions options;
   options.length_median_m = field_.length_median_m;
   if (!field_.learn_length) options.length_m = field_.kernel.length_m;

@@ -86,7 +86,8 @@ class Exploration {
   const Surface& surface() const { return surface_; }
   const Belief& belief() const { return belief_; }
   const Marginals& marginals() const { return marginals_; }
-  /// The level as it is estimated now; nothing before the readings show contrast, unless it is known: the range of noise is no level.
+  /// The level as it is estimated now; nothing before the readings show contrast, nor while they are all alike, unless it is known: the
+  /// range of noise is no level.
   const std::optional<Level>& level() const { return level_; }
   /// What the next batch maximizes, at the vertices.
   Field acquisition_field() const;
