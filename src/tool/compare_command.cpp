@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
 #include "palpation/boundary/region_error.h"
 #include "palpation/io/read_boundary.h"
 #include "palpation/io/wkt.h"
@@ -14,6 +15,7 @@ namespace palpation::tool {
 namespace {
 
 constexpr double kMargin_m = 0.005;
+constexpr double kRounding = 1e-9;  // of the tissue's area: corners on its border, rounded
 
 Region read_any(const std::filesystem::path& path, const Surface& surface) {
   if (path.extension() == ".wkt") return read_wkt(path);
@@ -22,8 +24,7 @@ Region read_any(const std::filesystem::path& path, const Surface& surface) {
 }
 
 /// A boundary of this tissue lies on it: one in millimetres or of another tissue does not.
-Region read_region(const std::filesystem::path& path, const Surface& surface) {
-  const Region region = read_any(path, surface);
+void check_place(const Region& region, const std::filesystem::path& path, const Surface& surface) {
   const Points2& uv = surface.chart().uv;
   for (const PolygonWithHoles& polygon : region.polygons()) {
     for (const Vec2& corner : polygon.outer) {
@@ -34,7 +35,17 @@ Region read_region(const std::filesystem::path& path, const Surface& surface) {
       }
     }
   }
-  return region;
+}
+
+/// What lies beside the tissue is neither tumour nor healthy: it does not count, and is told.
+Region read_region(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
+  const Region region = read_any(path, surface);
+  check_place(region, path, surface);
+  const Region tissue = superlevel_region(surface, Field::Zero(surface.vertex_count()), 0.0);
+  const double beside_m2 = subtract(region, tissue).area();
+  if (beside_m2 <= kRounding * surface.area()) return region;
+  warnings.push_back(path.string() + ": " + fixed(beside_m2 * 1e6, 2) + " mm2 of it lie beside the tissue and do not count.");
+  return intersect(region, tissue);
 }
 
 }  // namespace
@@ -42,10 +53,15 @@ Region read_region(const std::filesystem::path& path, const Surface& surface) {
 void compare_boundaries(const SceneArguments& arguments, const std::filesystem::path& a, const std::filesystem::path& b) {
   const Scene scene = Scene::read(arguments.scene, arguments.overrides);
   const Tissue tissue = tissue_of(scene);
-  const RegionError error = compare(tissue.surface, read_region(a, tissue.surface), read_region(b, tissue.surface));
+  std::vector<std::string> warnings = tissue.warnings;
+  const Region estimate = read_region(a, tissue.surface, warnings);
+  const Region truth = read_region(b, tissue.surface, warnings);
+  for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
+  const RegionError error = compare(tissue.surface, estimate, truth);
   if (!arguments.quiet) std::fputs(error_words(error, tissue.surface.area()).c_str(), stdout);
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
+  for (const std::string& warning : warnings) output.warn(warning);
   output.write_comparison(error);
 }
 

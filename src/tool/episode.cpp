@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "palpation/base/error.h"
 #include "palpation/certainty/expected_error.h"
 #include "palpation/decision/baseline.h"
 #include "palpation/geometry/path.h"
@@ -46,6 +47,29 @@ Episode started(const Scene& scene, const Surface& surface, const World& world, 
   return episode;
 }
 
+/// A probe that stops the run before it comes to more places than can be modelled.
+class CountingProbe {
+ public:
+  CountingProbe(const Scene& scene, const Exploration& exploration, const Probe& probe)
+      : scene_(scene), exploration_(exploration), probe_(probe) {}
+
+  std::optional<Palpation> operator()(const SurfacePoint& where, const Vec3& travel) {
+    if (exploration_.batch() != batch_) felt_ = 0;
+    batch_ = exploration_.batch();
+    if (exploration_.belief().site_count() + ++felt_ > kMostPlaces)
+      scene_.refuse(
+          "plan", "comes to more than " + std::to_string(kMostPlaces) + " places, which is more than can be modelled: take fewer batches");
+    return probe_(where, travel);
+  }
+
+ private:
+  const Scene& scene_;
+  const Exploration& exploration_;
+  const Probe& probe_;
+  int batch_ = 0;
+  int felt_ = 0;  // in this batch
+};
+
 void add_tour(Episode& episode, const Tour& tour) {
   episode.way.insert(episode.way.end(), tour.way.begin(), tour.way.end());
   episode.path_m += tour.length_m;
@@ -64,8 +88,26 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
     if (after_batch) after_batch(episode);
     stopwatch = Stopwatch();
   };
-  run(episode.exploration, world.probe, finish_batch, scene.truth("plan.readings_along_path") ? kWayStep_m : 0.0);
+  run(episode.exploration, CountingProbe(scene, episode.exploration, world.probe), finish_batch,
+      scene.truth("plan.readings_along_path") ? kWayStep_m : 0.0);
   return episode;
+}
+
+/// The places of a whole raster, or of the first stage of a refinement, if they can be modelled.
+template <typename Make>
+auto planned_scan(const Scene& scene, const Make& make) {
+  try {
+    return make();
+  } catch (const InvalidInput&) {
+    scene.refuse_value("plan.row_spacing_mm", "coarser: with it the scan comes to more places than can be modelled");
+  }
+}
+
+void check_count(const Scene& scene, const Exploration& exploration, std::size_t more) {
+  const std::size_t count = static_cast<std::size_t>(exploration.belief().site_count()) + more;
+  if (count > static_cast<std::size_t>(kMostPlaces))
+    scene.refuse_value("plan.row_spacing_mm", "coarser: with it the scan comes to " + std::to_string(count) + " places, and " +
+                                                  std::to_string(kMostPlaces) + " can be modelled");
 }
 
 /// Touches places in the given order, as a classical scan does, and takes up what was felt.
@@ -102,13 +144,16 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
   };
   if (scene.word("plan.acquisition") == "raster") {
     const Stopwatch stopwatch;
-    scan(episode, raster_scan(surface, spacing, kWayStep_m), world.probe, felt);
+    const auto places = planned_scan(scene, [&] { return raster_scan(surface, spacing, kWayStep_m); });
+    check_count(scene, episode.exploration, places.size());
+    scan(episode, places, world.probe, felt);
     finish_stage(stopwatch);
     return episode;
   }
-  RecursiveRefinement refinement(surface, 4.0 * spacing, 0.25 * spacing);
+  RecursiveRefinement refinement = planned_scan(scene, [&] { return RecursiveRefinement(surface, 4.0 * spacing, 0.25 * spacing); });
   for (auto places = refinement.next(0.0); !places.empty();) {
     const Stopwatch stopwatch;
+    check_count(scene, episode.exploration, places.size());
     const std::size_t before = felt.size();
     scan(episode, places, world.probe, felt);
     refinement.record(std::span(felt).subspan(before));

@@ -14,12 +14,16 @@
 
 namespace palpation::tool {
 
+/// Places that a run may touch: more would take hours and gigabytes, since the model's cost grows with their third power.
+inline constexpr int kMostPlaces = 10'000;
+
 /// What answers, and what is known to be true of it.
 struct World {
   Probe probe;
   Field truth;  ///< at the vertices
   double true_level = 0.0;
   Reach reach{};
+  std::vector<std::string> warnings{};  ///< what looks odd about it, a sentence each
 };
 
 /// The state after a batch.

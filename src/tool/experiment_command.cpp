@@ -90,15 +90,7 @@ std::optional<double> printed_value(const std::string& shape, const std::string&
 
 Scene base_scene(const ExperimentArguments& arguments) {
   if (!arguments.scene.empty()) return Scene::read(arguments.scene, arguments.overrides);
-  Scene scene(paper_scene(), "experiment " + arguments.name, ".");
-  for (const std::string& override : arguments.overrides) {
-    const auto equals = override.find('=');
-    require(equals != std::string::npos && equals > 0, "--set", override, "must have the form KEY=VALUE");
-    json value = json::parse(override.substr(equals + 1), nullptr, false);
-    if (value.is_discarded()) value = override.substr(equals + 1);
-    scene = scene.with(override.substr(0, equals), value);
-  }
-  return scene;
+  return Scene(paper_scene(), "experiment " + arguments.name, ".").with_overrides(arguments.overrides);
 }
 
 std::vector<Cell> table_cells(const Scene& base, bool keep_tumours) {
@@ -249,10 +241,10 @@ void experiment(const ExperimentArguments& arguments) {
       all.push_back(
           {{"cell", cell.row + ", " + cell.shape + ", " + cell.algorithm + ", level " + cell.level}, {"scene", cell.scene.given()}});
     }
-    std::printf("%s\n", all.dump(2).c_str());
+    std::printf("%s\n", all.dump(2, ' ', false, json::error_handler_t::replace).c_str());
     return;
   }
-  if (!arguments.out.empty()) std::filesystem::create_directories(arguments.out);
+  if (!arguments.out.empty()) make_folder(arguments.out);
   const Tissue tissue = tissue_of(base);
   const Errors errors = run_trials(cells, tissue.surface, arguments);
   if (table) {

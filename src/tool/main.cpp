@@ -1,5 +1,6 @@
 // palpate: where to touch next, and where the tumour under the surface ends.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <new>
 #include <thread>
@@ -7,19 +8,34 @@
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "tool/commands.h"
+#include "tool/exit_code.h"
 #include "tool/progress.h"
 #include "tool/scene_schema.h"
+#include "tool/standard_streams.h"
 
 namespace {
 
 using namespace palpation;
 using namespace palpation::tool;
 
-constexpr int kDone = 0;
-constexpr int kWrongUsage = 2;
-constexpr int kInputAtFault = 3;
-constexpr int kMachineAtFault = 4;
-constexpr int kInterrupted = 130;
+constexpr double kMostSeed = 9007199254740991.0;  // as in a scene
+constexpr double kMostTrials = 1e6;
+
+/// A number in a range; what is no number is in none.
+CLI::Validator number_among(const std::string& characters, const std::string& kind, double least, double most) {
+  const std::string range = text_of(least) + " to " + text_of(most);
+  const auto fault = [=](std::string& text) {
+    double value = 0.0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_one =
+        status == std::errc{} && end == text.data() + text.size() && text.find_first_not_of(characters) == std::string::npos;
+    return is_one && value >= least && value <= most ? std::string() : "is " + text + ", but must be a " + kind + " from " + range;
+  };
+  return CLI::Validator(fault, range);
+}
+
+CLI::Validator number(double least, double most) { return number_among("0123456789+-.eE", "number", least, most); }
+CLI::Validator whole(double least, double most) { return number_among("0123456789", "whole number", least, most); }
 
 struct Arguments {
   SceneArguments scene;
@@ -39,9 +55,8 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
   command->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("--seed", arguments.scene.seed, "override the scene's seed");
-  command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")
-      ->check(CLI::Range(1, 1024));
+  command->add_option("--seed", arguments.scene.seed, "override the scene's seed")->check(whole(0, kMostSeed));
+  command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")->check(whole(1, 1024));
   command->add_flag("--quiet", arguments.scene.quiet, "no progress and no words but errors");
   return command;
 }
@@ -86,13 +101,13 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* making = app.add_subcommand("mesh", "Make a phantom");
   making->add_option("KIND", arguments.mesh.kind, "plane")->required()->check(CLI::IsMember({"plane"}));
   making->add_option("OUT", arguments.mesh.output, "file to write: .ply, .obj, .off or .stl")->required();
-  making->add_option("--size-mm", arguments.mesh.size_mm, "along x and y")->expected(2);
-  making->add_option("--vertices", arguments.mesh.vertices, "along x and y")->expected(2);
-  making->add_option("--jitter", arguments.mesh.jitter, "move inner vertices by up to this fraction of a cell (0 to 0.45)");
-  making->add_option("--around", arguments.mesh.around, "span this recording instead of --size-mm");
-  making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording");
-  making->add_option("--edge-mm", arguments.mesh.edge_mm, "length of the cells around a recording");
-  making->add_option("--seed", arguments.mesh.seed, "of the jitter");
+  CLI::Option* size = making->add_option("--size-mm", arguments.mesh.size_mm, "along x and y")->expected(2)->check(number(1e-3, 1e6));
+  CLI::Option* vertices = making->add_option("--vertices", arguments.mesh.vertices, "along x and y")->expected(2)->check(whole(2, 20000));
+  making->add_option("--jitter", arguments.mesh.jitter, "move inner vertices by up to this fraction of a cell")->check(number(0.0, 0.45));
+  making->add_option("--around", arguments.mesh.around, "span this recording instead of --size-mm")->excludes(size, vertices);
+  making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording")->check(number(0.0, 1e6));
+  making->add_option("--edge-mm", arguments.mesh.edge_mm, "length of the cells around a recording")->check(number(1e-3, 1e6));
+  making->add_option("--seed", arguments.mesh.seed, "of the jitter")->check(whole(0, kMostSeed));
   making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m")->check(CLI::IsMember({"mm", "cm", "m"}));
   making->callback([&] { make_mesh(arguments.mesh); });
 }
@@ -101,14 +116,15 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials: table1, figure4");
   command->add_option("NAME", arguments.experiment.name, "which")->required()->check(CLI::IsMember({"table1", "figure4"}));
   command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
-  command->add_option("--trials", arguments.experiment.trials, "per cell")->check(CLI::Range(1, 1000000));
-  command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following");
+  command->add_option("--trials", arguments.experiment.trials, "per cell")->check(whole(1, kMostTrials));
+  command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following")
+      ->check(whole(0, kMostSeed - kMostTrials));
   command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command->add_flag("--print-scene", arguments.experiment.print_scene, "print the scene of every cell instead of running it");
   command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");
-  command->add_option("--threads", arguments.threads, "trials run at once; the results do not depend on it")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", arguments.threads, "trials run at once; the results do not depend on it")->check(whole(1, 1024));
   command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
   command->callback([&] { experiment(arguments.experiment); });
 }
@@ -145,24 +161,19 @@ int run_tool(int count, char** words) {
     return kDone;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
-  } catch (const Interrupted& error) {
-    return explain(error.what(), kInterrupted);
-  } catch (const WriteError& error) {
-    return explain(error.what(), kMachineAtFault);
-  } catch (const NumericalError& error) {
-    return explain(error.what(), kMachineAtFault);
-  } catch (const Error& error) {
-    return explain(error.what(), kInputAtFault);
-  } catch (const std::bad_alloc&) {
-    return explain("not enough memory", kMachineAtFault);
+  } catch (const std::bad_alloc& error) {
+    return explain("not enough memory", exit_code_of(error));
   } catch (const std::exception& error) {
-    return explain(error.what(), kMachineAtFault);
+    return explain(error.what(), exit_code_of(error));
   }
 }
 
 }  // namespace
 
 int main(int count, char** words) {
+  guard_standard_streams();
   watch_for_interrupt();
-  return run_tool(count, words);
+  const int code = run_tool(count, words);
+  if (finish_standard_output()) return code;
+  return code == kDone ? explain("cannot write to standard output", kMachineAtFault) : code;
 }

@@ -28,6 +28,15 @@ using nlohmann::json;
 constexpr double kMm2 = 1e6;  // in a square metre
 constexpr double kMm = 1e3;   // in a metre
 
+/// Names of files may be any bytes; what is no text in them must not keep the summary from being written.
+std::string document(const json& object) { return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n"; }
+
+void remove_file(const std::filesystem::path& path) {
+  std::error_code failure;
+  std::filesystem::remove(path, failure);
+  if (failure) throw WriteError(path.string() + ": cannot remove what an earlier run left: " + failure.message());
+}
+
 json maybe(const std::optional<double>& value, double factor = 1.0) {
   if (value.has_value()) return *value * factor;
   return nullptr;
@@ -107,17 +116,28 @@ NamedFields fields_of(const Episode& episode, const World* world) {
 
 }  // namespace
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure || !std::filesystem::is_directory(folder))
+    throw WriteError(folder.string() + ": cannot make this folder: " + (failure ? failure.message() : "there is a file of that name"));
+}
+
 OutputFolder::OutputFolder(std::filesystem::path folder, const Scene& scene, const Surface& surface)
     : folder_(std::move(folder)), scene_(scene), surface_(surface) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder_, failure);
-  if (failure || !std::filesystem::is_directory(folder_)) {
-    throw WriteError(folder_.string() + ": cannot make this folder: " + (failure ? failure.message() : "there is a file of that name"));
-  }
+  make_folder(folder_);
+}
+
+/// The summary is the last file of a run: without it a folder is not finished.
+void OutputFolder::begin() {
+  if (begun_) return;
+  remove_file(folder_ / "summary.json");
+  begun_ = true;
 }
 
 void OutputFolder::write_step(const Episode& episode, const World* world) {
-  if (steps_.empty()) std::filesystem::create_directories(folder_ / "steps");
+  begin();
+  if (steps_.empty()) make_folder(folder_ / "steps");
   std::string number = std::to_string(episode.exploration.batch() - 1);
   number.insert(0, number.size() < 3 ? 3 - number.size() : 0, '0');
   const std::string name = "steps/step_" + number + ".vtp";
@@ -174,7 +194,7 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
 /// A folder that holds two runs contradicts itself: a robot must not follow the waypoints of another plan.
 void OutputFolder::remove_what_an_earlier_run_left(const std::set<std::string>& written) const {
   for (const char* name : {"waypoints.csv", "path.csv", "trace.csv", "steps.pvd", "picture.png", "convergence.png"}) {
-    if (!written.contains(name)) std::filesystem::remove(folder_ / name);
+    if (!written.contains(name)) remove_file(folder_ / name);
   }
   if (!std::filesystem::is_directory(folder_ / "steps")) return;
   std::vector<std::filesystem::path> stale;
@@ -182,10 +202,11 @@ void OutputFolder::remove_what_an_earlier_run_left(const std::set<std::string>& 
     const std::string name = "steps/" + entry.path().filename().string();
     if (name.starts_with("steps/step_") && std::find(steps_.begin(), steps_.end(), name) == steps_.end()) stale.push_back(entry.path());
   }
-  for (const auto& path : stale) std::filesystem::remove(path);
+  for (const auto& path : stale) remove_file(path);
 }
 
 void OutputFolder::write(const Episode& episode, const World* world, const json& timings) {
+  begin();
   std::set<std::string> written;
   if (has_waypoints_) written.insert({"waypoints.csv", "path.csv"});
   if (!episode.trace.empty()) written.insert("trace.csv");
@@ -196,11 +217,12 @@ void OutputFolder::write(const Episode& episode, const World* world, const json&
   write_atomically(folder_ / "measurements.csv", measurements_csv(surface_, episode.exploration.belief().palpations()));
   if (!episode.trace.empty()) write_atomically(folder_ / "trace.csv", trace_csv(episode.trace, surface_.area()));
   if (!steps_.empty()) write_pvd(folder_ / "steps.pvd", steps_);
-  write_atomically(folder_ / "summary.json", summary(episode).dump(2) + "\n");
-  write_atomically(folder_ / "timings.json", timings.dump(2) + "\n");
+  write_atomically(folder_ / "timings.json", document(timings));
+  write_atomically(folder_ / "summary.json", document(summary(episode)));
 }
 
 void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way) {
+  begin();
   write_atomically(folder_ / "waypoints.csv", waypoint_csv(stops));
   write_atomically(folder_ / "path.csv", waypoint_csv(way));
   has_waypoints_ = true;
@@ -211,8 +233,9 @@ void OutputFolder::write_comparison(const RegionError& error) {
                        {"scene", scene_.name()},
                        {"search_area_mm2", surface_.area() * kMm2},
                        {"error", error_json(error, surface_.area())},
+                       {"warnings", warnings_},
                        {"chart_hash", surface_.chart().hash()}};
-  write_atomically(folder_ / "summary.json", result.dump(2) + "\n");
+  write_atomically(folder_ / "summary.json", document(result));
 }
 
 std::optional<std::string> OutputFolder::draw() const { return run_draw({folder_.string()}); }

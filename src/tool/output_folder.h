@@ -23,7 +23,8 @@ class OutputFolder {
   /// steps/step_NNN.vtp for the state after a batch; steps.pvd lists them when the rest is written.
   void write_step(const Episode& episode, const World* world);
 
-  /// summary.json, timings.json, trace.csv, measurements.csv, boundary.wkt, boundary.vtp, surface.vtp, steps.pvd.
+  /// trace.csv, measurements.csv, boundary.wkt, boundary.vtp, surface.vtp, steps.pvd, timings.json, and summary.json as the last: it is
+  /// gone from the first write on, so that a folder without it is not finished.
   void write(const Episode& episode, const World* world, const nlohmann::json& timings);
 
   /// waypoints.csv and path.csv: the stops, and the places between them. Before write().
@@ -38,6 +39,7 @@ class OutputFolder {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  void begin();
   void remove_what_an_earlier_run_left(const std::set<std::string>& written) const;
   nlohmann::json summary(const Episode& episode) const;
   void write_boundary(const Episode& episode, const World* world);
@@ -48,7 +50,11 @@ class OutputFolder {
   std::vector<std::string> warnings_;
   std::vector<std::string> steps_;
   bool has_waypoints_ = false;
+  bool begun_ = false;
 };
+
+/// Makes a folder, and those above it, if it is not there. Throws WriteError.
+void make_folder(const std::filesystem::path& folder);
 
 /// Why the programs' picture could not be drawn, or nothing: runs palpate-draw, which lies beside this program, with the given arguments.
 std::optional<std::string> run_draw(const std::vector<std::string>& arguments);

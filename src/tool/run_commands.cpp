@@ -1,6 +1,7 @@
 // simulate, replay, plan, boundary: a scene, and a world or measurements.
 #include <cstdio>
 
+#include "palpation/base/error.h"
 #include "palpation/io/measurements.h"
 #include "tool/commands.h"
 #include "tool/episode.h"
@@ -23,13 +24,30 @@ void tell(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
 }
 
+void warn(OutputFolder& output, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) output.warn(warning);
+}
+
+MeasurementsFile measured_on(const Scene& scene, const Surface& surface, const std::filesystem::path& path) {
+  const FieldModel field = field_of(scene);
+  const bool noiseless = !field.learn_noise && field.belief.noise_sd == 0.0;
+  MeasurementsFile measured = read_measurements(path, surface, {.empty_noise_is_none = noiseless});
+  if (measured.places > kMostPlaces)
+    throw IoError(path.string() + ": readings at " + std::to_string(measured.places) + " places; at most " + std::to_string(kMostPlaces) +
+                  " can be modelled: leave some out, or set them aside");
+  tell(measured.warnings);
+  return measured;
+}
+
 /// The whole run of `simulate` and `replay`, to the files and the words.
 void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world,
                     double prepared_seconds) {
   std::optional<OutputFolder> output;
   if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
+  tell(world.warnings);
   if (output) {
-    for (const std::string& warning : tissue.warnings) output->warn(warning);
+    warn(*output, tissue.warnings);
+    warn(*output, world.warnings);
   }
   const Stopwatch running;
   Progress progress("Batch", scene.integer("plan.batches") + 1, arguments.quiet);
@@ -58,6 +76,7 @@ void simulate(const SceneArguments& arguments) {
   const Stopwatch preparing;
   const Scene scene = scene_of(arguments);
   const Tissue tissue = tissue_of(scene);
+  tell(tissue.warnings);
   const World world = simulated_world(scene, tissue.surface);
   run_and_report(arguments, scene, tissue, world, preparing.seconds());
 }
@@ -66,6 +85,7 @@ void replay(const SceneArguments& arguments, const std::vector<std::filesystem::
   const Stopwatch preparing;
   const Scene scene = scene_of(arguments);
   const Tissue tissue = tissue_of(scene);
+  tell(tissue.warnings);
   const World world = recorded_world(scene, tissue.surface, recordings);
   run_and_report(arguments, scene, tissue, world, preparing.seconds());
 }
@@ -74,14 +94,14 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
   const Tissue tissue = tissue_of(scene);
-  const MeasurementsFile measured = read_measurements(measurements, tissue.surface);
-  tell(measured.warnings);
+  tell(tissue.warnings);
+  const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
   const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
   if (!arguments.quiet) std::fputs(episode_words(episode).c_str(), stdout);
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
-  for (const std::string& warning : tissue.warnings) output.warn(warning);
-  for (const std::string& warning : measured.warnings) output.warn(warning);
+  warn(output, tissue.warnings);
+  warn(output, measured.warnings);
   output.write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(output, arguments.quiet);
 }
@@ -93,8 +113,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
     scene.refuse("plan.acquisition",
                  "raster and refinement are whole scans, which palpate simulate and replay run: there is no next batch");
   const Tissue tissue = tissue_of(scene);
-  const MeasurementsFile measured = read_measurements(measurements, tissue.surface);
-  tell(measured.warnings);
+  tell(tissue.warnings);
+  const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
   const std::vector<Palpation>& palpations = measured.palpations;
   const Episode episode = episode_from(scene, tissue.surface, palpations);
   const std::vector<int> next = episode.exploration.next();
@@ -110,8 +130,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
-  for (const std::string& warning : tissue.warnings) output.warn(warning);
-  for (const std::string& warning : measured.warnings) output.warn(warning);
+  warn(output, tissue.warnings);
+  warn(output, measured.warnings);
   output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot));
   output.write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(output, arguments.quiet);

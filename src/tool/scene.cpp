@@ -1,11 +1,13 @@
 #include "tool/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
+#include "tool/scene_json.h"
 #include "tool/scene_schema.h"
 
 namespace palpation::tool {
@@ -14,11 +16,19 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uintmax_t kMostBytes = 16u << 20;
-constexpr int kMostDepth = 32;
+constexpr double kLeastContrast = 1e-30;
+constexpr double kLeastRelativeContrast = 1e-12;
 
 const SceneKey* find_key(const std::string& path) {
   const auto& keys = scene_keys();
   const auto found = std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path == path; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+/// The first key of a group of keys, or nothing where there is no such group.
+const SceneKey* first_of_group(const std::string& path) {
+  const auto& keys = scene_keys();
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path.starts_with(path + "."); });
   return found == keys.end() ? nullptr : &*found;
 }
 
@@ -28,75 +38,72 @@ json::json_pointer pointer_to(const std::string& path) {
   return json::json_pointer(pointer);
 }
 
-bool is_group(const std::string& path) {
-  return std::any_of(scene_keys().begin(), scene_keys().end(), [&](const SceneKey& key) { return key.path.starts_with(path + "."); });
+std::string unknown_words(const std::string& path) {
+  return "is not a key of a scene; the nearest is " + nearest_key(path, scene_keys()) + " (palpate help scene lists all)";
 }
 
-/// JSON without duplicate keys and without nesting that no scene needs.
-json parse(const std::string& content, const std::string& name) {
-  std::vector<std::set<std::string>> open_objects;
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kMostDepth) throw IoError(name + ": nested deeper than " + std::to_string(kMostDepth) + " levels, which no scene needs");
-    if (event == json::parse_event_t::object_start) open_objects.emplace_back();
-    if (event == json::parse_event_t::object_end) open_objects.pop_back();
-    if (event == json::parse_event_t::key && !open_objects.back().insert(parsed.get<std::string>()).second) {
-      throw IoError(name + ": the key \"" + parsed.get<std::string>() + "\" stands twice in one object");
-    }
-    return true;
-  };
+/// A value as --set has it: JSON, or else a plain word. Paths need no quotes.
+json override_value(const SceneKey& key, const std::string& text, const std::string& name) {
+  if (text.empty()) throw IoError(name + ": has no value: write KEY=VALUE, such as plan.batch=5");
+  const bool is_word = key.kind == ValueKind::Text || key.kind == ValueKind::Word;
+  if (is_word && text.front() != '"') return text;
   try {
-    return json::parse(content, watch);
-  } catch (const json::parse_error& error) {
-    std::string words = error.what();  // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-    if (const auto start = words.find("parse error"); start != std::string::npos) words = words.substr(start);
-    throw IoError(name + ": not JSON: " + words);
-  } catch (const json::out_of_range& error) {
-    throw IoError(name + ": a number is too large for a double: " + error.what());
+    return parse_json(text, name);
+  } catch (const IoError& error) {
+    const bool is_structured = std::string_view("[{\"").find(text.front()) != std::string_view::npos;
+    if (is_structured || std::string_view(error.what()).ends_with("too large for a double")) throw;
+    return text;
   }
 }
 
-void check_members(const Scene& scene, const json& object, const std::string& prefix) {
-  for (const auto& [name, member] : object.items()) {
-    const std::string path = prefix + name;
-    if (const SceneKey* key = find_key(path)) {
-      if (const std::string fault = fault_of(*key, member); !fault.empty()) scene.refuse(path, fault);
-    } else if (is_group(path)) {
-      if (!member.is_object()) scene.refuse(path, "must be an object");
-      check_members(scene, member, path + ".");
-    } else {
-      scene.refuse(path, "is not a key of a scene; the nearest is " + nearest_key(path, scene_keys()) + " (palpate help scene lists all)");
-    }
+/// Whether all objects that a path leads through are objects, or not there yet. Where they are not, the scene is refused for that.
+bool leads_through_objects(const json& given, const std::string& path) {
+  const json* here = &given;
+  for (std::size_t start = 0, dot = path.find('.'); dot != std::string::npos; start = dot + 1, dot = path.find('.', start)) {
+    if (!here->is_object()) return false;
+    const auto member = here->find(path.substr(start, dot - start));
+    if (member == here->end()) return true;
+    here = &*member;
   }
+  return here->is_object();
+}
+
+json overridden(json given, std::span<const std::string> overrides) {
+  std::set<std::string> seen;
+  for (const std::string& override : overrides) {
+    const auto equals = override.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw IoError("--set " + shown_key(override) + ": must have the form KEY=VALUE, such as plan.batch=5");
+    const std::string key = override.substr(0, equals);
+    const std::string name = "--set " + shown_key(key);
+    const SceneKey* known = find_key(key);
+    if (known == nullptr) {
+      const SceneKey* member = first_of_group(key);
+      throw IoError(name + ": " + (member ? "is a group of keys: set one of them, such as " + member->path : unknown_words(key)));
+    }
+    if (!seen.insert(key).second) throw IoError(name + ": is given twice");
+    const json value = override_value(*known, override.substr(equals + 1), name);
+    if (leads_through_objects(given, key)) given[pointer_to(key)] = value;
+  }
+  return given;
 }
 
 }  // namespace
 
 Scene::Scene(const json& given, std::string name, std::filesystem::path folder)
     : given_(given), name_(std::move(name)), folder_(std::move(folder)) {
-  if (!given_.is_object()) throw IoError(name_ + ": must be a JSON object, such as { \"version\": 1, ... }");
-  check_members(*this, given_, "");
+  if (!given_.is_object()) throw IoError(name_ + ": is " + shown(given_) + ", but must be a JSON object, such as { \"version\": 1, ... }");
+  check_members(given_, "");
+  check_together();
 }
 
 Scene Scene::read(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  json given = parse(read_file(path, kMostBytes), path.string());
-  for (const std::string& override : overrides) {
-    const auto equals = override.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw IoError("--set " + override + ": must have the form KEY=VALUE, such as plan.batch=5");
-    const std::string key = override.substr(0, equals);
-    const std::string text = override.substr(equals + 1);
-    json value = json::parse(text, nullptr, false);
-    if (value.is_discarded()) value = text;
-    if (find_key(key) == nullptr)
-      throw IoError("--set " + key + ": is not a key of a scene; the nearest is " + nearest_key(key, scene_keys()));
-    if (!given.is_object()) break;
-    try {
-      given[pointer_to(key)] = value;
-    } catch (const json::exception&) {
-      throw IoError(path.string() + ": " + key.substr(0, key.find('.')) + ": must be an object");
-    }
-  }
-  return Scene(given, path.string(), path.parent_path());
+  return parse(read_file(path, kMostBytes), path.string(), path.parent_path(), overrides);
+}
+
+Scene Scene::parse(std::string_view text, std::string name, std::filesystem::path folder, std::span<const std::string> overrides) {
+  const json given = overridden(parse_json(text, name), overrides);
+  return Scene(given, std::move(name), std::move(folder));
 }
 
 Scene Scene::with(const std::string& path, const json& value) const {
@@ -105,7 +112,61 @@ Scene Scene::with(const std::string& path, const json& value) const {
   return Scene(changed, name_, folder_);
 }
 
+Scene Scene::with_overrides(std::span<const std::string> overrides) const { return Scene(overridden(given_, overrides), name_, folder_); }
+
 void Scene::refuse(const std::string& path, const std::string& words) const { throw IoError(name_ + ": " + path + ": " + words); }
+
+void Scene::refuse_value(const std::string& path, const std::string& rule) const {
+  refuse(path, "is " + shown(value(path)) + ", but must be " + rule);
+}
+
+/// Each value by itself, and no value under an unknown name.
+void Scene::check_members(const json& object, const std::string& prefix) const {
+  for (auto member = object.begin(); member != object.end(); ++member) {
+    const std::string path = prefix + member.key();
+    const bool is_name = member.key().find('.') == std::string::npos;  // "plan.batch" in one word would be read by nobody
+    const SceneKey* key = is_name ? find_key(path) : nullptr;
+    if (key != nullptr) {
+      if (path == "version" && member->is_number() && member->get<double>() > kSceneVersion)
+        refuse(path, "is " + shown(*member) + ", but this program reads version " + std::to_string(kSceneVersion) +
+                         ": it is older than the scene");
+      if (const std::optional<Fault> fault = fault_of(*key, *member)) refuse(path + fault->place, fault->words);
+    } else if (is_name && first_of_group(path) != nullptr) {
+      if (!member->is_object()) refuse(path, "is " + shown(*member) + ", but must be an object");
+      check_members(*member, path + ".");
+    } else if (!is_name && find_key(path) != nullptr) {
+      refuse(shown_key(path), "is written in one word: write \"" + path.substr(0, path.find('.')) + "\": { ... } around it");
+    } else {
+      refuse(shown_key(path), unknown_words(path));
+    }
+  }
+}
+
+/// Values that are sound by themselves but contradict each other.
+void Scene::check_together() const {
+  if (gives("surface.mesh") && gives("surface.plane")) refuse("surface", "has both a mesh and a plane: give one of them");
+  const double low = number("probe.low"), high = number("probe.high");
+  if (high <= low) refuse_value("probe.high", "above probe.low, which is " + shown(value("probe.low")));
+  const double least = std::max(kLeastContrast, kLeastRelativeContrast * std::max(std::abs(low), std::abs(high)));
+  if (high - low < least)
+    refuse_value("probe.high", "more than " + text_of(least) + " above probe.low, or readings cannot tell them apart");
+  if (gives("probe.bias_axis") && value("probe.bias_axis") == json({0, 0, 0}))
+    refuse("probe.bias_axis", "must not be zero: leave it out for the longest side");
+}
+
+std::vector<std::string> Scene::warnings() const {
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& path, bool has_effect, const std::string& because) {
+    if (gives(path) && !has_effect) warnings.push_back(name_ + ": " + path + ": has no effect, since " + because + ".");
+  };
+  warn("level.value", word("level.estimate") == "known", "level.estimate is " + word("level.estimate"));
+  warn("field.period_mm", word("field.kernel") == "periodic", "field.kernel is " + word("field.kernel"));
+  warn("field.constant_sd", word("field.trend") != "zero", "field.trend is zero");
+  warn("field.length_prior_mm", word("field.length_mm") == "learn", "field.length_mm is given");
+  warn("surface.unit", gives("surface.mesh"), "there is no surface.mesh");
+  warn("surface.weld", gives("surface.mesh"), "there is no surface.mesh");
+  return warnings;
+}
 
 const json& Scene::value(const std::string& path) const {
   const auto pointer = pointer_to(path);
@@ -118,8 +179,10 @@ const json& Scene::value(const std::string& path) const {
 
 bool Scene::has(const std::string& path) const {
   const SceneKey* key = find_key(path);
-  return given_.contains(pointer_to(path)) || (key != nullptr && !key->standard.is_null());
+  return gives(path) || (key != nullptr && !key->standard.is_null());
 }
+
+bool Scene::gives(const std::string& path) const { return given_.contains(pointer_to(path)); }
 
 double Scene::number(const std::string& path) const { return value(path).get<double>(); }
 int Scene::integer(const std::string& path) const { return static_cast<int>(value(path).get<double>()); }

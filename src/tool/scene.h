@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "palpation/base/types.h"
@@ -19,13 +20,18 @@ class Scene {
   /// rule.
   Scene(const nlohmann::json& given, std::string name, std::filesystem::path folder);
 
-  /// Reads the file and overrides single values: each text is "path=value". Throws IoError.
+  /// Reads the file and overrides single values: each text is "path=value", each path given once. Throws IoError.
   static Scene read(const std::filesystem::path& path, std::span<const std::string> overrides);
+  /// The same from a text.
+  static Scene parse(std::string_view text, std::string name, std::filesystem::path folder, std::span<const std::string> overrides = {});
 
   /// The same scene with one value changed.
   Scene with(const std::string& path, const nlohmann::json& value) const;
+  /// The same scene with values changed as by read().
+  Scene with_overrides(std::span<const std::string> overrides) const;
 
-  bool has(const std::string& path) const;  ///< given, or with a default
+  bool has(const std::string& path) const;    ///< given, or with a default
+  bool gives(const std::string& path) const;  ///< given
   double number(const std::string& path) const;
   int integer(const std::string& path) const;
   std::uint64_t seed() const;
@@ -42,12 +48,18 @@ class Scene {
   nlohmann::json complete() const;
   /// Only what was given: what --print-scene prints.
   const nlohmann::json& given() const { return given_; }
+  /// Values that were given but have no effect, a sentence each.
+  std::vector<std::string> warnings() const;
 
   /// Throws IoError about a key: "<scene>: <path>: <words>".
   [[noreturn]] void refuse(const std::string& path, const std::string& words) const;
+  /// The same about a key's value: "<scene>: <path>: is <value>, but must be <rule>".
+  [[noreturn]] void refuse_value(const std::string& path, const std::string& rule) const;
 
  private:
   const nlohmann::json& value(const std::string& path) const;
+  void check_members(const nlohmann::json& object, const std::string& prefix) const;
+  void check_together() const;
 
   nlohmann::json given_;
   std::string name_;

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace palpation::tool {
+
+inline constexpr int kSceneVersion = 1;
 
 enum class ValueKind {
   Number,  ///< a finite number
@@ -15,7 +18,9 @@ enum class ValueKind {
   NumberOrWord,  ///< a number, or one of `words`
   Text,          ///< any text, such as a path
   Numbers,       ///< a list of exactly `count` numbers
-  Tumours        ///< a list of shapes: see kTumourKeys
+  Integers,      ///< a list of exactly `count` whole numbers
+  Points,        ///< a list of at most `count` lists of three numbers
+  Tumours        ///< a list of at most `count` shapes: see tumour_keys
 };
 
 struct SceneKey {
@@ -23,6 +28,7 @@ struct SceneKey {
   ValueKind kind;
   std::string unit;
   double least = 0.0, most = 0.0;  ///< range of numbers, both included
+  bool zero_too = false;           ///< 0 is allowed besides the range
   std::vector<std::string> words{};
   int count = 0;
   nlohmann::json standard = nullptr;  ///< the default; null where there is none
@@ -35,13 +41,19 @@ const std::vector<SceneKey>& scene_keys();
 const std::vector<SceneKey>& tumour_keys(const std::string& shape);
 const std::vector<std::string>& tumour_shapes();
 
-/// Checks one value. Returns what is wrong with it in words that follow "<key>: ", or nothing.
-std::string fault_of(const SceneKey& key, const nlohmann::json& value);
+/// What is wrong with a value: where in it (behind the key's path, such as "[0].radius_mm"), and words that follow "<key><place>: ".
+struct Fault {
+  std::string place;
+  std::string words;
+};
+std::optional<Fault> fault_of(const SceneKey& key, const nlohmann::json& value);
 
-/// The known path nearest to an unknown one (edit distance).
+/// The known path, or group of paths, nearest to an unknown one: by edit distance, a right name in a wrong group being near.
 std::string nearest_key(const std::string& unknown, const std::vector<SceneKey>& keys);
 
 /// What `palpate help scene` prints.
 std::string scene_help();
+/// The numbers that a key allows, in words.
+std::string range_text(const SceneKey& key);
 
 }  // namespace palpation::tool

@@ -1,30 +1,114 @@
 #include "tool/setup.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "palpation/base/error.h"
 #include "palpation/geometry/make_plane.h"
 #include "palpation/geometry/patch.h"
 #include "palpation/io/read_mesh.h"
+#include "tool/tumours.h"
 
 namespace palpation::tool {
 namespace {
 
+constexpr double kLeastTissue_mm = 1.0;
+constexpr int kMostVertices = 4'000'000;
+constexpr double kMostTriangles = 8e6;
+constexpr double kMostLengthRatio = 1e6;
+
+TriangleMesh plane_of(const Scene& scene) {
+  const std::vector<double> size_mm = scene.numbers("surface.plane.size_mm");
+  const std::vector<double> vertices = scene.numbers("surface.plane.vertices");
+  if (std::max(size_mm[0], size_mm[1]) < kLeastTissue_mm)
+    scene.refuse_value("surface.plane.size_mm", "1 mm at least along one side, as tissue is");
+  if (vertices[0] * vertices[1] > kMostVertices) scene.refuse_value("surface.plane.vertices", "at most 4 million in all");
+  Random unused(0);
+  return make_plane(
+      {.size_m = Vec2(size_mm[0], size_mm[1]) / 1000.0, .columns = static_cast<int>(vertices[0]), .rows = static_cast<int>(vertices[1])},
+      unused);
+}
+
 TriangleMesh mesh_of(const Scene& scene, std::vector<std::string>& warnings) {
-  if (scene.has("surface.plane.size_mm") && !scene.has("surface.mesh")) {
-    const std::vector<double> size_mm = scene.numbers("surface.plane.size_mm");
-    const std::vector<double> vertices = scene.numbers("surface.plane.vertices");
-    if (vertices[0] != std::floor(vertices[0]) || vertices[1] != std::floor(vertices[1]))
-      scene.refuse("surface.plane.vertices", "must be whole numbers");
-    Random unused(0);
-    return make_plane(
-        {.size_m = Vec2(size_mm[0], size_mm[1]) / 1000.0, .columns = static_cast<int>(vertices[0]), .rows = static_cast<int>(vertices[1])},
-        unused);
-  }
-  MeshFile file = read_mesh(scene.folder() / scene.word("surface.mesh"), length_unit(scene.word("surface.unit")));
+  if (scene.gives("surface.plane.size_mm")) return plane_of(scene);
+  if (!scene.gives("surface.mesh")) scene.refuse("surface.mesh", "is needed: the file of the tissue's mesh (or surface.plane.size_mm)");
+  const MeshFile file = read_mesh(scene.folder() / scene.word("surface.mesh"), length_unit(scene.word("surface.unit")),
+                                  {.weld_equal_vertices = scene.truth("surface.weld")});
   for (const MeshWarning& warning : file.warnings) warnings.push_back(warning.text);
   return file.mesh;
+}
+
+std::string without(const std::string& start, const std::string& words) {
+  return words.starts_with(start) ? words.substr(start.size()) : words;
+}
+
+/// A mesh that is no surface is the fault of its file.
+Surface surface_of(const Scene& scene, TriangleMesh mesh) {
+  try {
+    return Surface(std::move(mesh));
+  } catch (const InvalidMesh& error) {
+    const std::string file = scene.gives("surface.mesh") ? (scene.folder() / scene.word("surface.mesh")).string() : scene.name();
+    throw InvalidMesh(file + ": " + without("Surface: ", error.what()) + " (positions in metres; palpate info tells more)");
+  }
+}
+
+TriangleMesh patch_of(const Scene& scene, TriangleMesh mesh) {
+  const Vec3 centre = scene.point_m("surface.patch.centre_mm");
+  const double radius_m = scene.metres("surface.patch.radius_mm");
+  const Surface whole = surface_of(scene, std::move(mesh));
+  try {
+    return patch_around(whole, centre, radius_m);
+  } catch (const InvalidInput&) {
+    scene.refuse_value("surface.patch.radius_mm", "large enough for a triangle of the mesh around the centre: take a larger one");
+  }
+}
+
+double longest_edge_m(const TriangleMesh& mesh) {
+  double longest = 0.0;
+  for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face) {
+    for (int i = 0; i < 3; ++i)
+      longest =
+          std::max(longest, (mesh.vertices.row(mesh.triangles(face, i)) - mesh.vertices.row(mesh.triangles(face, (i + 1) % 3))).norm());
+  }
+  return longest;
+}
+
+/// Every pass halves the edges and makes four triangles of one.
+TriangleMesh refined(const Scene& scene, TriangleMesh mesh) {
+  const double target_m = scene.metres("surface.refine_mm");
+  const double longest_m = longest_edge_m(mesh);
+  double triangles = static_cast<double>(mesh.triangles.rows());
+  for (double edge_m = longest_m; edge_m > target_m && triangles <= kMostTriangles; edge_m /= 2.0) triangles *= 4.0;
+  if (triangles > kMostTriangles)
+    scene.refuse_value("surface.refine_mm", "coarser: from " + std::to_string(mesh.triangles.rows()) + " triangles with edges up to " +
+                                                text_of(longest_m * 1000.0) + " mm it would take more than 8 million");
+  return refine(std::move(mesh), target_m);
+}
+
+/// What a scene asks of its tissue that it cannot give.
+void check_size(const Scene& scene, const Surface& surface) {
+  const std::string vertices = std::to_string(surface.vertex_count()) + ", the vertices of the tissue";
+  for (const char* count : {"plan.batch", "plan.initial.count"}) {
+    if (scene.gives(count) && scene.integer(count) > surface.vertex_count()) scene.refuse_value(count, "at most " + vertices);
+  }
+  for (const char* length : {"field.length_mm", "field.length_prior_mm", "field.period_mm"}) {
+    if (!scene.gives(length) || scene.word(length) == "learn") continue;
+    const double ratio = scene.metres(length) / surface.diameter();
+    if (ratio < 1.0 / kMostLengthRatio || ratio > kMostLengthRatio)
+      scene.refuse_value(length,
+                         "a millionth to a million times the tissue's size, which is " + text_of(surface.diameter() * 1000.0) + " mm");
+  }
+}
+
+/// A scene is sound as a whole before anything is read for it.
+void check_all(const Scene& scene) {
+  field_of(scene);
+  level_rule_of(scene);
+  plan_of(scene);
+  robot_of(scene);
+  if (scene.gives("surface.patch.radius_mm") && !scene.gives("surface.patch.centre_mm"))
+    scene.refuse("surface.patch", "has a radius but no centre_mm");
 }
 
 KernelFamily kernel_family(const std::string& name) {
@@ -63,19 +147,14 @@ Acquisition acquisition_of(const Scene& scene) {
 }  // namespace
 
 Tissue tissue_of(const Scene& scene) {
-  if (scene.has("surface.mesh") && scene.has("surface.plane.size_mm"))
-    scene.refuse("surface", "has both a mesh and a plane: give one of them");
-  if (!scene.has("surface.mesh") && !scene.has("surface.plane.size_mm"))
-    scene.refuse("surface.mesh", "is needed: the file of the tissue's mesh");
-  if (scene.has("surface.patch.radius_mm") && !scene.has("surface.patch.centre_mm"))
-    scene.refuse("surface.patch", "has a radius but no centre_mm");
-  std::vector<std::string> warnings;
+  check_all(scene);
+  std::vector<std::string> warnings = scene.warnings();
   TriangleMesh mesh = mesh_of(scene, warnings);
-  if (scene.has("surface.patch.centre_mm"))
-    mesh = patch_around(Surface(std::move(mesh)), scene.point_m("surface.patch.centre_mm"), scene.metres("surface.patch.radius_mm"));
-  if (scene.has("surface.refine_mm")) mesh = refine(std::move(mesh), scene.metres("surface.refine_mm"));
-  Tissue tissue{Surface(std::move(mesh)), std::move(warnings)};
+  if (scene.gives("surface.patch.centre_mm")) mesh = patch_of(scene, std::move(mesh));
+  if (scene.gives("surface.refine_mm")) mesh = refined(scene, std::move(mesh));
+  Tissue tissue{surface_of(scene, std::move(mesh)), std::move(warnings)};
   check_chart(scene, tissue.surface);
+  check_size(scene, tissue.surface);
   return tissue;
 }
 
@@ -83,7 +162,10 @@ FieldModel field_of(const Scene& scene) {
   FieldModel field;
   field.metric = scene.word("field.metric") == "ambient" ? Metric::Ambient : Metric::Chart;
   field.kernel.family = kernel_family(scene.word("field.kernel"));
-  if (field.kernel.family == KernelFamily::Periodic) field.kernel.period_m = scene.metres("field.period_mm");
+  if (field.kernel.family == KernelFamily::Periodic) {
+    if (field.metric != Metric::Chart) scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
+    field.kernel.period_m = scene.metres("field.period_mm");
+  }
   field.learn_length = scene.word("field.length_mm") == "learn";
   if (!field.learn_length) field.kernel.length_m = scene.metres("field.length_mm");
   field.learn_signal = scene.word("field.signal_sd") == "learn";
@@ -137,7 +219,7 @@ Robot robot_of(const Scene& scene) {
   try {
     check(robot);
   } catch (const InvalidInput& error) {
-    scene.refuse("robot", error.what());
+    scene.refuse("robot.from_tissue", without("Robot: from_tissue ", error.what()));
   }
   return robot;
 }
@@ -150,33 +232,18 @@ Phantom phantom_of(const Scene& scene, const Surface& surface) {
   model.noise = scene.number("probe.noise");
   model.bias = scene.number("probe.bias");
   model.fraction = scene.number("level.fraction");
-  if (scene.has("probe.bias_axis")) {
+  if (scene.gives("probe.bias_axis")) {
     const std::vector<double> axis = scene.numbers("probe.bias_axis");
-    model.bias_axis = Vec3(axis[0], axis[1], axis[2]);
+    model.bias_axis = Vec3(axis[0], axis[1], axis[2]).stableNormalized();
   }
-  const auto point = [](const nlohmann::json& mm) {
-    return Vec3(Vec3(mm[0].get<double>(), mm[1].get<double>(), mm[2].get<double>()) / 1000.0);
-  };
-  std::vector<Tumour> tumours;
-  for (const nlohmann::json& shape : scene.tumours()) {
-    if (shape["shape"] == "disk") {
-      tumours.emplace_back(Disk{point(shape["centre_mm"]), shape["radius_mm"].get<double>() / 1000.0});
-    } else if (shape["shape"] == "horseshoe") {
-      Horseshoe horseshoe{point(shape["centre_mm"]), shape["arc_radius_mm"].get<double>() / 1000.0,
-                          shape["half_width_mm"].get<double>() / 1000.0};
-      horseshoe.arc_rad = shape.value("arc_deg", 180.0) * std::numbers::pi / 180.0;
-      if (shape.contains("facing")) horseshoe.facing = 1000.0 * point(shape["facing"]);
-      tumours.emplace_back(horseshoe);
-    } else {
-      Outline outline;
-      for (const nlohmann::json& corner : shape["points_mm"]) outline.points_m.push_back(point(corner));
-      tumours.emplace_back(outline);
-    }
-  }
+  const std::vector<Tumour> tumours = tumours_of(scene);
   try {
-    return Phantom(surface, std::move(tumours), model);
+    return Phantom(surface, tumours, model);
   } catch (const InvalidInput& error) {
-    scene.refuse("probe", error.what());
+    refuse_tumours(scene, surface, tumours);
+    const std::string words = without("Phantom: ", error.what());
+    const std::string axis = "bias axis ";
+    scene.refuse(words.starts_with(axis) ? "probe.bias_axis" : "probe", without(axis, words));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "tool/words.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace palpation::tool {
@@ -8,11 +9,20 @@ namespace {
 
 std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
+/// Readings have any unit: three digits behind the point where that says something.
+std::string reading_text(double value) {
+  const double size = std::abs(value);
+  if (size == 0.0 || (size >= 0.1 && size < 1e6)) return fixed(value, 3);
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", size >= 1e6 && size < 1e15 ? 15 : 4, value);
+  return text.data();
+}
+
 std::string found_words(const Episode& episode) {
   const std::vector<PolygonWithHoles> parts = episode.estimate.polygons();
   if (episode.exploration.belief().site_count() == 0) return "No reading yet, so nothing is known.\n";
   if (!episode.exploration.level()) return std::string(kNoContrast) + "\n";
-  const std::string level = "at the level " + fixed(episode.exploration.level()->value, 3);
+  const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
   std::string words =
       "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
