@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace palpation {
@@ -22,11 +24,22 @@ using Box = Eigen::AlignedBox2d;
 
 Vec2 near(const ExactPoint& point) { return {point.approx().x().inf(), point.approx().y().inf()}; }
 
+bool is_lower(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
+
+/// From the lower end (x before y) to the higher. Edges that are equal count as one: they are merged before the overlay is made.
 std::vector<Edge> edges_of(std::span<const ExactRing* const> rings) {
   std::vector<Edge> edges;
   for (const ExactRing* ring : rings) {
-    for (std::size_t i = 0; i < ring->size(); ++i) edges.push_back({near((*ring)[i]), near((*ring)[(i + 1) % ring->size()])});
+    for (std::size_t i = 0; i < ring->size(); ++i) {
+      const Vec2 a = near((*ring)[i]);
+      const Vec2 b = near((*ring)[(i + 1) % ring->size()]);
+      edges.push_back(is_lower(a, b) ? Edge{a, b} : Edge{b, a});
+    }
   }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& e, const Edge& f) { return e.from == f.from ? is_lower(e.to, f.to) : is_lower(e.from, f.from); });
+  edges.erase(std::unique(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.from == f.from && e.to == f.to; }),
+              edges.end());
   return edges;
 }
 
@@ -50,21 +63,34 @@ bool passes(const Edge& edge, const Box& box) {
   return first <= last;
 }
 
-/// In the inside of both edges and in the box, of whose sides only the low ones count: so each crossing is in one box of many side by side.
+/// Of the box' sides only the low ones count: so each place is in one box of many side by side.
+bool is_in(const Box& box, const Vec2& place) {
+  return (place.array() >= box.min().array()).all() && (place.array() < box.max().array()).all();
+}
+
+/// In the inside of both edges and in the box.
 bool cross_in(const Edge& e, const Edge& f, const Box& box) {
   const Vec2 along_e = e.to - e.from;
   const Vec2 along_f = f.to - f.from;
   const double slant = cross(along_e, along_f);
   const double on_e = cross(f.from - e.from, along_f) / slant;
   const double on_f = cross(f.from - e.from, along_e) / slant;
-  if (!(on_e > 0.0 && on_e < 1.0 && on_f > 0.0 && on_f < 1.0)) return false;
-  const Vec2 place = e.from + on_e * along_e;
-  return (place.array() >= box.min().array()).all() && (place.array() < box.max().array()).all();
+  return on_e > 0.0 && on_e < 1.0 && on_f > 0.0 && on_f < 1.0 && is_in(box, e.from + on_e * along_e);
+}
+
+/// Whether the edges run along one line, to rounding, and share a part of it that begins in the box.
+bool overlap_in(const Edge& e, const Edge& f, const Box& box, double rounding) {
+  const Vec2 along = e.to - e.from;
+  const double reach = rounding * along.lpNorm<1>();
+  if (std::abs(cross(along, f.from - e.from)) > reach || std::abs(cross(along, f.to - e.from)) > reach) return false;
+  const Vec2& first = is_lower(e.from, f.from) ? f.from : e.from;
+  const Vec2& last = is_lower(e.to, f.to) ? e.to : f.to;
+  return is_lower(first, last) && is_in(box, first);
 }
 
 class Count {
  public:
-  Count(const std::vector<Edge>& edges, long limit) : edges_(edges), crossings_left_(limit) {}
+  Count(const std::vector<Edge>& edges, double rounding, long limit) : edges_(edges), rounding_(rounding), crossings_left_(limit) {}
 
   /// Halves the box, across the axis that parts the edges better, until few edges are left. False when the limit is passed.
   bool within(const Box& box, const std::vector<int>& edges, int depth) {
@@ -99,13 +125,18 @@ class Count {
   bool leaf(const Box& box, const std::vector<int>& edges) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       work_left_ -= static_cast<long>(i);
-      for (std::size_t j = 0; j < i; ++j) crossings_left_ -= cross_in(edges_[edges[i]], edges_[edges[j]], box) ? 1 : 0;
+      for (std::size_t j = 0; j < i; ++j) {
+        const Edge& e = edges_[edges[i]];
+        const Edge& f = edges_[edges[j]];
+        if (cross_in(e, f, box) || overlap_in(e, f, box, rounding_)) --crossings_left_;
+      }
       if (crossings_left_ < 0 || work_left_ < 0) return false;
     }
     return true;
   }
 
   const std::vector<Edge>& edges_;
+  double rounding_;  ///< of coordinates
   long crossings_left_;
   long work_left_ = kMostWork;
 };
@@ -122,7 +153,11 @@ bool cross_at_most(long limit, std::span<const ExactRing* const> rings) {
     box.extend(edge.from).extend(edge.to);
     all.push_back(static_cast<int>(all.size()));
   }
-  return Count(edges, limit).within(box, all, 0);
+  // Highest corners are in the box too.
+  const double greatest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * greatest;
+  box.max().array() += rounding;
+  return Count(edges, rounding, limit).within(box, all, 0);
 }
 
 }  // namespace palpation

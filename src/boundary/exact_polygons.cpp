@@ -60,13 +60,32 @@ Integer doubled_area(const ExactRing& ring, int bits) {
   return sum;
 }
 
+Ring rounded_ring(const ExactRing& ring) {
+  Ring points;
+  for (const ExactPoint& point : ring) points.push_back(rounded(point));
+  return points;
+}
+
 }  // namespace
 
-ExactPoint exact(const Vec2& point) { return {point.x(), point.y()}; }
+RingPointers ring_pointers(std::span<const ExactPolygon> polygons) {
+  RingPointers rings;
+  for (const ExactPolygon& polygon : polygons) {
+    rings.push_back(&polygon.outer);
+    for (const ExactRing& hole : polygon.holes) rings.push_back(&hole);
+  }
+  return rings;
+}
 
 Vec2 rounded(const ExactPoint& point) {
   if (is_double(point)) return {point.approx().x().inf(), point.approx().y().inf()};
   return {nearest(point.exact().x()), nearest(point.exact().y())};
+}
+
+PolygonWithHoles rounded(const ExactPolygon& polygon) {
+  PolygonWithHoles made{rounded_ring(polygon.outer), {}};
+  for (const ExactRing& hole : polygon.holes) made.holes.push_back(rounded_ring(hole));
+  return made;
 }
 
 double signed_area(const std::vector<ExactRing>& rings) {
@@ -80,9 +99,9 @@ double signed_area(const std::vector<ExactRing>& rings) {
   return std::ldexp(nearest(sum), -2 * bits - 1);
 }
 
-double area(const ExactPolygon& polygon) {
-  std::vector<ExactRing> rings = polygon.holes;
-  rings.push_back(polygon.outer);
+double area_of(std::span<const ExactPolygon> polygons) {
+  std::vector<ExactRing> rings;
+  for (const ExactRing* ring : ring_pointers(polygons)) rings.push_back(*ring);
   return signed_area(rings);
 }
 

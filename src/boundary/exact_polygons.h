@@ -6,9 +6,10 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include <span>
 #include <vector>
 
-#include "palpation/base/types.h"
+#include "palpation/boundary/region.h"
 
 namespace palpation {
 
@@ -23,15 +24,18 @@ struct ExactPolygon {
   std::vector<ExactRing> holes;
 };
 
-/// The point of the same coordinates.
-ExactPoint exact(const Vec2& point);
+using RingPointers = std::vector<const ExactRing*>;
+
+/// All their rings: of each polygon the outer one, then the holes.
+RingPointers ring_pointers(std::span<const ExactPolygon> polygons);
 
 /// The nearest doubles.
 Vec2 rounded(const ExactPoint& point);
+PolygonWithHoles rounded(const ExactPolygon& polygon);
 
 /// Sum of the rings' signed areas, rounded once: what is summed are integer multiples of 2^-300 of the greatest coordinate.
 double signed_area(const std::vector<ExactRing>& rings);
 
-double area(const ExactPolygon& polygon);
+double area_of(std::span<const ExactPolygon> polygons);
 
 }  // namespace palpation

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "palpation/base/error.h"
 
@@ -43,7 +44,8 @@ std::vector<CrossedFace> crossed_faces(const Surface& surface, const Field& fiel
 
 /// The crossed triangles by themselves, each with corners of its own, which carry their barycentric weights: so each point that the filter
 /// makes tells where it is in its triangle, exactly, and no point is looked up or merged by its coordinates.
-vtkNew<vtkPolyData> corners_of(const std::vector<CrossedFace>& crossed, const Surface& surface, const Field& field, double scale) {
+vtkNew<vtkPolyData> corners_of(const std::vector<CrossedFace>& crossed, const Surface& surface, const Field& field, double level,
+                               double scale) {
   const auto count = static_cast<vtkIdType>(crossed.size());
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -64,7 +66,7 @@ vtkNew<vtkPolyData> corners_of(const std::vector<CrossedFace>& crossed, const Su
     const Eigen::Vector3i triangle = surface.triangle(crossed[i].face);
     for (int corner = 0; corner < 3; ++corner) {
       points->SetPoint(3 * i + corner, surface.vertex(triangle[corner]).data());
-      values->SetValue(3 * i + corner, scale * field[triangle[corner]]);
+      values->SetValue(3 * i + corner, scaled_value(field[triangle[corner]], level, scale));
       weights->SetTuple(3 * i + corner, Vec3(Vec3::Unit(corner)).data());
     }
     numbers->SetValue(i, static_cast<int>(i));
@@ -108,6 +110,30 @@ std::vector<std::array<Vec3, 2>> contour(const std::vector<CrossedFace>& crossed
   return ends;
 }
 
+/// A point so near to a vertex that it has the vertex' coordinates, or is nearer than any rounding of its edge, is at the vertex: so no
+/// piece of a line is without length because of it, and none has the size of nothing.
+Vec3 settled(const Surface& surface, int face, const Vec3& weights) {
+  const Vec3 place = surface.position({face, weights});
+  for (int corner = 0; corner < 3; ++corner) {
+    const double others = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
+    if (others < 0x1p-60 || (weights[corner] > 0.0 && place == surface.vertex(surface.triangle(face)[corner]))) return Vec3::Unit(corner);
+  }
+  return weights;
+}
+
+/// Where the level crosses the edge from a corner of the face to the next, as the filter says it: counted from the lower value.
+Vec3 crossing(const Surface& surface, const Field& field, double level, int face, int corner) {
+  int low = corner;
+  int high = (corner + 1) % 3;
+  const Eigen::Vector3i triangle = surface.triangle(face);
+  if (field[triangle[low]] > field[triangle[high]]) std::swap(low, high);
+  const double from = field[triangle[low]];
+  const double to = field[triangle[high]];
+  const double scale = safe_scale(std::max({std::abs(from), std::abs(to), std::abs(level)}));
+  const double part = (scale * level - scale * from) / (scale * to - scale * from);
+  return (1.0 - part) * Vec3::Unit(low) + part * Vec3::Unit(high);
+}
+
 /// Tells the two ends apart: an end with weight at the far corner of one of the apex' two edges is on that edge; without, it is at the apex
 /// itself, which is on both.
 LevelSegment segment(const CrossedFace& crossed, std::array<Vec3, 2> ends) {
@@ -127,20 +153,32 @@ LevelSegment segment(const CrossedFace& crossed, std::array<Vec3, 2> ends) {
 
 }  // namespace
 
-double safe_scale(const Field& field, double level) {
-  const double greatest = std::max(std::abs(level), field.size() > 0 ? field.cwiseAbs().maxCoeff() : 0.0);
-  return greatest > 1e300 ? 0x1p-8 : 1.0;
+double safe_scale(double greatest) { return greatest > 1e300 ? 0x1p-8 : 1.0; }
+
+double scaled_value(double value, double level, double scale) {
+  const double scaled = scale * value;
+  // Scaling may round a tiny value up to the level: it stays below.
+  return value < level && scaled >= scale * level ? std::nextafter(scale * level, -std::numeric_limits<double>::infinity()) : scaled;
 }
 
 std::vector<LevelSegment> level_segments(const Surface& surface, const Field& field, double level) {
   const std::vector<CrossedFace> crossed = crossed_faces(surface, field, level);
   if (crossed.empty()) return {};
-  const double scale = safe_scale(field, level);
-  const auto mesh = corners_of(crossed, surface, field, scale);
+  const double scale = safe_scale(std::max(std::abs(level), field.cwiseAbs().maxCoeff()));
+  const auto mesh = corners_of(crossed, surface, field, level, scale);
   const auto ends = contour(crossed, mesh, scale * level);
   std::vector<LevelSegment> segments;
   segments.reserve(crossed.size());
   for (std::size_t i = 0; i < crossed.size(); ++i) segments.push_back(segment(crossed[i], ends[i]));
+  for (LevelSegment& made : segments) {
+    // What was scaled for the sake of huge values may have lost the digits of tiny ones.
+    if (scale != 1.0) {
+      made.entry_weights = crossing(surface, field, level, made.face, made.entry);
+      made.exit_weights = crossing(surface, field, level, made.face, made.exit);
+    }
+    made.entry_weights = settled(surface, made.face, made.entry_weights);
+    made.exit_weights = settled(surface, made.face, made.exit_weights);
+  }
   return segments;
 }
 

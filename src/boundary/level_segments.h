@@ -18,8 +18,11 @@ struct LevelSegment {
   Vec3 exit_weights;
 };
 
-/// A factor, 1 but for fields near the limit of doubles, by which differences of the field's values stay finite.
-double safe_scale(const Field& field, double level);
+/// A factor, 1 but for values near the limit of doubles, by which differences of values up to `greatest` stay finite.
+double safe_scale(double greatest);
+
+/// The field's value times that factor, on the same side of the scaled level as before.
+double scaled_value(double value, double level, double scale);
 
 /// In the order of the faces. The field must be finite.
 std::vector<LevelSegment> level_segments(const Surface& surface, const Field& field, double level);

@@ -6,6 +6,9 @@
 #include <CGAL/Arrangement_2.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "palpation/base/error.h"
 
@@ -13,30 +16,70 @@ namespace palpation {
 
 namespace {
 
-/// Each segment carries the number of the edge it came from; where segments overlap, all numbers are kept.
+/// Each curve carries the number of its segment; where segments overlap in part, all numbers are kept.
 using SegmentTraits = CGAL::Arr_segment_traits_2<ExactKernel>;
 using Traits = CGAL::Arr_consolidated_curve_data_traits_2<SegmentTraits, int>;
 using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_extended_dcel<Traits, int, int, int>>;
 
-struct SourceEdge {
-  int layer;
-  bool runs_right;  ///< from its lower to its higher end, x before y
+/// The edges of all rings between the same two corners, as one: the time that CGAL takes for equal segments grows with the cube of their
+/// number.
+struct Segment {
+  const ExactPoint* low;  ///< x before y
+  const ExactPoint* high;
+  Winding step{0, 0};  ///< what they add to the windings on the left of the way from low to high
+  int rings = 1;
 };
 
-struct Segments {
-  std::vector<Traits::Curve_2> curves;
-  std::vector<SourceEdge> sources;
-};
-
-void add_ring(const ExactRing& ring, int layer, Segments& segments) {
+void add_edges(const ExactRing& ring, int layer, std::vector<Segment>& segments) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const ExactPoint& from = ring[i];
     const ExactPoint& to = ring[i + 1 < ring.size() ? i + 1 : 0];
     const CGAL::Comparison_result order = CGAL::compare_xy(from, to);
     if (order == CGAL::EQUAL) continue;
-    segments.curves.emplace_back(SegmentTraits::Curve_2(from, to), static_cast<int>(segments.sources.size()));
-    segments.sources.push_back({layer, order == CGAL::SMALLER});
+    const bool runs_right = order == CGAL::SMALLER;
+    Segment& segment = segments.emplace_back(Segment{.low = runs_right ? &from : &to, .high = runs_right ? &to : &from});
+    segment.step[layer] = runs_right ? 1 : -1;
   }
+}
+
+using Key = std::array<double, 4>;
+
+/// Equal points, given as doubles or evaluated, have equal bounds.
+Key key_of(const Segment& segment) {
+  const auto& low = segment.low->approx();
+  const auto& high = segment.high->approx();
+  return {low.x().inf(), low.y().inf(), high.x().inf(), high.y().inf()};
+}
+
+std::vector<Segment> merged(const std::vector<Segment>& edges) {
+  std::vector<std::pair<Key, std::size_t>> order;
+  order.reserve(edges.size());
+  for (const Segment& edge : edges) order.emplace_back(key_of(edge), order.size());
+  std::sort(order.begin(), order.end());
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Segment& edge = edges[order[i].second];
+    const bool repeats =
+        i > 0 && order[i].first == order[i - 1].first && *edge.low == *segments.back().low && *edge.high == *segments.back().high;
+    if (!repeats) {
+      segments.push_back(edge);
+      continue;
+    }
+    for (int layer = 0; layer < 2; ++layer) segments.back().step[layer] += edge.step[layer];
+    ++segments.back().rings;
+  }
+  return segments;
+}
+
+Arrangement arrangement_of(const std::vector<Segment>& segments) {
+  std::vector<Traits::Curve_2> curves;
+  curves.reserve(segments.size());
+  for (const Segment& segment : segments) {
+    curves.emplace_back(SegmentTraits::Curve_2(*segment.low, *segment.high), static_cast<int>(curves.size()));
+  }
+  Arrangement arrangement;
+  CGAL::insert(arrangement, curves.begin(), curves.end());
+  return arrangement;
 }
 
 template <typename Iterator>
@@ -44,17 +87,6 @@ int number_elements(Iterator first, Iterator last) {
   int count = 0;
   for (; first != last; ++first) first->set_data(count++);
   return count;
-}
-
-Winding winding_step(const Arrangement::Halfedge& half_edge, const std::vector<SourceEdge>& sources) {
-  Winding step{0, 0};
-  const bool runs_right = half_edge.direction() == CGAL::ARR_LEFT_TO_RIGHT;
-  const auto& numbers = half_edge.curve().data();
-  for (auto number = numbers.begin(); number != numbers.end(); ++number) {
-    const SourceEdge& source = sources[*number];
-    step[source.layer] += source.runs_right == runs_right ? 1 : -1;
-  }
-  return step;
 }
 
 /// Cuts a closed walk wherever it comes back to a corner, so that no ring visits a point twice.
@@ -100,11 +132,6 @@ void take_lower(const ExactPoint& point, std::optional<ExactPoint>& lowest) {
   if (!lowest || is_lower(point, *lowest)) lowest = point;
 }
 
-std::optional<Vec2> rounded_if_any(const std::optional<ExactPoint>& point) {
-  if (!point) return std::nullopt;
-  return rounded(*point);
-}
-
 /// Order of the half-edges, and where each face's begin in it.
 void sort_by_face(std::span<const int> face_of, int face_count, std::vector<int>& first, std::vector<int>& order) {
   first.assign(face_count + 1, 0);
@@ -117,12 +144,29 @@ void sort_by_face(std::span<const int> face_of, int face_count, std::vector<int>
 
 }  // namespace
 
+/// Twice the areas on the left of edges that count so many times, in doubles, and how far rounding may have moved them.
+struct Overlay::DoubledAreas {
+  std::array<double, 2> sum{0.0, 0.0};
+  std::array<double, 2> rounding{0.0, 0.0};
+
+  void add(const Vec2& from, const Vec2& to, const Winding& times) {
+    constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();  // of the corners, two products, their difference, the sum
+    const double first = from.x() * to.y();
+    const double second = to.x() * from.y();
+    for (int layer = 0; layer < 2; ++layer) {
+      if (times[layer] == 0) continue;
+      sum[layer] += times[layer] * (first - second);
+      rounding[layer] += kRounding * (std::abs(times[layer]) * (std::abs(first) + std::abs(second)) + std::abs(sum[layer]));
+    }
+  }
+};
+
 Overlay::Overlay(std::span<const ExactRing* const> first, std::span<const ExactRing* const> second) {
-  Segments segments;
-  for (const ExactRing* ring : first) add_ring(*ring, 0, segments);
-  for (const ExactRing* ring : second) add_ring(*ring, 1, segments);
-  Arrangement arrangement;
-  CGAL::insert(arrangement, segments.curves.begin(), segments.curves.end());
+  std::vector<Segment> edges;
+  for (const ExactRing* ring : first) add_edges(*ring, 0, edges);
+  for (const ExactRing* ring : second) add_edges(*ring, 1, edges);
+  const std::vector<Segment> segments = merged(edges);
+  Arrangement arrangement = arrangement_of(segments);
 
   number_elements(arrangement.vertices_begin(), arrangement.vertices_end());
   number_elements(arrangement.halfedges_begin(), arrangement.halfedges_end());
@@ -131,14 +175,45 @@ Overlay::Overlay(std::span<const ExactRing* const> first, std::span<const ExactR
   for (auto vertex = arrangement.vertices_begin(); vertex != arrangement.vertices_end(); ++vertex) points_.push_back(vertex->point());
   half_edges_.reserve(arrangement.number_of_halfedges());
   for (auto edge = arrangement.halfedges_begin(); edge != arrangement.halfedges_end(); ++edge) {
-    half_edges_.push_back({.twin = edge->twin()->data(),
-                           .next = edge->next()->data(),
-                           .face = edge->face()->data(),
-                           .origin = edge->source()->data(),
-                           .rings = static_cast<int>(edge->curve().data().size()),
-                           .step = winding_step(*edge, segments.sources)});
+    HalfEdge& made = half_edges_.emplace_back(HalfEdge{.twin = edge->twin()->data(),
+                                                       .next = edge->next()->data(),
+                                                       .face = edge->face()->data(),
+                                                       .origin = edge->source()->data(),
+                                                       .rings = 0,
+                                                       .step = {0, 0}});
+    const int direction = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT ? 1 : -1;
+    const auto& numbers = edge->curve().data();
+    for (auto number = numbers.begin(); number != numbers.end(); ++number) {
+      made.rings += segments[*number].rings;
+      for (int layer = 0; layer < 2; ++layer) made.step[layer] += direction * segments[*number].step[layer];
+    }
   }
   find_windings(arrangement.unbounded_face()->data());
+  DoubledAreas given;
+  for (const Segment& segment : segments) given.add(rounded(*segment.low), rounded(*segment.high), segment.step);
+  check_areas(given);
+}
+
+/// The arrangement's edges enclose what the rings' edges do, each place as often as its winding says.
+void Overlay::check_areas(const DoubledAreas& given) const {
+  std::vector<Vec2> places;
+  places.reserve(points_.size());
+  for (const ExactPoint& point : points_) places.push_back(rounded(point));
+  DoubledAreas made;
+  for (const HalfEdge& edge : half_edges_) {
+    const HalfEdge& twin = half_edges_[edge.twin];
+    for (int layer = 0; layer < 2; ++layer) {
+      if (windings_[edge.face][layer] - windings_[twin.face][layer] == edge.step[layer]) continue;
+      throw NumericalError("Overlay: the windings on the two sides of an edge contradict the rings along it");
+    }
+    made.add(places[edge.origin], places[twin.origin], windings_[edge.face]);
+  }
+  for (int layer = 0; layer < 2; ++layer) {
+    const double difference = made.sum[layer] - given.sum[layer];
+    if (std::abs(difference) <= made.rounding[layer] + given.rounding[layer]) continue;
+    throw NumericalError("Overlay: faces of " + text_of(0.5 * made.sum[layer]) + " m2 come from rings of " +
+                         text_of(0.5 * given.sum[layer]) + " m2");
+  }
 }
 
 void Overlay::find_windings(int unbounded_face) {
@@ -245,22 +320,37 @@ double Overlay::area(const Part& part) const {
 
 bool Overlay::any(const Part& part) const { return std::any_of(windings_.begin(), windings_.end(), part); }
 
-std::optional<Vec2> Overlay::overlap() const {
-  std::optional<ExactPoint> lowest;
+std::optional<std::array<ExactPoint, 2>> Overlay::overlap() const {
+  const HalfEdge* lowest = nullptr;
   for (const HalfEdge& edge : half_edges_) {
-    if (edge.rings > 1) take_lower(points_[edge.origin], lowest);
+    if (edge.rings > 1 && (lowest == nullptr || is_lower(points_[edge.origin], points_[lowest->origin]))) lowest = &edge;
   }
-  return rounded_if_any(lowest);
+  if (lowest == nullptr) return std::nullopt;
+  return std::array{points_[lowest->origin], points_[half_edges_[lowest->twin].origin]};
 }
 
-std::optional<Vec2> Overlay::meeting() const {
-  std::vector<int> degree(points_.size(), 0);
-  for (const HalfEdge& edge : half_edges_) ++degree[edge.origin];
+std::optional<ExactPoint> Overlay::crossing() const {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  std::vector<std::pair<int, int>> range(points_.size(), {kMost, -kMost});
+  for (const HalfEdge& edge : half_edges_) {
+    auto& [least, greatest] = range[edge.origin];
+    least = std::min(least, windings_[edge.face][0]);
+    greatest = std::max(greatest, windings_[edge.face][0]);
+  }
   std::optional<ExactPoint> lowest;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (degree[i] > 2) take_lower(points_[i], lowest);
+    if (range[i].second > range[i].first + 1) take_lower(points_[i], lowest);
   }
-  return rounded_if_any(lowest);
+  return lowest;
+}
+
+std::optional<ExactPoint> Overlay::lowest(const Part& part) const {
+  const std::vector<bool> inside = faces_of(part);
+  std::optional<ExactPoint> lowest;
+  for (const HalfEdge& edge : half_edges_) {
+    if (inside[edge.face]) take_lower(points_[edge.origin], lowest);
+  }
+  return lowest;
 }
 
 }  // namespace palpation

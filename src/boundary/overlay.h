@@ -22,7 +22,8 @@ class Overlay {
  public:
   using Part = std::function<bool(const Winding&)>;
 
-  /// Zero-length edges are skipped. Throws what CGAL throws.
+  /// Zero-length edges are skipped. Throws what CGAL throws, and NumericalError if the windings of the faces and their areas do not add up
+  /// to those of the rings.
   Overlay(std::span<const ExactRing* const> first, std::span<const ExactRing* const> second);
 
   /// The closure of the part's interior, in the normal form of ExactPolygon: equal parts give equal polygons. Part must be false for {0,
@@ -34,11 +35,15 @@ class Overlay {
   /// Whether some face has such windings.
   bool any(const Part& part) const;
 
-  /// A point, the lowest, of an edge along which rings run more than once.
-  std::optional<Vec2> overlap() const;
+  /// The ends of the lowest edge along which rings run more than once, the lower end first.
+  std::optional<std::array<ExactPoint, 2>> overlap() const;
 
-  /// The lowest point that rings pass more than once.
-  std::optional<Vec2> meeting() const;
+  /// The lowest point where a ring of the first layer crosses another or itself: more than two windings meet there, as at a mere touch
+  /// they do not. Only meaningful without an overlap.
+  std::optional<ExactPoint> crossing() const;
+
+  /// The lowest corner of the part.
+  std::optional<ExactPoint> lowest(const Part& part) const;
 
  private:
   /// Runs with its face on the left. `step`: winding of that face less that of the face on the right.
@@ -54,11 +59,13 @@ class Overlay {
     std::vector<int> corners;
     int face;
   };
+  struct DoubledAreas;
 
   std::vector<bool> faces_of(const Part& part) const;
   std::vector<Trace> trace(const std::vector<bool>& inside) const;
   std::vector<int> components(const std::vector<bool>& inside) const;
   void find_windings(int unbounded_face);
+  void check_areas(const DoubledAreas& given) const;
 
   std::vector<ExactPoint> points_;
   std::vector<HalfEdge> half_edges_;

@@ -1,9 +1,9 @@
 /// Where a field on a surface reaches a level. The rule is half open: a vertex is inside when its value is at least the level.
 ///
-/// The lines come from VTK's contour filter, fed only the triangles that the level crosses; they are joined into loops by their shared
-/// points, and closed along the border of the tissue, so that every loop bounds the inside, which lies on its left seen from outside. What
-/// encloses nothing (a peak or a ridge that only just reaches the level) makes no loop. Where two pieces meet at a vertex exactly at the
-/// level, a loop may pass it twice.
+/// The lines come from VTK's contour filter, fed only the triangles that the level crosses; they are joined into loops by the mesh edges
+/// they share, and closed along the border of the tissue, so that every loop bounds the inside, which lies on its left seen from outside.
+/// No loop visits a place twice: where pieces of the inside only touch, at a vertex exactly at the level, loops are cut apart. What
+/// encloses nothing (a peak or a ridge that only just reaches the level) makes no loop.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,8 @@ struct LevelLoop {
 /// if all are (so none on a closed surface). Throws InvalidInput unless field has one finite value a vertex and level is finite.
 std::vector<LevelLoop> level_loops(const Surface& surface, const Field& field, double level);
 
-/// The part of the tissue where field >= level, as a region of the surface's chart. Throws as level_loops, and as Surface::chart.
+/// The part of the tissue where field >= level, as a region of the surface's chart. Throws as level_loops, and as Surface::chart; and
+/// NumericalError, with the loops as WKT, should the region's area differ from the sum over the triangles by more than rounding.
 Region superlevel_region(const Surface& surface, const Field& field, double level);
 
 /// Its area on the tissue, m2, summed over the triangles without polygons: the slow path's twin, and right on any surface.
