@@ -89,10 +89,7 @@ void check_shape(const TriangleMesh& mesh, Eigen::Index face) {
   if (a == b || b == c || c == a) {
     refuse(name_of_placed_triangle(mesh, face), "must have no edge of zero length: two of its vertices are in one place");
   }
-  const double longest_squared = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  if ((b - a).cross(c - a).norm() <= kNoArea * longest_squared) {
-    refuse(name_of_placed_triangle(mesh, face), "must have an area: its vertices are on one line");
-  }
+  if (!has_area(mesh, face)) refuse(name_of_placed_triangle(mesh, face), "must have an area: its vertices are on one line");
 }
 
 std::vector<int> lowest_faces(const TriangleMesh& mesh) {
@@ -177,6 +174,13 @@ void check_fans(const TriangleMesh& mesh, const Connectivity& connectivity) {
 }
 
 }  // namespace
+
+bool has_area(const TriangleMesh& mesh, Eigen::Index face) {
+  const Eigen::Vector3i t = mesh.triangles.row(face);
+  const Vec3 a = mesh.vertices.row(t[0]), b = mesh.vertices.row(t[1]), c = mesh.vertices.row(t[2]);
+  const double longest_squared = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return (b - a).cross(c - a).norm() > kNoArea * longest_squared;
+}
 
 Connectivity check_mesh(const TriangleMesh& mesh) {
   check_size(mesh);

@@ -13,6 +13,9 @@ struct Connectivity {
   std::vector<int> face_of_vertex;  ///< the lowest
 };
 
+/// Whether a triangle has an area that is more than rounding: see surface.h.
+bool has_area(const TriangleMesh& mesh, Eigen::Index face);
+
 /// Throws InvalidMesh, naming the first element at fault, its position and the rule of surface.h that it breaks.
 Connectivity check_mesh(const TriangleMesh& mesh);
 
