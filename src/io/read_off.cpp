@@ -7,8 +7,9 @@
 namespace palpation {
 namespace {
 
-/// What may follow the coordinates of a vertex (normal, colour, texture) or the corners of a face (colour).
-constexpr std::size_t kMostNumbersBehind = 12;
+/// What may follow the coordinates of a vertex (normal, colour, texture), and the corners of a face (colour).
+constexpr std::size_t kMostBehindVertex = 12;
+constexpr std::size_t kMostBehindFace = 4;
 
 /// Line by line: a header, the counts (on its line or the next), a line for each vertex and each face. What follows the coordinates or the
 /// corners is ignored, so long as it is numbers.
@@ -34,7 +35,7 @@ class OffReader {
   bool next_words() {
     while (const std::optional<std::string_view> line = lines_.next()) {
       // A word more than a face may have, so that it is seen that it has too many.
-      split_words(without_comment(*line), words_, kMostCorners + kMostNumbersBehind + 2);
+      split_words(without_comment(*line), words_, kMostCorners + kMostBehindVertex + 2);
       if (!words_.empty()) return true;
     }
     return false;
@@ -81,13 +82,17 @@ class OffReader {
                            "vertex " + std::to_string(vertex) + " has " + std::to_string(words_.size()) + " coordinates, not 3");
     }
     soup_.points.push_back(coordinates_.point(std::span<const std::string_view, 3>(words_.data(), 3), vertex, lines_.line()));
-    check_numbers_behind(3, "vertex " + std::to_string(vertex));
+    check_numbers_behind(3, kMostBehindVertex, "vertex " + std::to_string(vertex));
+    if (vertex == 0) numbers_of_vertex_ = words_.size();
+    if (words_.size() == numbers_of_vertex_) return;
+    source_.fail_at_line(lines_.line(), "vertex " + std::to_string(vertex) + " has " + std::to_string(words_.size()) +
+                                            " numbers, but those before it have " + std::to_string(numbers_of_vertex_));
   }
 
   /// They are of no use here, but what is no number may be the next line, its end lost.
-  void check_numbers_behind(std::size_t first, const std::string& element) const {
-    if (words_.size() > first + kMostNumbersBehind)
-      source_.fail_at_line(lines_.line(), element + " has more than " + std::to_string(kMostNumbersBehind) + " numbers too many");
+  void check_numbers_behind(std::size_t first, std::size_t most, const std::string& element) const {
+    if (words_.size() > first + most)
+      source_.fail_at_line(lines_.line(), element + " has more than " + std::to_string(most) + " numbers too many");
     for (std::size_t i = first; i < words_.size(); ++i) {
       if (parse_number(words_[i]).status == NumberStatus::NotANumber)
         source_.fail_at_line(lines_.line(), element + ": " + in_quotes(words_[i]) + " at the end of its line is no number");
@@ -117,7 +122,7 @@ class OffReader {
       soup_.corners.push_back(static_cast<int>(*index));
     }
     soup_.end_face(source_);
-    check_numbers_behind(static_cast<std::size_t>(*count) + 1, "face " + std::to_string(face));
+    check_numbers_behind(static_cast<std::size_t>(*count) + 1, kMostBehindFace, "face " + std::to_string(face));
   }
 
   const MeshSource& source_;
@@ -126,6 +131,7 @@ class OffReader {
   PolygonSoup soup_;
   std::vector<std::string_view> words_;
   std::int64_t vertex_count_ = 0, face_count_ = 0;
+  std::size_t numbers_of_vertex_ = 0;
 };
 
 }  // namespace

@@ -119,6 +119,7 @@ class HeaderReader {
     if (end - position_ > kLongestHeaderLine) fail("a header line has more than 4096 bytes");
     const std::string_view line = source_.bytes.substr(position_, end - position_);
     if (line.find('\0') != std::string_view::npos) fail("a NUL byte in the header");
+    if (line.find_first_of("\r\n") != std::string_view::npos) fail("the header's line ends are mixed");
     split_words(line, words_);
     position_ = end + line_end_.size();
   }
@@ -244,10 +245,11 @@ class BinaryBody {
   void skip(Scalar type, std::string_view what) { take(type, what); }
 
   void expect_end() const {
-    if (bytes_left() > 0) fail(std::to_string(bytes_left()) + " bytes more than the header announces");
+    if (bytes_left() > 0) source_.fail_at_byte(position_, std::to_string(bytes_left()) + " bytes more than the header announces");
   }
 
-  [[noreturn]] void fail(const std::string& what) const { source_.fail_at_byte(position_, what); }
+  /// At the number read last.
+  [[noreturn]] void fail(const std::string& what) const { source_.fail_at_byte(last_, what); }
 
  private:
   double real_number(Scalar type, std::string_view what) {
@@ -257,6 +259,7 @@ class BinaryBody {
 
   std::string_view take(Scalar type, std::string_view what) {
     const std::size_t size = size_of(type);
+    last_ = position_;
     if (source_.bytes.size() - position_ < size) fail("the file ends where " + std::string(what) + " is expected");
     position_ += size;
     return source_.bytes.substr(position_ - size, size);
@@ -264,6 +267,7 @@ class BinaryBody {
 
   const MeshSource& source_;
   std::size_t position_;
+  std::size_t last_ = 0;
   ByteOrder order_;
 };
 
