@@ -1,5 +1,6 @@
 #include "palpation/belief/sites.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -61,22 +62,25 @@ MergedReading merge(const Site& site, double field_noise_variance) {
   }
   if (!exact.empty()) return merge_exact(exact);
 
-  // Offsets from one of the readings, so that a large common value costs no digits.
+  // Offsets from one of the readings, so that a large common value costs no digits, and variances over a power of two near the least of
+  // them, so that no precision overflows.
   const double origin = site.plain.empty() ? site.known.front() : site.plain.front();
+  double least = site.plain.empty() ? site.known_variances.front() : field_noise_variance;
+  for (double variance : site.known_variances) least = std::min(least, variance);
+  const int exponent = std::ilogb(least);
   double precision = 0.0;
   double weighted = 0.0;
-  for (double reading : site.plain) {
-    precision += 1.0 / field_noise_variance;
-    weighted += (reading - origin) / field_noise_variance;
-  }
-  for (std::size_t k = 0; k < site.known.size(); ++k) {
-    precision += 1.0 / site.known_variances[k];
-    weighted += (site.known[k] - origin) / site.known_variances[k];
-  }
+  const auto add = [&](double reading, double scaled_variance) {
+    precision += 1.0 / scaled_variance;
+    weighted += (reading - origin) / scaled_variance;
+  };
+  const double scaled_noise = std::ldexp(field_noise_variance, -exponent);
+  for (double reading : site.plain) add(reading, scaled_noise);
+  for (std::size_t k = 0; k < site.known.size(); ++k) add(site.known[k], std::ldexp(site.known_variances[k], -exponent));
   if (site.plain.size() + site.known.size() == 1) {
     return {origin, site.known.empty() ? field_noise_variance : site.known_variances.front()};
   }
-  return {origin + weighted / precision, 1.0 / precision};
+  return {origin + weighted / precision, std::ldexp(1.0 / precision, exponent)};
 }
 
 double scatter_log_likelihood(const Site& site, double field_noise_variance) {
