@@ -7,8 +7,8 @@
 namespace palpation {
 namespace {
 
-constexpr double kFarthest_m = 0.005 * (1.0 + 1e-9);  // 5 mm, written in decimals
-constexpr double kFarthestBeside_m = 0.001 * (1.0 + 1e-9);
+constexpr double kDecimals = 1.0 + 1e-9;  // a millimetre, written in decimals, may be a rounding more
+constexpr double kFarthest_m = 0.005 * kDecimals;
 constexpr double kUnremarkable_m = 0.0001;
 
 std::string point_text(const Vec3& point) {
@@ -17,8 +17,9 @@ std::string point_text(const Vec3& point) {
 
 }  // namespace
 
-Landing::Landing(const Surface& surface)
+Landing::Landing(const Surface& surface, double farthest_beside_m)
     : surface_(surface),
+      farthest_beside_m_(farthest_beside_m),
       least_(surface.mesh().vertices.colwise().minCoeff()),
       most_(surface.mesh().vertices.colwise().maxCoeff()),
       on_border_(static_cast<std::size_t>(surface.vertex_count()), false) {
@@ -42,8 +43,8 @@ std::optional<SurfacePoint> Landing::place(const Vec3& position, std::string& fa
   const double distance = (surface_.position(place) - position).norm();
   const double beside = beside_m(position, place);
   if (distance > kFarthest_m) fault = start + text_of(distance) + " m from the surface; at most 0.005 m is allowed";
-  if (fault.empty() && beside > kFarthestBeside_m)
-    fault = start + text_of(beside) + " m beside the border of the surface; at most 0.001 m is allowed";
+  if (fault.empty() && beside > farthest_beside_m_ * kDecimals)
+    fault = start + text_of(beside) + " m beside the border of the surface; at most " + text_of(farthest_beside_m_) + " m is allowed";
   if (!fault.empty()) return std::nullopt;
   farthest_m_ = std::max(farthest_m_, distance);
   if (distance > kUnremarkable_m) ++moved_;

@@ -12,10 +12,10 @@ namespace palpation {
 class Landing {
  public:
   /// Keeps a reference: the surface must outlive it.
-  explicit Landing(const Surface& surface);
+  explicit Landing(const Surface& surface, double farthest_beside_m = 0.001);
 
-  /// The closest point of the surface; or nothing, and what is wrong, for a position more than 5 mm off the surface or more than 1 mm
-  /// beside its border.
+  /// The closest point of the surface; or nothing, and what is wrong, for a position more than 5 mm off the surface or too far beside
+  /// its border.
   std::optional<SurfacePoint> place(const Vec3& position, std::string& fault);
 
   int moved() const { return moved_; }  ///< how many positions lay more than 0.1 mm off
@@ -26,6 +26,7 @@ class Landing {
   bool is_on_border(const SurfacePoint& point) const;
 
   const Surface& surface_;
+  double farthest_beside_m_;
   Vec3 least_, most_;
   std::vector<bool> on_border_;  // by vertex
   int moved_ = 0;

@@ -1,8 +1,10 @@
 #include "palpation/io/read_boundary.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/landing.h"
 #include "io/mesh_source.h"
 #include "io/vtp_file.h"
 #include "palpation/base/error.h"
@@ -11,13 +13,9 @@
 namespace palpation {
 namespace {
 
-constexpr double kFarthest_m = 0.005;
+constexpr double kFarthestBeside_m = 0.005;
 
-Vec2 chart_place(const MeshSource& source, const Surface& surface, const Vec3& position) {
-  const SurfacePoint point = surface.project(position);
-  const double distance = (surface.position(point) - position).norm();
-  require(distance <= kFarthest_m, source.path.string(), "a point " + text_of(distance) + " m from the tissue",
-          "is no boundary on it: it may lie up to 5 mm away");
+Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
   Vec2 place = Vec2::Zero();
   for (int corner = 0; corner < 3; ++corner)
     place += point.barycentric[corner] * surface.chart().uv.row(surface.triangle(point.face)[corner]).transpose();
@@ -32,13 +30,23 @@ std::vector<std::string> kinds_of(VtpFile& file, const VtpPiece& piece) {
   return {};
 }
 
+Region region_of(const MeshSource& source, const std::vector<Ring>& rings) {
+  try {
+    return Region::even_odd(rings);
+  } catch (const InvalidInput& error) {
+    source.fail(error.what());
+  }
+}
+
 }  // namespace
 
-Region read_boundary_vtp(const std::filesystem::path& path, const Surface& surface) {
+BoundaryFile read_boundary_vtp(const std::filesystem::path& path, const Surface& surface) {
   const std::string bytes = read_file(path);
   const MeshSource source{path, bytes};
   VtpFile file(source);
+  Landing landing(surface, kFarthestBeside_m);
   std::vector<Ring> rings;
+  int points_read = 0;
   for (const VtpPiece& piece : file.pieces()) {
     if (piece.lines.count == 0 && piece.cells() > 0) source.fail("holds no lines, so it is no boundary");
     const std::vector<std::string> kinds = kinds_of(file, piece);
@@ -49,12 +57,24 @@ Region read_boundary_vtp(const std::filesystem::path& path, const Surface& surfa
     file.each_cell(piece, piece.lines, [&](const std::vector<int>& corners) {
       if (!kinds.empty() && kinds[cell++] != "estimate") return;
       Ring ring;
-      for (const int corner : corners) ring.push_back(chart_place(source, surface, points[static_cast<std::size_t>(corner)]));
+      for (const int corner : corners) {
+        std::string fault;
+        const std::optional<SurfacePoint> place = landing.place(points[static_cast<std::size_t>(corner)], fault);
+        if (!place) source.fail("point " + std::to_string(corner) + " of the boundary: " + fault);
+        ring.push_back(chart_place(surface, *place));
+        ++points_read;
+      }
       if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
       rings.push_back(std::move(ring));
     });
   }
-  return Region::even_odd(rings);
+  BoundaryFile boundary{region_of(source, rings), {}};
+  if (landing.moved() > 0) {
+    boundary.warnings.push_back(path.string() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(points_read) +
+                                " points of the boundary lay off the surface, by up to " + text_of(landing.farthest_m()) +
+                                " m, and were taken to its closest points.");
+  }
+  return boundary;
 }
 
 }  // namespace palpation

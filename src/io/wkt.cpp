@@ -10,6 +10,7 @@
 #include "io/mesh_text.h"
 #include "io/number_text.h"
 #include "palpation/base/error.h"
+#include "palpation/boundary/outline_repairs.h"
 #include "palpation/io/atomic_file.h"
 
 namespace palpation {
@@ -174,6 +175,12 @@ std::string without_function(const std::string& words) {
   return words.starts_with(kFunction) ? words.substr(kFunction.size()) : words;
 }
 
+std::vector<std::string> warnings_of(const MeshSource& source, std::span<const PolygonWithHoles> polygons) {
+  std::vector<std::string> warnings = repairs_of(polygons).words();
+  for (std::string& warning : warnings) warning = source.path.string() + ": " + warning;
+  return warnings;
+}
+
 /// Says which of the polygons is at fault, if one of them is by itself.
 [[noreturn]] void refuse(const MeshSource& source, std::span<const PlacedPolygon> placed, const InvalidInput& error) {
   for (const PlacedPolygon& one : placed) {
@@ -196,15 +203,16 @@ std::string to_wkt(const Region& region) {
   return text + ")";
 }
 
-Region read_wkt(const std::filesystem::path& path) {
+BoundaryFile read_wkt(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   const MeshSource source{path, bytes};
   const std::vector<PlacedPolygon> placed = WktParser(source).parse();
   try {
-    const Region region(polygons_of(placed));
+    const std::vector<PolygonWithHoles> polygons = polygons_of(placed);
+    const Region region(polygons);
     if (region.empty() && !placed.empty())
       source.fail_at_byte(placed.front().byte, "no area is inside: MULTIPOLYGON EMPTY says so without doubt");
-    return region;
+    return {region, warnings_of(source, polygons)};
   } catch (const InvalidInput& error) {
     refuse(source, placed, error);
   }

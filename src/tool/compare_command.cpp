@@ -17,10 +17,12 @@ namespace {
 constexpr double kMargin_m = 0.005;
 constexpr double kRounding = 1e-9;  // of the tissue's area: corners on its border, rounded
 
-Region read_any(const std::filesystem::path& path, const Surface& surface) {
-  if (path.extension() == ".wkt") return read_wkt(path);
-  if (path.extension() == ".vtp") return read_boundary_vtp(path, surface);
-  throw IoError(path.string() + ": a boundary is a .wkt or a .vtp file");
+Region read_any(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
+  const bool is_wkt = path.extension() == ".wkt";
+  if (!is_wkt && path.extension() != ".vtp") throw IoError(path.string() + ": a boundary is a .wkt or a .vtp file");
+  const BoundaryFile file = is_wkt ? read_wkt(path) : read_boundary_vtp(path, surface);
+  warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
+  return file.region;
 }
 
 /// A boundary of this tissue lies on it: one in millimetres or of another tissue does not.
@@ -39,7 +41,7 @@ void check_place(const Region& region, const std::filesystem::path& path, const 
 
 /// What lies beside the tissue is neither tumour nor healthy: it does not count, and is told.
 Region read_region(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
-  const Region region = read_any(path, surface);
+  const Region region = read_any(path, surface, warnings);
   check_place(region, path, surface);
   const Region tissue = superlevel_region(surface, Field::Zero(surface.vertex_count()), 0.0);
   const double beside_m2 = subtract(region, tissue).area();

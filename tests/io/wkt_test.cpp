@@ -12,7 +12,7 @@ namespace {
 
 Region region_of(const std::string& text) {
   const TemporaryFolder folder;
-  return read_wkt(folder.file("a.wkt", text));
+  return read_wkt(folder.file("a.wkt", text)).region;
 }
 
 std::string error_of(const std::string& text) {
@@ -42,7 +42,7 @@ TEST(ToWkt, ComesBackBitForBit) {
                                                   {{{2, 2}, {5, 2}, {5, 5}, {2, 5}}, {{{3, 3}, {3, 4}, {4, 4}}}}};
   const Region region(polygons);
   const std::string text = to_wkt(region);
-  EXPECT_EQ(to_wkt(read_wkt(folder.file("a.wkt", text))), text);
+  EXPECT_EQ(to_wkt(read_wkt(folder.file("a.wkt", text)).region), text);
   EXPECT_EQ(to_wkt(Region()), "MULTIPOLYGON EMPTY");
 }
 
@@ -87,6 +87,15 @@ TEST(ReadWkt, ReadsEitherOrientationRepeatsAndAByteOrderMark) {
                            "\xEF\xBB\xBFPOLYGON ((0 0, 2 0, 3 0, 2 0, 2 2, 0 2, 0 0))"}) {
     EXPECT_EQ(region_of(text).area(), 4.0) << text;
   }
+}
+
+TEST(ReadWkt, TellsWhatWasTidiedAway) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(read_wkt(folder.file("a.wkt", "POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))")).warnings.empty());
+  const BoundaryFile spiky = read_wkt(folder.file("a.wkt", "POLYGON ((0 0, 2 0, 2 0, 3 0, 2 0, 2 2, 0 2, 0 0))"));
+  EXPECT_EQ(spiky.region.area(), 4.0);
+  ASSERT_EQ(spiky.warnings.size(), 2u);
+  for (const std::string& warning : spiky.warnings) EXPECT_TRUE(contains(warning, "a.wkt: ")) << warning;
 }
 
 TEST(ReadWkt, ReadsAHundredThousandCornersInTime) {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "palpation/boundary/region.h"
+#include "palpation/io/boundary_file.h"
 
 namespace palpation {
 
@@ -12,8 +12,8 @@ namespace palpation {
 std::string to_wkt(const Region& region);
 
 /// One POLYGON or MULTIPOLYGON with two coordinates a point; each ring has at least four points and ends where it began. A byte order mark
-/// is welcome. Throws IoError with the byte: for other text, coordinates beyond 1e9 m, what Region has against a polygon, and polygons
-/// without any area, which are more likely a slip than nothing.
-Region read_wkt(const std::filesystem::path& path);
+/// is welcome; what Region tidies away is told. Throws IoError with the byte: for other text, coordinates beyond 1e9 m, what Region has
+/// against a polygon, and polygons without any area, which are more likely a slip than nothing.
+BoundaryFile read_wkt(const std::filesystem::path& path);
 
 }  // namespace palpation
