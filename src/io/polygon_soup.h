@@ -88,8 +88,8 @@ std::int64_t weld_equal_points(PolygonSoup& soup);
 /// Drops the points that no triangle uses, renumbering; returns how many.
 std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& triangles);
 
-/// Warns of points that are equal, or closer to each other than 1e-12 of the extent.
-void warn_of_close_points(PolygonSoup& soup);
+/// Warns of points that are equal, or closer to each other than 1e-12 of the extent. Returns how many are equal to another.
+std::int64_t warn_of_close_points(PolygonSoup& soup);
 
 /// Warns of triangles with an angle below 1e-6 rad: their longest side is more than a million times their height.
 void warn_of_slivers(PolygonSoup& soup, const std::vector<SoupTriangle>& triangles);

@@ -139,9 +139,9 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
     soup.warn(std::to_string(unused) + " vertices belong to no face and were dropped.",
               "Harmless, unless faces are missing. Vertices are counted without them.");
   }
-  warn_of_close_points(soup);
+  const std::int64_t equal = warn_of_close_points(soup);
   warn_of_slivers(soup, triangles);
-  return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format)};
+  return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format), equal};
 }
 
 struct NamedUnit {

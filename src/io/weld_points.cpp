@@ -93,7 +93,7 @@ std::int64_t weld_equal_points(PolygonSoup& soup) {
   return dropped;
 }
 
-void warn_of_close_points(PolygonSoup& soup) {
+std::int64_t warn_of_close_points(PolygonSoup& soup) {
   constexpr double kClose = 1e-12;
   // A bound on the work for points that were laid out to be costly: this is a warning, not a promise.
   constexpr std::size_t kMostNeighbours = 32;
@@ -130,6 +130,7 @@ void warn_of_close_points(PolygonSoup& soup) {
       "editor.");
   say(near, "a near-duplicate within 1e-12 of the extent", first_near,
       "Two vertices were meant to be one. Merge them by distance in a mesh editor.");
+  return equal;
 }
 
 }  // namespace palpation

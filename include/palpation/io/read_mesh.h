@@ -5,6 +5,7 @@
 /// dropped, faces turned round to agree with their neighbours, corners welded on request.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,7 +28,8 @@ struct MeshWarning {
 struct MeshFile {
   TriangleMesh mesh;  ///< metres
   std::vector<MeshWarning> warnings;
-  std::string format;  ///< "OBJ", "binary PLY", ...
+  std::string format;               ///< "OBJ", "binary PLY", ...
+  std::int64_t equal_vertices = 0;  ///< at the same place as another: MeshRepair would join them
 };
 
 /// What is repaired only on request.

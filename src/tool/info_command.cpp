@@ -1,0 +1,93 @@
+// info: what a mesh is, what is wrong with it, and what to do.
+#include <cstdio>
+#include <optional>
+
+#include "palpation/base/error.h"
+#include "palpation/geometry/surface.h"
+#include "palpation/io/read_mesh.h"
+#include "tool/commands.h"
+#include "tool/mesh_words.h"
+
+namespace palpation::tool {
+namespace {
+
+constexpr double kLeastExtent_m = 1e-3;
+constexpr double kMostExtent_m = 2.0;
+// Beyond, areas are no numbers, and counting faults would count that.
+constexpr double kLeastCountable_m = 1e-60;
+constexpr double kMostCountable_m = 1e60;
+
+void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
+
+/// A file that is there but holds no mesh: what to do is the same whatever broke it.
+MeshFile read(const InfoArguments& arguments, const MeshRepair& repair = {}) {
+  try {
+    return read_mesh_of_any_size(arguments.mesh, length_unit(arguments.unit), repair);
+  } catch (const IoError& error) {
+    const std::string message = error.what();
+    if (message.find(": cannot read: ") != std::string::npos) throw;
+    throw IoError(message + "\n  Mend the file at that place, or export it again from the program that made it: PLY is the safest choice.");
+  }
+}
+
+/// The surface, or why there is none.
+struct Attempt {
+  std::optional<Surface> surface;
+  std::string reason;
+};
+
+Attempt attempt(const TriangleMesh& mesh) {
+  try {
+    return {Surface(mesh), ""};
+  } catch (const InvalidMesh& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+std::string kind_words(const Surface& surface) {
+  const Topology topology = surface.topology();
+  return "a surface of " + std::to_string(topology.components) + (topology.components == 1 ? " component" : " components") +
+         (topology.is_closed() ? ", closed"
+                               : " with " + std::to_string(topology.borders) + (topology.borders == 1 ? " border" : " borders"));
+}
+
+/// Tries what welding would do for a mesh with seams.
+std::string weld_words(const InfoArguments& arguments) {
+  try {
+    const Attempt welded = attempt(read(arguments, {.weld_equal_vertices = true}).mesh);
+    if (welded.surface) return "Welded, it is " + kind_words(*welded.surface) + ": set surface.weld to true in a scene.\n";
+    return "Welding its vertices would not make it a surface: " + welded.reason + "\n";
+  } catch (const IoError& error) {
+    return "Welding its vertices would not make it a surface: " + std::string(error.what()) + "\n";
+  }
+}
+
+void print_file(const InfoArguments& arguments, const MeshFile& file) {
+  print(arguments.mesh.string() + ": " + file.format + ", " + std::to_string(file.mesh.vertices.rows()) + " vertices, " +
+        std::to_string(file.mesh.triangles.rows()) + " triangles, " + size_words(file.mesh) + "\n");
+  const double extent = extent_m(file.mesh);
+  if (extent < kLeastExtent_m || extent > kMostExtent_m) {
+    print("Implausible size: tissue is between 1 mm and 2 m across. Is --unit right?\n");
+  }
+  for (const MeshWarning& warning : file.warnings) print("Warning: " + warning.text + "\n  " + warning.advice + "\n");
+}
+
+}  // namespace
+
+void info(const InfoArguments& arguments) {
+  const MeshFile file = read(arguments);
+  print_file(arguments, file);
+  const Attempt mesh = attempt(file.mesh);
+  const double extent = extent_m(file.mesh);
+  if (mesh.surface) {
+    print(surface_words(*mesh.surface));
+  } else if (extent > kLeastCountable_m && extent < kMostCountable_m) {
+    print(fault_words(file.mesh, mesh.reason));
+  } else {
+    print("Not a surface to plan on: " + mesh.reason + "\n");
+  }
+  if (file.equal_vertices > 0) print(weld_words(arguments));
+  if (!mesh.surface) print("Next: mend it in a mesh editor at the places named, and run this again.\n");
+}
+
+}  // namespace palpation::tool
