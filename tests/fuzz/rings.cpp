@@ -10,8 +10,8 @@
 namespace palpation::fuzz {
 namespace {
 
-constexpr int kMostRings = 6;
-constexpr int kMostCorners = 24;
+constexpr int kMostRings = 3;
+constexpr int kMostCorners = 12;
 
 std::vector<Ring> rings_of(Numbers& numbers) {
   std::vector<Ring> rings(1 + numbers.byte() % kMostRings);
