@@ -163,6 +163,20 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
   return episode;
 }
 
+/// A field that cannot be fitted is told with what to change in the scene.
+template <typename Run>
+Episode with_advice(const Scene& scene, const Run& run) {
+  try {
+    return run();
+  } catch (const NumericalError& error) {
+    const std::string words = error.what();
+    if (!words.starts_with("Belief: ") && !words.starts_with("learn: ")) throw;
+    throw NumericalError(
+        scene.name() + ": field: cannot be fitted to the readings: " + words.substr(words.find(": ") + 2) +
+        ". What helps: field.noise above 0 or learned, a shorter field.length_mm, a field.signal_sd like the readings' own");
+  }
+}
+
 }  // namespace
 
 bool is_scan(const Scene& scene) {
@@ -171,15 +185,19 @@ bool is_scan(const Scene& scene) {
 }
 
 Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
-  return is_scan(scene) ? run_scan(scene, surface, world, after_batch) : run_exploration(scene, surface, world, after_batch);
+  return with_advice(scene, [&] {
+    return is_scan(scene) ? run_scan(scene, surface, world, after_batch) : run_exploration(scene, surface, world, after_batch);
+  });
 }
 
 Episode episode_from(const Scene& scene, const Surface& surface, std::span<const Palpation> palpations) {
-  Episode episode = started(scene, surface, plan_of(scene), {});
-  if (palpations.empty()) return episode;
-  episode.exploration.take_up(palpations);
-  restate(episode);
-  return episode;
+  return with_advice(scene, [&] {
+    Episode episode = started(scene, surface, plan_of(scene), {});
+    if (palpations.empty()) return episode;
+    episode.exploration.take_up(palpations);
+    restate(episode);
+    return episode;
+  });
 }
 
 Snapshot snapshot(const Episode& episode) {

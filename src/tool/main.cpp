@@ -57,7 +57,7 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
       ->type_name("KEY=VALUE");
   command->add_option("--seed", arguments.scene.seed, "override the scene's seed")->check(whole(0, kMostSeed));
   command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")->check(whole(1, 1024));
-  command->add_flag("--quiet", arguments.scene.quiet, "no progress and no words but errors");
+  command->add_flag("--quiet", arguments.scene.quiet, "no progress and no words but warnings and errors");
   return command;
 }
 

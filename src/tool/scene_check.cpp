@@ -29,7 +29,8 @@ std::string number_fault(const SceneKey& key, const json& value) {
   const bool whole = key.kind == ValueKind::Integer || key.kind == ValueKind::Integers;
   if (whole && number != std::floor(number)) return is_but_must_be(value, "a whole number");
   if ((number >= key.least && number <= key.most) || (key.zero_too && number == 0.0)) return "";
-  return is_but_must_be(value, range_text(key) + (key.unit.empty() ? "" : " " + key.unit));
+  const bool has_unit = !key.unit.empty() && key.unit != "reading";
+  return is_but_must_be(value, range_text(key) + (has_unit ? " " + key.unit : ""));
 }
 
 std::string word_fault(const SceneKey& key, const json& value) {

@@ -128,6 +128,16 @@ TEST(Measured, OneReadingIsNoTumour) {
   EXPECT_TRUE(episode.estimate.empty());
 }
 
+TEST(Measured, AFieldThatCannotBeFittedIsToldWithWhatHelps) {
+  try {
+    bounded(grid([](double reading) { return reading; }), {"field.noise=0", "field.length_mm=100", "field.signal_sd=1"});
+    ADD_FAILURE() << "64 exact readings 2.5 mm apart determine no field of 100 mm in double precision";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find(".json: field: cannot be fitted to the readings: site "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("What helps: field.noise above 0"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Measured, MorePlacesThanCanBeModelledAreRefused) {
   std::string csv = "x,y,z,reading\n";
   for (int i = 0; i < 10001; ++i) csv += text_of(0.0001 * (i % 200)) + "," + text_of(0.0001 * (i / 200)) + ",0,7\n";

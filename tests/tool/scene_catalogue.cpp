@@ -150,7 +150,7 @@ void add_field(Cases& cases) {
   const auto add = [&](const std::string& row, const std::string& name, const std::string& text, std::vector<std::string> words) {
     cases.push_back({row, name, text, std::move(words)});
   };
-  add("C07", "negative noise", field(R"("noise": -1)"), {": field.noise: is -1, but must be 0, or 1e-30 to 1e+30 reading"});
+  add("C07", "negative noise", field(R"("noise": -1)"), {": field.noise: is -1, but must be 0, or 1e-30 to 1e+30"});
   add("C07", "no noise", field(R"("noise": 0)"), {});
   add("C07", "negative zero", field(R"("noise": -0.0)"), {});
   add("C07", "noise so small that its square is 0", field(R"("noise": 1e-300)"), {": field.noise: is 1e-300, but must be 0, or 1e-30"});
@@ -177,7 +177,7 @@ void add_field(Cases& cases) {
       {": field.kernel: is \"periodic\", which needs field.metric chart"});
   cases.push_back({"C08", "a period without effect", field(R"("period_mm": 9)"), {}, {}, {"field.period_mm: has no effect"}});
 
-  add("C09", "no signal", field(R"("signal_sd": 0)"), {": field.signal_sd: is 0, but must be 1e-30 to 1e+30 reading"});
+  add("C09", "no signal", field(R"("signal_sd": 0)"), {": field.signal_sd: is 0, but must be 1e-30 to 1e+30"});
   add("C09", "a negative signal", field(R"("signal_sd": -1)"), {": field.signal_sd: is -1, but must be 1e-30"});
   add("C09", "a negative doubt of the constant", field(R"("constant_sd": -1)"), {": field.constant_sd: is -1, but must be 0, or 1e-30"});
   cases.push_back(
