@@ -43,6 +43,23 @@ std::vector<Edge> edges_of(std::span<const ExactRing* const> rings) {
   return edges;
 }
 
+/// Pairs of edges that meet at one point, where more than a hundred do: the time that an overlay takes grows with their number.
+long crowded_pairs(const std::vector<Edge>& edges) {
+  constexpr long kCrowd = 100;
+  std::vector<Vec2> ends;
+  ends.reserve(2 * edges.size());
+  for (const Edge& edge : edges) ends.insert(ends.end(), {edge.from, edge.to});
+  std::sort(ends.begin(), ends.end(), is_lower);
+  long pairs = 0;
+  for (auto first = ends.begin(); first != ends.end();) {
+    const auto last = std::find_if(first, ends.end(), [&](const Vec2& end) { return end != *first; });
+    const long crowd = last - first;
+    if (crowd > kCrowd) pairs += crowd * (crowd - 1) / 2;
+    first = last;
+  }
+  return pairs;
+}
+
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Clips the edge by the four sides in turn (Liang and Barsky 1984).
@@ -147,6 +164,8 @@ bool cross_at_most(long limit, std::span<const ExactRing* const> rings) {
   const std::vector<Edge> edges = edges_of(rings);
   const long count = static_cast<long>(edges.size());
   if (count * (count - 1) / 2 <= limit) return true;
+  limit -= crowded_pairs(edges);
+  if (limit < 0) return false;
   Box box;
   std::vector<int> all;
   for (const Edge& edge : edges) {

@@ -91,12 +91,20 @@ PolygonWithHoles rounded(const ExactPolygon& polygon) {
 double signed_area(const std::vector<ExactRing>& rings) {
   const double greatest = greatest_coordinate(rings);
   if (greatest == 0.0) return 0.0;
-  const int bits = 300 - std::ilogb(greatest);
-  Integer sum = 0;
-  for (const ExactRing& ring : rings) {
-    if (!ring.empty()) sum += doubled_area(ring, bits);
+  double area = 0.0;
+  // Only slivers thinner than 1e-60 of the greatest coordinate need more than the first round.
+  for (int digits = 300; digits <= 1200; digits *= 2) {
+    const int bits = digits - std::ilogb(greatest);
+    Integer sum = 0;
+    for (const ExactRing& ring : rings) {
+      if (!ring.empty()) sum += doubled_area(ring, bits);
+    }
+    int shift = 0;
+    for (; !std::isfinite(CGAL::to_double(sum)); shift += 256) sum >>= 256;
+    area = std::ldexp(nearest(sum), shift - 2 * bits - 1);
+    if (std::abs(area) > std::ldexp(greatest * greatest, 100 - digits)) break;
   }
-  return std::ldexp(nearest(sum), -2 * bits - 1);
+  return area;
 }
 
 double area_of(std::span<const ExactPolygon> polygons) {

@@ -33,7 +33,8 @@ RingPointers ring_pointers(std::span<const ExactPolygon> polygons);
 Vec2 rounded(const ExactPoint& point);
 PolygonWithHoles rounded(const ExactPolygon& polygon);
 
-/// Sum of the rings' signed areas, rounded once: what is summed are integer multiples of 2^-300 of the greatest coordinate.
+/// Sum of the rings' signed areas, rounded once: what is summed are integer multiples of 2^-300 of the greatest coordinate, and finer ones
+/// for what is next to nothing.
 double signed_area(const std::vector<ExactRing>& rings);
 
 double area_of(std::span<const ExactPolygon> polygons);

@@ -4,6 +4,7 @@
 #include <CGAL/exceptions.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "boundary/crossings.h"
@@ -23,7 +24,7 @@ auto with_overlay(const std::string& function, const RingPointers& first, const 
   RingPointers all = first;
   all.insert(all.end(), second.begin(), second.end());
   require(cross_at_most(kMostCrossings, all), function, "the rings' edges",
-          "may cross or overlap at most " + std::to_string(kMostCrossings) + " times");
+          "may cross, overlap or meet in a crowd at most " + std::to_string(kMostCrossings) + " times");
   const QuietCgal quiet;
   try {
     return make(Overlay(first, second));
@@ -34,9 +35,10 @@ auto with_overlay(const std::string& function, const RingPointers& first, const 
   }
 }
 
-/// Areas that are equal in exact arithmetic. Each is rounded once, so this only ever fails if an overlay is wrong.
+/// Areas that are equal in exact arithmetic. Each is rounded once (to a multiple of the least double, if it is tiny), so this only ever
+/// fails if an overlay is wrong.
 inline void require_identity(const std::string& function, double area, double expected, double operands) {
-  if (std::abs(area - expected) <= 1e-14 * operands) return;
+  if (std::abs(area - expected) <= 1e-14 * operands + std::numeric_limits<double>::min()) return;
   throw NumericalError(function + ": the area " + text_of(area) + " m2 contradicts the areas that it is made of, which give " +
                        text_of(expected) + " m2");
 }

@@ -76,7 +76,9 @@ RegionError compare(const Surface& surface, const Region& estimate, const Region
   error.extra_m2 = areas.only_a_m2;
   error.symmetric_difference_m2 = error.missed_m2 + error.extra_m2;
   if (estimate.empty() && truth.empty()) return error;
-  error.dice = 2.0 * areas.both_m2 / (2.0 * areas.both_m2 + error.symmetric_difference_m2);
+  const double sum = 2.0 * areas.both_m2 + error.symmetric_difference_m2;
+  // Slivers thinner than the least double have areas of zero, and still are what they are.
+  error.dice = sum > 0.0 ? 2.0 * areas.both_m2 / sum : (symmetric_difference(estimate, truth).empty() ? 1.0 : 0.0);
   if (!estimate.empty() && !truth.empty()) add_distances(estimate, truth, error);
   return error;
 }

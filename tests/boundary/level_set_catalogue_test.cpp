@@ -98,6 +98,18 @@ TEST(LevelSetCatalogue, B02_AllTissueIsInsideWhereAllIsAboveOrAtTheLevel) {
 }
 
 // Half of the tissue: the line leaves over the border and comes back along it.
+TEST(LevelSetCatalogue, B02_AComponentThatIsAllAtTheLevelIsInsideBesideOthersThatAreNot) {
+  const TriangleMesh sheet = zoo::unit_square_mesh(4);
+  const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
+  for (const TriangleMesh& other :
+       {zoo::moved(sheet, same, Vec3(2.0, 0.0, 0.0)), zoo::moved(zoo::icosphere_mesh(1), same, Vec3(3.0, 0.0, 0.0))}) {
+    const Surface two(zoo::together(sheet, other));
+    const Field field = field_of(two, [](const Vec3& p) { return p.x() > 1.5 ? 1.0 : p.x(); });
+    EXPECT_EQ(lawful_loops(two, field, 1.0).size(), two.topology().is_closed() ? 0u : two.border_loops().size() - 1);
+    EXPECT_NEAR(superlevel_area(two, field, 1.0), two.area() - 1.0, 1e-13);
+  }
+}
+
 TEST(LevelSetCatalogue, B03_ALineThatMeetsTheBorderIsClosedAlongIt) {
   const Surface square = unit_square(9);
   const Field left = field_of(square, [](const Vec3& p) { return 1.0 - p.x(); });

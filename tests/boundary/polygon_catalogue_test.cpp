@@ -280,7 +280,7 @@ TEST(PolygonCatalogue, P14_OutlinesThatCrossMillionsOfTimesAreRefusedBeforeTheWo
   std::string message;
   // It takes some hundredths of a second, a busy machine under a sanitizer longer; the overlay itself would take minutes and gigabytes.
   EXPECT_LT(seconds_of([&] { message = refusal([&] { intersect(a, b); }); }), 30.0);
-  EXPECT_EQ(message, "intersect: the rings' edges may cross or overlap at most 500000 times");
+  EXPECT_EQ(message, "intersect: the rings' edges may cross, overlap or meet in a crowd at most 500000 times");
   // Against itself turned by a little, each spike crosses few others: that is done.
   const Ring wheel = pinwheel(1000, 0.02);
   Ring turned;
@@ -299,10 +299,23 @@ TEST(PolygonCatalogue, P14_EdgesThatRunAlongEachOtherAreCountedToo) {
     to_and_fro.emplace_back(6000 - i, 0);
   }
   to_and_fro.emplace_back(3000, 5);
-  EXPECT_TRUE(contains(refusal([&] { even_odd({to_and_fro}); }), "may cross or overlap at most"));
+  EXPECT_TRUE(contains(refusal([&] { even_odd({to_and_fro}); }), "may cross, overlap or meet in a crowd at most"));
   to_and_fro.erase(to_and_fro.begin() + 200, to_and_fro.end() - 1);
   // One triangle is left of it, from (0 0) over (5901 0) to (3000 5).
   EXPECT_EQ(even_odd({to_and_fro}).area(), 14752.5);
+}
+
+TEST(PolygonCatalogue, P14_SpikesThatCrowdAtOnePointAreCountedToo) {
+  const auto fan = [](int spikes) {
+    Ring ring;
+    for (int i = 0; i < spikes; ++i) {
+      ring.emplace_back(0.0, 0.0);
+      for (const double side : {0.0, 0.5}) ring.emplace_back(std::cos((i + side) / spikes), std::sin((i + side) / spikes));
+    }
+    return ring;
+  };
+  EXPECT_TRUE(contains(refusal([&] { region_of(fan(20'000)); }), "meet in a crowd"));
+  EXPECT_EQ(region_of(fan(100)).polygons().size(), 100u);
 }
 
 TEST(PolygonCatalogue, P16_WhatLiesBesideTheTissueIsCutOffByTheTissuesOwnRegion) {

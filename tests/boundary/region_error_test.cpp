@@ -113,6 +113,38 @@ TEST(RegionError, CountsHolesAsBoundary) {
   EXPECT_DOUBLE_EQ(error.hausdorff_m.value(), 0.375);  // from the hole's corner to the outer side
 }
 
+// Everything is a ratio or a length: scaled and far off, the same but for rounding at the place.
+TEST(RegionError, IsTheSameAtAnyScaleAndFarFromTheOrigin) {
+  const Surface tissue = unit_square(2);
+  const auto at = [](double scale, const Vec2& origin) {
+    return [=](double x0, double y0, double x1, double y1) {
+      return box(origin.x() + scale * x0, origin.y() + scale * y0, origin.x() + scale * x1, origin.y() + scale * y1);
+    };
+  };
+  // Powers of two, so that nothing is rounded: 9e-13 m across, 5e8 m across, 1e-90 m across; and 2^-10 m across at 2^29 m.
+  for (const auto& [scale, origin] :
+       {std::pair(std::ldexp(1.0, -40), Vec2(0, 0)), std::pair(std::ldexp(1.0, 29), Vec2(0, 0)),
+        std::pair(std::ldexp(1.0, -299), Vec2(0, 0)), std::pair(std::ldexp(1.0, -10), Vec2(536870912, 536870912))}) {
+    const auto scaled = at(scale, origin);
+    const RegionError error = compare(tissue, scaled(0.25, 0.25, 0.75, 0.5), scaled(0.5, 0.25, 0.625, 0.75));
+    EXPECT_EQ(error.extra_m2, 0.09375 * scale * scale);
+    EXPECT_EQ(error.missed_m2, 0.03125 * scale * scale);
+    EXPECT_EQ(error.dice, 2.0 * 0.03125 / (0.125 + 0.0625));
+    EXPECT_DOUBLE_EQ(error.hausdorff_m.value(), 0.25 * scale);
+    EXPECT_LT(error.mean_distance_m.value(), 0.25 * scale);
+    EXPECT_GT(error.mean_distance_m.value(), 0.05 * scale);
+  }
+}
+
+TEST(RegionError, OfSliversWithoutAnAreaThatDoublesCanHoldHasADice) {
+  const Surface tissue = unit_square(2);
+  const Region up = ring_region({{0, 0}, {1, 0}, {1, std::numeric_limits<double>::denorm_min()}});
+  const Region down = ring_region({{0, 0}, {1, -std::numeric_limits<double>::denorm_min()}, {1, 0}});
+  EXPECT_EQ(compare(tissue, up, up).dice, 1.0);
+  EXPECT_EQ(compare(tissue, up, down).dice, 0.0);
+  EXPECT_EQ(compare(tissue, up, down).symmetric_difference_m2, 0.0);
+}
+
 struct Edge {
   Vec2 from;
   Vec2 to;

@@ -63,6 +63,20 @@ TEST(Region, IsExactAtExtremeScales) {
   const double next = std::nextafter(1.0, 2.0);
   const Region sliver = subtract(region_of(box(0, 0, next, 1)), region_of(box(0, 0, 1, 1)));
   EXPECT_EQ(sliver.area(), next - 1.0);
+  // Slivers far thinner than a unit in the last place of their length.
+  EXPECT_EQ(region_of({{0, 0}, {1, 0}, {1, std::ldexp(1.0, -400)}}).area(), std::ldexp(1.0, -401));
+  EXPECT_EQ(region_of({{0, 0}, {1, 0}, {1, std::ldexp(1.0, -1000)}}).area(), std::ldexp(1.0, -1001));
+  EXPECT_EQ(region_of({{-1e9, 0}, {1e9, 0}, {1e9, std::ldexp(1.0, -1070)}}).area(), std::ldexp(1e9, -1070));
+}
+
+TEST(Region, FarFromTheOriginIsAsExactAsNearIt) {
+  // A square whose sides are one unit in the last place of 2^29, 1.2e-7 m.
+  const double corner = std::ldexp(1.0, 29);
+  const double side = std::ldexp(1.0, -23);
+  const Region square = region_of(box(corner, corner, corner + side, corner + side));
+  EXPECT_EQ(square.area(), side * side);
+  const Region triangle = region_of({{corner, corner}, {corner + side, corner}, {corner + side, corner + side}});
+  EXPECT_EQ(symmetric_difference(square, triangle).area(), 0.5 * side * side);
 }
 
 TEST(EvenOdd, AlternatesBetweenNestedRingsWhicheverWayTheyRun) {

@@ -6,9 +6,10 @@
 /// corner; (4) equal regions list equal polygons: pieces that meet at a point only are apart, a ring visits no point twice, has no straight
 /// corner and starts at its lowest corner (u before v). Rings may share corners with others.
 ///
-/// Outlines whose edges cross or run along each other more than 500,000 times are refused with InvalidInput before any work is done. Every
-/// result's area is held against those that it is made of; should the arithmetic contradict itself, NumericalError brings the operands as
-/// WKT. Time and memory grow with corners and crossings (10 s and 1 GB a million), the stack does not. Threads may share regions.
+/// Outlines whose edges cross, run along each other or crowd at one point more than 500,000 times are refused with InvalidInput before any
+/// work is done. Every result's area is held against those that it is made of; should the arithmetic contradict itself, NumericalError
+/// brings the operands as WKT. Time and memory grow with corners and crossings (10 s and 1 GB a million), the stack does not. Threads may
+/// share regions.
 #pragma once
 
 #include <memory>
