@@ -130,9 +130,10 @@ std::vector<SceneKey> make_scene_keys() {
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
             "mean"),
-      word("level.estimate", {"known", "range"}, "range",
-           "where tissue becomes tumour: known beforehand, or min + fraction (max - min) of the mean"),
-      number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5, "of that range; it also defines the true outline of a simulated tumour"),
+      word("level.estimate", {"known", "range", "edge"}, "range",
+           "where tissue becomes tumour: known beforehand; min + fraction (max - min) of the mean; or that fraction of the way between the "
+           "plateaus of the readings' profile across the edge, with a standard deviation"),
+      number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5, "of that way; it also defines the true outline of a simulated tumour"),
       number("level.value", "reading", -kMostReading, kMostReading, nullptr,
              "the level, needed where level.estimate is known; kept, but without effect, where it is not"),
       word("plan.acquisition", {"ils-ucb", "ucb", "evr", "straddle", "lse", "random", "raster", "refinement"}, "ils-ucb",

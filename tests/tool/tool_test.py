@@ -50,6 +50,12 @@ class Tool(unittest.TestCase):
         self.assertTrue(result.stderr.strip() or code == 2)
         return result.stderr
 
+    def test_the_edge_tells_the_level_and_how_well_it_is_known(self):
+        self.done("simulate", self.scene, "--out", self.folder / "out", "--set", "level.estimate=edge")
+        summary = json.loads((self.folder / "out" / "summary.json").read_text())
+        self.assertGreater(summary["level_sd"], 0.0)
+        self.assertLess(abs(summary["level"] - 8.0), 3.0 * summary["level_sd"])
+
     def test_simulate_writes_every_file_and_tells_the_result(self):
         out = self.folder / "out"
         words = self.done("simulate", self.scene, "--out", out)
