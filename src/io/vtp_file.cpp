@@ -12,6 +12,9 @@
 namespace palpation {
 namespace {
 
+// Each takes more memory than bytes in the file. VTK writes one for each process that worked on it.
+constexpr std::size_t kMostPieces = 10'000;
+
 /// Walks through the elements of a file and notes what its arrays say.
 class StructureReader {
  public:
@@ -95,6 +98,7 @@ class StructureReader {
   }
 
   void take_piece(const XmlTag& tag) {
+    if (pieces_.size() == kMostPieces) source_.fail_at_byte(tag.place, "more than " + std::to_string(kMostPieces) + " pieces");
     VtpPiece& piece = pieces_.emplace_back();
     piece.place = tag.place;
     piece.points = count_of(tag, "NumberOfPoints");

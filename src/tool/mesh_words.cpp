@@ -156,7 +156,7 @@ std::string crossing_words(const Surface& surface) {
   }
   const SelfIntersections found = self_intersections(surface);
   if (!found.complete) {
-    return "Warning: so many triangles lie on one another that the search for places where it runs through itself was given up.\n"
+    return "Warning: so many triangles lie close together that the search for places where it runs through itself was given up.\n"
            "  Simplify or remesh it.\n";
   }
   if (found.pairs == 0) return "";

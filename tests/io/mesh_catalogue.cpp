@@ -733,6 +733,9 @@ void add_vtp(Cases& cases) {
   cases.push_back({"M45", "a hundred thousand elements in each other", "a.vtp",
                    "<VTKFile type=\"PolyData\">" + repeated("<a>", 100'000) + repeated("</a>", 100'000) + "</VTKFile>",
                    Refused{at_byte(25 + 31 * 3), {"nested deeper than 32"}}});
+  cases.push_back({"M45", "20,000 pieces", "a.vtp",
+                   "<VTKFile type=\"PolyData\"><PolyData>" + repeated("<Piece/>", 20'000) + "</PolyData></VTKFile>",
+                   Refused{at_byte(35 + 8 * 10'000), {"more than 10000 pieces"}}});
   cases.push_back({"M45", "a hundred thousand elements in a row", "a.vtp",
                    "<VTKFile type=\"PolyData\">" + repeated("<a/>", 100'000) + "</VTKFile>",
                    Refused{at_byte(0), {"no element <PolyData>"}}});
