@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "io/square.h"
 #include "io/temporary_folder.h"
 #include "palpation/io/measurements.h"
 
@@ -11,15 +12,6 @@ namespace palpation {
 namespace {
 
 using catalogue::MeasurementCase;
-
-Surface square() {
-  TriangleMesh mesh;
-  mesh.vertices.resize(4, 3);
-  mesh.vertices << 0, 0, 0, 0.02, 0, 0, 0.02, 0.02, 0, 0, 0.02, 0;
-  mesh.triangles.resize(2, 3);
-  mesh.triangles << 0, 1, 2, 0, 2, 3;
-  return Surface(mesh);
-}
 
 void expect_read(const MeasurementCase& one, const MeasurementsFile& file) {
   const std::string name = one.row + " " + one.name;

@@ -4,20 +4,11 @@
 
 #include <string>
 
+#include "io/square.h"
 #include "io/temporary_folder.h"
 
 namespace palpation {
 namespace {
-
-/// A square of 2 x 2 cm in the plane z = 0, two triangles.
-Surface square() {
-  TriangleMesh mesh;
-  mesh.vertices.resize(4, 3);
-  mesh.vertices << 0, 0, 0, 0.02, 0, 0, 0.02, 0.02, 0, 0, 0.02, 0;
-  mesh.triangles.resize(2, 3);
-  mesh.triangles << 0, 1, 2, 0, 2, 3;
-  return Surface(mesh);
-}
 
 /// One closed line through four points.
 std::string line_through(const std::string& points) {
