@@ -10,6 +10,7 @@
 #include <numbers>
 #include <regex>
 
+#include "io/memory_file.h"
 #include "io/mesh_seeds.h"
 #include "io/temporary_folder.h"
 #include "palpation/geometry/self_intersection.h"
@@ -87,7 +88,8 @@ TEST(MeshCatalogue, EveryCaseGivesWhatItsRowSays) {
   const TemporaryFolder folder;
   for (const MeshCase& example : catalogue::mesh_cases()) {
     SCOPED_TRACE(name_of(example));
-    const std::filesystem::path path = folder.file(example.file, example.bytes);
+    const MemoryFile file(folder, example.file);
+    const std::filesystem::path& path = file.with(example.bytes);
     try {
       std::visit(Judge{path}, example.expected);
     } catch (const Error& error) {
@@ -103,7 +105,8 @@ TEST(MeshCatalogue, EveryErrorNamesFileAndPlaceAndRule) {
       element("^: .*(face [0-9]+|strip|file is empty|holds no|its content).*");
   for (const MeshCase& example : catalogue::mesh_cases()) {
     if (!std::holds_alternative<Refused>(example.expected)) continue;
-    const std::filesystem::path path = folder.file(example.file, example.bytes);
+    const MemoryFile file(folder, example.file);
+    const std::filesystem::path& path = file.with(example.bytes);
     const std::string message = io_error_of([&] { read_mesh_of_any_size(path, LengthUnit::Metre); });
     ASSERT_EQ(message.substr(0, path.string().size()), path.string());
     const std::string rest = message.substr(path.string().size());

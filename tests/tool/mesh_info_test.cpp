@@ -1,6 +1,7 @@
 // What `palpate info` says of meshes that are odd or broken: what it means, and what to do.
 #include <gtest/gtest.h>
 
+#include "io/memory_file.h"
 #include "io/mesh_catalogue.h"
 #include "io/mesh_seeds.h"
 #include "io/temporary_folder.h"
@@ -43,7 +44,8 @@ TEST(MeshInfo, DescribesAllThatCanBeReadAndRefusesTheRest) {
   const TemporaryFolder folder;
   for (const catalogue::MeshCase& example : catalogue::mesh_cases()) {
     SCOPED_TRACE(example.row + ", " + example.name + ", " + example.file);
-    const std::filesystem::path path = folder.file(example.file, example.bytes);
+    const MemoryFile file(folder, example.file);
+    const std::filesystem::path& path = file.with(example.bytes);
     try {
       const std::string words = info_on(path);
       EXPECT_FALSE(std::holds_alternative<catalogue::Refused>(example.expected));
