@@ -109,14 +109,14 @@ class Count {
  public:
   Count(const std::vector<Edge>& edges, double rounding, long limit) : edges_(edges), rounding_(rounding), crossings_left_(limit) {}
 
-  /// Halves the box, across the axis that parts the edges better, until few edges are left. False when the limit is passed.
+  /// Halves the box, across the axis that leaves fewer pairs, until few edges are left. False when the limit is passed.
   bool within(const Box& box, const std::vector<int>& edges, int depth) {
     work_left_ -= static_cast<long>(edges.size());
     if (work_left_ < 0) return false;
     if (edges.size() <= kEdgesPerLeaf || depth == kGreatestDepth) return leaf(box, edges);
     const Halves across_x = halves(box, edges, 0);
     const Halves across_y = halves(box, edges, 1);
-    const Halves& better = across_x.size() <= across_y.size() ? across_x : across_y;
+    const Halves& better = across_x.pairs() <= across_y.pairs() ? across_x : across_y;
     return within(better.low_box, better.low, depth + 1) && within(better.high_box, better.high, depth + 1);
   }
 
@@ -126,7 +126,7 @@ class Count {
     Box high_box;
     std::vector<int> low;
     std::vector<int> high;
-    std::size_t size() const { return low.size() + high.size(); }
+    std::size_t pairs() const { return low.size() * low.size() + high.size() * high.size(); }
   };
 
   Halves halves(const Box& box, const std::vector<int>& edges, int axis) const {

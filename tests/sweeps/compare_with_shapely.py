@@ -141,9 +141,9 @@ def turned_a_little(rng):
 
 def scaled_and_far_off(rng):
     a, b = rng.choice([stars, lattice])(rng)
-    scale = 10.0 ** rng.uniform(-12.0, 8.0)
+    scale = 10.0 ** rng.uniform(-12.0, 7.5)
     offset = scale * 10.0 ** rng.uniform(0.0, 7.0)
-    if offset > 5e8:
+    if offset + 20.0 * scale > 1e9:  # as far as a region may reach
         offset = 0.0
     x0, y0 = offset * rng.uniform(-1, 1), offset * rng.uniform(-1, 1)
     move = lambda x, y: (x0 + scale * x, y0 + scale * y)

@@ -8,7 +8,7 @@
 ///
 /// Outlines whose edges cross, run along each other or crowd at one point more than 500,000 times are refused with InvalidInput before any
 /// work is done. Every result's area is held against those that it is made of; should the arithmetic contradict itself, NumericalError
-/// brings the operands as WKT. Time and memory grow with corners and crossings (10 s and 1 GB a million), the stack does not. Threads may
+/// brings the operands as WKT. Time and memory grow with corners and crossings (20 s and 2 GB a million), the stack does not. Threads may
 /// share regions.
 #pragma once
 
