@@ -1,9 +1,11 @@
 #include "palpation/io/read_boundary.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "io/join_lines.h"
 #include "io/landing.h"
 #include "io/mesh_source.h"
 #include "io/vtp_file.h"
@@ -14,6 +16,7 @@ namespace palpation {
 namespace {
 
 constexpr double kFarthestBeside_m = 0.005;
+const std::string kEstimate = "estimate";
 
 Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
   Vec2 place = Vec2::Zero();
@@ -38,37 +41,61 @@ Region region_of(const MeshSource& source, const std::vector<Ring>& rings) {
   }
 }
 
+/// The lines of a file that are of the estimate, and the points that they run through.
+struct Lines {
+  std::vector<Vec3> points;
+  std::vector<Line> lines;
+  std::set<std::string> other_kinds;
+};
+
+Lines lines_of(const MeshSource& source) {
+  VtpFile file(source);
+  Lines made;
+  for (const VtpPiece& piece : file.pieces()) {
+    if (piece.lines.count == 0 && piece.cells() > 0) source.fail("holds no lines, so it is no boundary");
+    const std::vector<std::string> kinds = kinds_of(file, piece);
+    const auto first = static_cast<int>(made.points.size());
+    file.append_points(piece, made.points);
+    // Cells are counted kind by kind, points before lines.
+    auto cell = static_cast<std::size_t>(piece.verts.count);
+    file.each_cell(piece, piece.lines, [&](const std::vector<int>& corners) {
+      const std::string kind = kinds.empty() ? kEstimate : kinds[cell++];
+      if (kind != kEstimate) {
+        made.other_kinds.insert(kind);
+        return;
+      }
+      Line& line = made.lines.emplace_back();
+      for (const int corner : corners) line.push_back(first + corner);
+    });
+  }
+  return made;
+}
+
 }  // namespace
 
 BoundaryFile read_boundary_vtp(const std::filesystem::path& path, const Surface& surface) {
   const std::string bytes = read_file(path);
   const MeshSource source{path, bytes};
-  VtpFile file(source);
+  const Lines found = lines_of(source);
   Landing landing(surface, kFarthestBeside_m);
   std::vector<Ring> rings;
-  int points_read = 0;
-  for (const VtpPiece& piece : file.pieces()) {
-    if (piece.lines.count == 0 && piece.cells() > 0) source.fail("holds no lines, so it is no boundary");
-    const std::vector<std::string> kinds = kinds_of(file, piece);
-    std::vector<Vec3> points;
-    file.append_points(piece, points);
-    // Cells are counted kind by kind, points before lines.
-    auto cell = static_cast<std::size_t>(piece.verts.count);
-    file.each_cell(piece, piece.lines, [&](const std::vector<int>& corners) {
-      if (!kinds.empty() && kinds[cell++] != "estimate") return;
-      Ring ring;
-      for (const int corner : corners) {
-        std::string fault;
-        const std::optional<SurfacePoint> place = landing.place(points[static_cast<std::size_t>(corner)], fault);
-        if (!place) source.fail("point " + std::to_string(corner) + " of the boundary: " + fault);
-        ring.push_back(chart_place(surface, *place));
-        ++points_read;
-      }
-      if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-      rings.push_back(std::move(ring));
-    });
+  std::size_t points_read = 0;
+  for (const Line& line : joined_lines(source, found.points, found.lines)) {
+    Ring& ring = rings.emplace_back();
+    for (const int point : line) {
+      std::string fault;
+      const std::optional<SurfacePoint> place = landing.place(found.points[static_cast<std::size_t>(point)], fault);
+      if (!place) source.fail("point " + std::to_string(point) + " of the boundary: " + fault);
+      ring.push_back(chart_place(surface, *place));
+    }
+    points_read += ring.size();
   }
   BoundaryFile boundary{region_of(source, rings), {}};
+  if (!rings.empty() && boundary.region.empty()) source.fail("no area is inside its " + std::to_string(rings.size()) + " closed lines");
+  if (rings.empty() && !found.other_kinds.empty()) {
+    boundary.warnings.push_back(path.string() + ": no line is of the kind \"" + kEstimate + "\", only of \"" + *found.other_kinds.begin() +
+                                "\": taken for a boundary around nothing.");
+  }
   if (landing.moved() > 0) {
     boundary.warnings.push_back(path.string() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(points_read) +
                                 " points of the boundary lay off the surface, by up to " + text_of(landing.farthest_m()) +

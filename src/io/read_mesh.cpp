@@ -21,9 +21,11 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
   return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
 }
 
-/// The first word that is not in a comment, of the first part of the file: no format begins with more than that.
+/// No format begins with more than that.
+constexpr std::size_t kLongestPreamble = 1 << 16;
+
+/// The first word that is not in a comment.
 std::string_view first_word(std::string_view bytes) {
-  constexpr std::size_t kLongestPreamble = 1 << 16;
   LineCursor lines(bytes.substr(0, kLongestPreamble));
   std::vector<std::string_view> words;
   while (const std::optional<std::string_view> line = lines.next()) {
@@ -48,6 +50,7 @@ enum class Format { Obj, Off, AsciiStl, BinaryStl, Ply, Vtp };
 
 /// "ply" by itself on the first line.
 bool begins_like_ply(std::string_view bytes) {
+  bytes = bytes.substr(0, kLongestPreamble);
   const std::string_view line = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
   return line.substr(0, 3) == "ply" && line.find_first_not_of(" \t", 3) == std::string_view::npos;
 }

@@ -25,6 +25,9 @@ bool is_among(std::span<const char* const> words, std::string_view word) {
 /// Of a comment that may tell counts.
 constexpr std::size_t kMostWordsOfComment = 16;
 
+/// Those of them that take names, of things or of files.
+constexpr std::array kNaming = {"g", "o", "s", "usemtl", "mtllib", "usemap", "maplib", "newmtl", "shadow_obj", "trace_obj"};
+
 class ObjReader {
  public:
   explicit ObjReader(const MeshSource& source) : source_(source), lines_(source.bytes), coordinates_(source) {
@@ -49,7 +52,8 @@ class ObjReader {
   }
 
  private:
-  /// The next line, joined with those that follow a backslash at its end. A comment never goes on: it may end with the path of a folder.
+  /// The next line, joined with those that follow a backslash at its end. Comments and names never go on: they may end with the path of a
+  /// folder.
   std::optional<std::string_view> next_statement() {
     std::optional<std::string_view> line = lines_.next();
     line_ = lines_.line();
@@ -65,8 +69,10 @@ class ObjReader {
   }
 
   static bool continues(std::string_view line) {
+    if (line.empty() || line.back() != '\\') return false;
     const std::size_t first = line.find_first_not_of(" \t");
-    return !line.empty() && line.back() == '\\' && line[first] != '#';
+    const std::string_view word = line.substr(first, line.find_first_of(" \t", first) - first);
+    return word[0] != '#' && !is_among(kNaming, word);
   }
 
   /// In front of all statements many programs say how much will follow, as "# Vertices: 8" or "# 8 vertices, 12 faces": the only counts

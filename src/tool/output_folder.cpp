@@ -229,6 +229,10 @@ void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std
 }
 
 void OutputFolder::write_comparison(const RegionError& error) {
+  for (const char* name : {"measurements.csv", "waypoints.csv", "boundary.wkt"}) {
+    if (!std::filesystem::exists(folder_ / name)) continue;
+    throw IoError(folder_.string() + ": holds a run (" + name + "), whose summary.json a comparison would replace: give it another folder");
+  }
   const json result = {{"version", 1},
                        {"scene", scene_.name()},
                        {"search_area_mm2", surface_.area() * kMm2},

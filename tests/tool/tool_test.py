@@ -140,6 +140,7 @@ class Tool(unittest.TestCase):
         self.done("simulate", self.scene, "--out", run)
         self.assertIn("no boundary", self.refused(3, "compare", self.scene, run / "surface.vtp", a))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", self.scene, run / "boundary.wkt", run / "boundary.vtp"))
+        self.assertIn("holds a run", self.refused(3, "compare", self.scene, a, b, "--out", run))
 
     def test_mesh_makes_what_info_describes(self):
         plane = self.folder / "plane.ply"
