@@ -29,7 +29,6 @@ bool is_convex(const std::vector<int>& loop, const Points2& uv) {
 }
 
 struct Line {
-  int face;
   Vec2 from;
   Vec2 to;
 };
@@ -54,26 +53,30 @@ std::vector<Line> lines_inside(const Triangles& triangles, const Triangles& neig
       const double least_height = cross(b - a, c - a) / longest;
       const double inset = std::max(1e-6, 4.0 * rounding / least_height);
       if (inset > 0.25) continue;  // too thin to tell
-      lines.push_back({face, (1.0 - 2.0 * inset) * a + inset * b + inset * c, inset * a + (1.0 - 2.0 * inset) * b + inset * c});
+      lines.push_back({(1.0 - 2.0 * inset) * a + inset * b + inset * c, inset * a + (1.0 - 2.0 * inset) * b + inset * c});
     }
   }
   return lines;
 }
 
-/// The middle of the part of the line that is inside the triangle, and not just at its rim.
-std::optional<Vec2> part_inside(const Line& line, const Corners& at, double rim) {
-  double first = 0.0;
-  double last = 1.0;
-  for (int corner = 0; corner < 3; ++corner) {
-    const Vec2 along = (at[(corner + 1) % 3] - at[corner]).normalized();
-    const double from = cross(along, line.from - at[corner]) - rim;
-    const double to = cross(along, line.to - at[corner]) - rim;
-    if (from < 0.0 && to < 0.0) return std::nullopt;
-    if (from < 0.0) first = std::max(first, from / (from - to));
-    if (to < 0.0) last = std::min(last, from / (from - to));
+double side(const Vec2& a, const Vec2& b, const Vec2& place) { return cross(b - a, place - a); }
+
+/// Where the line crosses the segment from a to b, in the inside of both.
+std::optional<Vec2> crossing(const Line& line, const Vec2& a, const Vec2& b) {
+  const double from = side(a, b, line.from), to = side(a, b, line.to);
+  if (!((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0))) return std::nullopt;
+  const double at_a = side(line.from, line.to, a), at_b = side(line.from, line.to, b);
+  if (!((at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0))) return std::nullopt;
+  return Vec2(line.from + from / (from - to) * (line.to - line.from));
+}
+
+/// From each border vertex to the next.
+std::vector<Line> edges_of(const std::vector<std::vector<int>>& border_loops, const Points2& uv) {
+  std::vector<Line> edges;
+  for (const std::vector<int>& loop : border_loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) edges.push_back({uv.row(loop[k]), uv.row(loop[(k + 1) % loop.size()])});
   }
-  if (first >= last) return std::nullopt;
-  return Vec2(line.from + 0.5 * (first + last) * (line.to - line.from));
+  return edges;
 }
 
 using PlainBox = CGAL::Box_intersection_d::Box_d<double, 2>;
@@ -87,6 +90,32 @@ CGAL::Bbox_2 box_of(const Vec2& a, const Vec2& b) {
   return {std::min(a.x(), b.x()), std::min(a.y(), b.y()), std::max(a.x(), b.x()), std::max(a.y(), b.y())};
 }
 
+/// The first line that more than one triangle covers. The border runs around a place as often as triangles cover it, which is counted
+/// along a ray to the right.
+std::optional<Vec2> first_covered_twice(const std::vector<Line>& lines, const std::vector<Line>& border,
+                                        std::vector<NumberedBox>& edge_boxes) {
+  double right = -std::numeric_limits<double>::infinity();
+  for (const Line& edge : border) right = std::max(right, edge.from.x());
+  std::vector<NumberedBox> rays;
+  std::vector<int> winding(lines.size(), 0);
+  for (const Line& line : lines) {
+    const Vec2 place = 0.5 * (line.from + line.to);
+    rays.emplace_back(box_of(place, {right, place.y()}), static_cast<int>(rays.size()));
+  }
+  const auto count = [&](const NumberedBox& ray, const NumberedBox& edge_box) {
+    const Vec2 place(ray.min_coord(0), ray.min_coord(1));
+    const Line& edge = border[edge_box.number];
+    const bool from_above = edge.from.y() > place.y(), to_above = edge.to.y() > place.y();
+    if (from_above == to_above || (side(edge.from, edge.to, place) > 0.0) != to_above) return;
+    winding[ray.number] += to_above ? 1 : -1;
+  };
+  CGAL::box_intersection_d(rays.begin(), rays.end(), edge_boxes.begin(), edge_boxes.end(), count);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (winding[i] > 1) return Vec2(0.5 * (lines[i].from + lines[i].to));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Vec2> place_of_overlap(const Triangles& triangles, const Triangles& neighbours,
@@ -94,26 +123,23 @@ std::optional<Vec2> place_of_overlap(const Triangles& triangles, const Triangles
   if (border_loops.size() == 1 && is_convex(border_loops.front(), uv)) return std::nullopt;
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * uv.cwiseAbs().maxCoeff();
   const std::vector<Line> lines = lines_inside(triangles, neighbours, uv, rounding);
-  std::vector<NumberedBox> line_boxes;
+  const std::vector<Line> border = edges_of(border_loops, uv);
+  std::vector<NumberedBox> line_boxes, edge_boxes;
   for (const Line& line : lines) line_boxes.emplace_back(box_of(line.from, line.to), static_cast<int>(line_boxes.size()));
-  std::vector<NumberedBox> face_boxes;
-  for (int face = 0; face < triangles.rows(); ++face) {
-    const Corners at = corners_of(triangles, face, uv);
-    face_boxes.emplace_back(box_of(at[0], at[1]) + box_of(at[1], at[2]), face);
-  }
+  for (const Line& edge : border) edge_boxes.emplace_back(box_of(edge.from, edge.to), static_cast<int>(edge_boxes.size()));
 
   std::optional<Vec2> found;
   int first = std::numeric_limits<int>::max();  // the line with the lowest number, whatever order the boxes come in
-  const auto look = [&](const NumberedBox& line_box, const NumberedBox& face_box) {
-    const Line& line = lines[line_box.number];
-    if (line_box.number >= first || line.face == face_box.number) return;
-    const std::optional<Vec2> place = part_inside(line, corners_of(triangles, face_box.number, uv), rounding);
+  const auto look = [&](const NumberedBox& line_box, const NumberedBox& edge_box) {
+    if (line_box.number >= first) return;
+    const Line& edge = border[edge_box.number];
+    const std::optional<Vec2> place = crossing(lines[line_box.number], edge.from, edge.to);
     if (!place) return;
     found = place;
     first = line_box.number;
   };
-  CGAL::box_intersection_d(line_boxes.begin(), line_boxes.end(), face_boxes.begin(), face_boxes.end(), look);
-  return found;
+  CGAL::box_intersection_d(line_boxes.begin(), line_boxes.end(), edge_boxes.begin(), edge_boxes.end(), look);
+  return found ? found : first_covered_twice(lines, border, edge_boxes);
 }
 
 }  // namespace palpation

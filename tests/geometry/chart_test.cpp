@@ -89,6 +89,22 @@ TEST(Chart, IsNoneWhereATriangleIsTurnedOver) {
   EXPECT_TRUE(Surface(mesh).has_chart());
 }
 
+// A disk without a slice: its border is not convex, and no two of the thousands of triangles at its middle can be told apart by their
+// boxes.
+TEST(Chart, OfAFanOfManyTrianglesIsThereAtOnce) {
+  constexpr int kTriangles = 30000;
+  TriangleMesh fan;
+  fan.vertices.resize(kTriangles + 2, 3);
+  fan.vertices.row(0).setZero();
+  for (int i = 0; i <= kTriangles; ++i) {
+    const double angle = 5.0 * i / kTriangles;
+    fan.vertices.row(i + 1) << std::cos(angle), std::sin(angle), 0.0;
+  }
+  fan.triangles.resize(kTriangles, 3);
+  for (int i = 0; i < kTriangles; ++i) fan.triangles.row(i) << 0, i + 1, i + 2;
+  EXPECT_TRUE(Surface(fan).has_chart());
+}
+
 TEST(Chart, IsNoneWhereTwoSheetsLieOverEachOther) {
   const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
   const TriangleMesh square = zoo::unit_square_mesh(4);
