@@ -160,7 +160,7 @@ int sweep(int count, std::uint64_t seed) {
   booleans(500, 0.05, count < 100'000 ? 2 : 20, random);
   booleans(count / 10, 10.0 / count, 1, random);
   booleans(count, 1.0 / count, 1, random);
-  spikes_across_spikes(std::max(200, count / 100));  // fewer would cross their own neighbours
+  spikes_across_spikes(std::max(100, count / 100));  // fewer would cross their own neighbours
   return failures;
 }
 
