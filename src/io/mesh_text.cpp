@@ -43,8 +43,10 @@ std::optional<std::string_view> WordCursor::next() {
   return text_.substr(first, position_ - first);
 }
 
-void WordCursor::skip_line() {
+std::string_view WordCursor::skip_line() {
+  const std::size_t first = position_;
   while (position_ < text_.size() && !is_line_end(text_[position_])) ++position_;
+  return text_.substr(first, position_ - first);
 }
 
 void split_words(std::string_view line, std::vector<std::string_view>& words, std::size_t most) {

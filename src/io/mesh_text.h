@@ -40,8 +40,8 @@ class WordCursor {
 
   /// The next word, or nothing at the end.
   std::optional<std::string_view> next();
-  /// Drops what is left of the line of the last word.
-  void skip_line();
+  /// Drops what is left of the line of the last word, and tells it.
+  std::string_view skip_line();
   std::int64_t line() const { return line_; }
   std::size_t bytes_left() const { return text_.size() - position_; }
 

@@ -50,7 +50,7 @@ class AsciiStlReader {
     source_.refuse_nul_bytes();
     while (const std::optional<std::string_view> word = words_.next()) {
       if (lower_case(*word) != "solid") source_.fail_at_line(words_.line(), "\"solid\" is expected, not " + in_quotes(*word));
-      words_.skip_line();
+      skip_name();
       read_solid();
       ++solids_;
     }
@@ -72,7 +72,13 @@ class AsciiStlReader {
       if (word != "facet") source_.fail_at_line(words_.line(), "\"facet\" or \"endsolid\" is expected, not " + in_quotes(word));
       read_facet();
     }
-    words_.skip_line();
+    skip_name();
+  }
+
+  /// What is left of the line of solid or endsolid is a name, unless writers forgot to end the line.
+  void skip_name() {
+    if (words_.skip_line().find("facet normal") == std::string_view::npos) return;
+    source_.fail_at_line(words_.line(), "a facet stands where the name of the solid ends with its line: break the line in front of it");
   }
 
   void read_facet() {

@@ -634,6 +634,8 @@ void add_text(Cases& cases) {
                    changed_everywhere(changed_everywhere(kObj, " ", "\t \f"), "\n", " \t\v\n"), Accepted{4, 2}});
   cases.push_back({"M43", "lines that go on behind a backslash", "a.obj",
                    "# made by C:\\tools\\\nv 0 0 \\\n0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 \\\n2 \\\n3\nf 1 3 4\n", Accepted{4, 2}});
+  cases.push_back({"M09", "a facet behind endsolid", "a.stl", kStl.substr(0, kStl.size() - 1) + " solid b facet normal 0 0 1 endsolid b\n",
+                   Refused{":16", {"a facet stands where the name of the solid ends"}}});
   cases.push_back({"M43", "a name that ends with a backslash", "a.obj",
                    "mtllib C:\\scans\\\n" + kObj.substr(0, kObj.find("f ")) + "g C:\\scans\\patient7\\\n" + kObj.substr(kObj.find("f ")),
                    Accepted{4, 2}});
