@@ -58,7 +58,7 @@ void compare_boundaries(const SceneArguments& arguments, const std::filesystem::
   std::vector<std::string> warnings = tissue.warnings;
   const Region estimate = read_region(a, tissue.surface, warnings);
   const Region truth = read_region(b, tissue.surface, warnings);
-  for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
+  tell(warnings);
   const RegionError error = compare(tissue.surface, estimate, truth);
   if (!arguments.quiet) std::fputs(error_words(error, tissue.surface.area()).c_str(), stdout);
   if (arguments.out.empty()) return;

@@ -151,7 +151,8 @@ json OutputFolder::summary(const Episode& episode) const {
   for (const PolygonWithHoles& polygon : episode.estimate.polygons()) parts.push_back(part_json(polygon));
   const std::optional<Level>& level = exploration.level();
   std::vector<std::string> warnings = warnings_;
-  if (exploration.belief().site_count() > 0 && !exploration.level()) warnings.emplace_back(kNoContrast);
+  const std::vector<std::string> remarks = boundary_remarks(episode);
+  warnings.insert(warnings.end(), remarks.begin(), remarks.end());
   json result = {{"version", 1},
                  {"scene", scene_.name()},
                  {"seed", scene_.seed()},

@@ -20,12 +20,14 @@ Scene scene_of(const SceneArguments& arguments) {
   return arguments.seed ? scene.with("seed", *arguments.seed) : scene;
 }
 
-void tell(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
-}
-
 void warn(OutputFolder& output, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) output.warn(warning);
+}
+
+/// What was found, and what is odd about it; that there is nothing is a finding.
+void report(const Episode& episode, bool quiet) {
+  if (!quiet) std::fputs(episode_words(episode).c_str(), stdout);
+  if (episode.exploration.level()) tell(boundary_remarks(episode));
 }
 
 MeasurementsFile measured_on(const Scene& scene, const Surface& surface, const std::filesystem::path& path) {
@@ -56,7 +58,7 @@ void run_and_report(const SceneArguments& arguments, const Scene& scene, const T
     if (output) output->write_step(now, &world);
   });
   const double running_seconds = running.seconds();
-  if (!arguments.quiet) std::fputs(episode_words(episode).c_str(), stdout);
+  report(episode, arguments.quiet);
   if (!output) return;
 
   const Stopwatch writing;
@@ -97,7 +99,7 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
   const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
-  if (!arguments.quiet) std::fputs(episode_words(episode).c_str(), stdout);
+  report(episode, arguments.quiet);
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
   warn(output, tissue.warnings);

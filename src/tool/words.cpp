@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palpation/boundary/level_remarks.h"
+
 namespace palpation::tool {
 namespace {
 
@@ -46,6 +48,20 @@ std::string fixed(double value, int digits) {
   std::array<char, 400> text{};
   std::snprintf(text.data(), text.size(), "%.*f", digits, value);
   return text.data();
+}
+
+std::vector<std::string> boundary_remarks(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  if (exploration.belief().site_count() == 0) return {};
+  if (!exploration.level()) return {kNoContrast};
+  std::vector<std::string> remarks =
+      remarks_on_level_set(exploration.surface(), exploration.marginals().mean, exploration.level()->value).words();
+  for (std::string& remark : remarks) remark += '.';
+  return remarks;
+}
+
+void tell(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
 }
 
 std::string error_words(const RegionError& error, double search_area_m2) {

@@ -19,6 +19,10 @@ std::string fixed(double value, int digits);
 std::string batch_words(const Episode& episode);
 /// What was touched and found, and how wrong it is where the truth is known.
 std::string episode_words(const Episode& episode);
+/// What a person should know before trusting the boundary, a sentence each.
+std::vector<std::string> boundary_remarks(const Episode& episode);
+/// Warnings, to the error stream.
+void tell(const std::vector<std::string>& warnings);
 /// How wrong an estimate is.
 std::string error_words(const RegionError& error, double search_area_m2);
 /// The next stops.

@@ -22,6 +22,7 @@ namespace {
 using testing::box;
 using testing::contains;
 using testing::even_odd;
+using testing::pinwheel;
 using testing::refusal;
 using testing::region_of;
 using testing::reversed;
@@ -270,17 +271,6 @@ TEST(PolygonCatalogue, P13_ALongFlatOutlineTakesTimeThatGrowsWithItsCorners) {
   for (int i = 0; i < 40'000; ++i) flat.emplace_back(i, 0);
   flat.emplace_back(40'000, 5);
   EXPECT_LT(seconds_of([&] { EXPECT_EQ(region_of(flat).polygons()[0].outer.size(), 3u); }), 20.0);
-}
-
-/// Spikes of a wheel, all bent one way or all the other.
-Ring pinwheel(int spikes, double bend) {
-  Ring ring;
-  for (int i = 0; i < spikes; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / spikes;
-    ring.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle));
-    ring.emplace_back(std::cos(angle + bend), std::sin(angle + bend));
-  }
-  return ring;
 }
 
 // Ten thousand spikes are tried by tests/sweeps/sweep_sizes.cpp.

@@ -48,11 +48,23 @@ inline Ring lattice_ring(Random& random, int corners, int side) {
 }
 
 /// Seen whole from its centre, so it never crosses itself.
-inline Ring star(Random& random, const Vec2& centre, double radius, int corners) {
+/// The less rough, the fewer crossings with another one.
+inline Ring star(Random& random, const Vec2& centre, double radius, int corners, double roughness = 0.6) {
   Ring ring;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.8 * random.uniform()) / corners;
-    ring.push_back(centre + radius * (0.4 + 0.6 * random.uniform()) * Vec2(std::cos(angle), std::sin(angle)));
+    ring.push_back(centre + radius * (1.0 - roughness * random.uniform()) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return ring;
+}
+
+/// Spikes of a wheel, all bent one way or all the other.
+inline Ring pinwheel(int spikes, double bend) {
+  Ring ring;
+  for (int i = 0; i < spikes; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / spikes;
+    ring.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle));
+    ring.emplace_back(std::cos(angle + bend), std::sin(angle + bend));
   }
   return ring;
 }

@@ -5,11 +5,11 @@
 
 namespace palpation {
 
-/// A square of 2 x 2 cm in the plane z = 0, two triangles.
-inline Surface square() {
+/// A square in a plane z = height, two triangles.
+inline Surface square(double side_m = 0.02, double height_m = 0.0) {
   TriangleMesh mesh;
   mesh.vertices.resize(4, 3);
-  mesh.vertices << 0, 0, 0, 0.02, 0, 0, 0.02, 0.02, 0, 0, 0.02, 0;
+  mesh.vertices << 0, 0, height_m, side_m, 0, height_m, side_m, side_m, height_m, 0, side_m, height_m;
   mesh.triangles.resize(2, 3);
   mesh.triangles << 0, 1, 2, 0, 2, 3;
   return Surface(mesh);

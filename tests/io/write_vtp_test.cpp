@@ -18,6 +18,7 @@
 #include <limits>
 #include <sstream>
 
+#include "io/square.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -38,15 +39,8 @@ class WriteVtp : public testing::Test {
   fs::path folder_;
 };
 
-// A square of 10 mm in two triangles; 0.1 has no exact binary form, so rounding to float would show.
-Surface square() {
-  TriangleMesh mesh;
-  mesh.vertices.resize(4, 3);
-  mesh.vertices << 0.0, 0.0, 0.1, 0.01, 0.0, 0.1, 0.01, 0.01, 0.1, 0.0, 0.01, 0.1;
-  mesh.triangles.resize(2, 3);
-  mesh.triangles << 0, 1, 2, 0, 2, 3;
-  return Surface(mesh);
-}
+// 0.1 has no exact binary form, so rounding to float would show.
+Surface high_square() { return square(0.01, 0.1); }
 
 vtkSmartPointer<vtkPolyData> read_back(const fs::path& path) {
   vtkNew<vtkXMLPolyDataReader> reader;
@@ -68,7 +62,7 @@ BoundaryCurve triangle_curve(CurveKind kind, int part, bool hole) {
 }
 
 TEST_F(WriteVtp, KeepsEveryBitOfPositionsAndFields) {
-  const Surface surface = square();
+  const Surface surface = high_square();
   const Field mean = (Field(4) << 1.0 / 3.0, -0.0, 1e-300, 7.9).finished();
   const Field stddev = (Field(4) << 0.1, 0.2, std::numeric_limits<double>::quiet_NaN(), 1e300).finished();
   write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", mean}, {"stddev", stddev}});
@@ -85,7 +79,7 @@ TEST_F(WriteVtp, KeepsEveryBitOfPositionsAndFields) {
 }
 
 TEST_F(WriteVtp, KeepsTheTrianglesAndTheirSense) {
-  write_surface_vtp(folder_ / "surface.vtp", square(), {});
+  write_surface_vtp(folder_ / "surface.vtp", high_square(), {});
   const auto polydata = read_back(folder_ / "surface.vtp");
   vtkIdType size = 0;
   const vtkIdType* corners = nullptr;
@@ -95,7 +89,7 @@ TEST_F(WriteVtp, KeepsTheTrianglesAndTheirSense) {
 }
 
 TEST_F(WriteVtp, RefusesAFieldOfAnotherSizeOrTwoOfOneName) {
-  const Surface surface = square();
+  const Surface surface = high_square();
   EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", Field::Zero(3)}}), InvalidInput);
   EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", Field::Zero(4)}, {"mean", Field::Zero(4)}}), InvalidInput);
   EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"", Field::Zero(4)}}), InvalidInput);
@@ -105,7 +99,7 @@ TEST_F(WriteVtp, RefusesAFieldOfAnotherSizeOrTwoOfOneName) {
 TEST_F(WriteVtp, ClosesEveryCurveAndTellsWhatItIs) {
   const std::vector<BoundaryCurve> curves = {triangle_curve(CurveKind::Estimate, 0, false), triangle_curve(CurveKind::Estimate, 0, true),
                                              triangle_curve(CurveKind::BandOuter, 2, false)};
-  write_boundary_vtp(folder_ / "boundary.vtp", square(), curves);
+  write_boundary_vtp(folder_ / "boundary.vtp", high_square(), curves);
 
   const auto polydata = read_back(folder_ / "boundary.vtp");
   ASSERT_EQ(polydata->GetNumberOfLines(), 3);
@@ -128,7 +122,7 @@ TEST_F(WriteVtp, ClosesEveryCurveAndTellsWhatItIs) {
 }
 
 TEST_F(WriteVtp, WritesABoundaryWithoutCurves) {
-  write_boundary_vtp(folder_ / "boundary.vtp", square(), {});
+  write_boundary_vtp(folder_ / "boundary.vtp", high_square(), {});
   const auto polydata = read_back(folder_ / "boundary.vtp");
   EXPECT_EQ(polydata->GetNumberOfLines(), 0);
   EXPECT_NE(polydata->GetCellData()->GetAbstractArray("kind_name"), nullptr);
@@ -137,17 +131,17 @@ TEST_F(WriteVtp, WritesABoundaryWithoutCurves) {
 TEST_F(WriteVtp, RefusesACurveThatIsNotOnTheTissue) {
   BoundaryCurve curve = triangle_curve(CurveKind::Truth, 0, false);
   curve.points[1].z() = 0.2;
-  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", square(), std::vector{curve}), InvalidInput);
+  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}), InvalidInput);
   curve.points[1].z() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", square(), std::vector{curve}), InvalidInput);
+  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}), InvalidInput);
   curve.points.resize(1);
-  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", square(), std::vector{curve}), InvalidInput);
+  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}), InvalidInput);
 }
 
 TEST_F(WriteVtp, TheSameContentIsTheSameBytes) {
   const Field mean = (Field(4) << 1.0, 2.0, 3.0, 4.0).finished();
-  write_surface_vtp(folder_ / "a.vtp", square(), {{"mean", mean}});
-  write_surface_vtp(folder_ / "b.vtp", square(), {{"mean", mean}});
+  write_surface_vtp(folder_ / "a.vtp", high_square(), {{"mean", mean}});
+  write_surface_vtp(folder_ / "b.vtp", high_square(), {{"mean", mean}});
   EXPECT_EQ(text_in(folder_ / "a.vtp"), text_in(folder_ / "b.vtp"));
   EXPECT_FALSE(text_in(folder_ / "a.vtp").empty());
 }
@@ -158,7 +152,7 @@ TEST_F(WriteVtp, AFolderThatDoesNotExistIsAWriteErrorWithThePathAndNothingIsPrin
   testing::internal::CaptureStdout();
   std::string message;
   try {
-    write_surface_vtp(path, square(), {});
+    write_surface_vtp(path, high_square(), {});
   } catch (const WriteError& error) {
     message = error.what();
   }
@@ -169,10 +163,10 @@ TEST_F(WriteVtp, AFolderThatDoesNotExistIsAWriteErrorWithThePathAndNothingIsPrin
 
 // A file can stand where a folder is named; and what cannot be written must not harm what is there.
 TEST_F(WriteVtp, TheOldFileStaysWhereTheNewOneIsRefused) {
-  write_surface_vtp(folder_ / "surface.vtp", square(), {});
+  write_surface_vtp(folder_ / "surface.vtp", high_square(), {});
   const std::string before = text_in(folder_ / "surface.vtp");
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", square(), {{"mean", Field::Zero(3)}}), InvalidInput);
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp" / "below.vtp", square(), {}), WriteError);
+  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", high_square(), {{"mean", Field::Zero(3)}}), InvalidInput);
+  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp" / "below.vtp", high_square(), {}), WriteError);
   EXPECT_EQ(text_in(folder_ / "surface.vtp"), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);  // no temporary file is left
 }

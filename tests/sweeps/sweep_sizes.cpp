@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 
+#include "boundary/polygons.h"
 #include "palpation/base/error.h"
 #include "palpation/base/random.h"
 #include "palpation/boundary/level_set.h"
@@ -93,24 +93,11 @@ void snake(int count) {
   level_set("snake", surface, field);
 }
 
-/// Seen whole from its centre. The smoother, the fewer crossings with another one.
-Ring star(const Vec2& centre, int corners, double roughness, Random& random) {
-  Ring ring;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * (i + 0.8 * random.uniform()) / corners;
-    const double reach = 1.0 - roughness * random.uniform();
-    ring.push_back(centre + reach * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  return ring;
-}
-
-Region region_of(const Ring& ring) { return Region(std::vector<PolygonWithHoles>{{ring, {}}}); }
-
 void booleans(int corners, double roughness, int repeats, Random& random) {
   const std::string size = std::to_string(corners) + "-corner stars, roughness " + text_of(roughness);
   const Stopwatch of_regions;
-  const Region a = region_of(star({0.0, 0.0}, corners, roughness, random));
-  const Region b = region_of(star({0.1, 0.05}, corners, roughness, random));
+  const Region a = testing::region_of(testing::star(random, {0.0, 0.0}, 1.0, corners, roughness));
+  const Region b = testing::region_of(testing::star(random, {0.1, 0.05}, 1.0, corners, roughness));
   say(size + ": two regions made", of_regions);
   const Stopwatch of_difference;
   Region difference;
@@ -127,22 +114,11 @@ void booleans(int corners, double roughness, int repeats, Random& random) {
   say(size + ": compared", of_comparison);
 }
 
-/// Spikes of a wheel, all bent one way or all the other.
-Region pinwheel(int spikes, double bend) {
-  Ring ring;
-  for (int i = 0; i < spikes; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / spikes;
-    ring.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle));
-    ring.emplace_back(std::cos(angle + bend), std::sin(angle + bend));
-  }
-  return region_of(ring);
-}
-
 /// The crossings grow with the square of the spikes: refused before any work.
 void spikes_across_spikes(int spikes) {
   const Stopwatch of_regions;
-  const Region a = pinwheel(spikes, 1.0);
-  const Region b = pinwheel(spikes, -1.0);
+  const Region a = testing::region_of(testing::pinwheel(spikes, 1.0));
+  const Region b = testing::region_of(testing::pinwheel(spikes, -1.0));
   say("two wheels of " + std::to_string(spikes) + " spikes made", of_regions);
   const Stopwatch watch;
   try {

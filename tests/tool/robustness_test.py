@@ -47,6 +47,10 @@ class Robustness(unittest.TestCase):
         path.write_text(text)
         return path
 
+    def skip(self, reason):
+        print(f"skipped: {reason}", file=sys.stderr)
+        self.skipTest(reason)
+
     def ends(self, code, *arguments, says=(), **options):
         """Runs the tool; checks its exit code and what it says on standard error. Returns that."""
         result = palpate(*arguments, **options)
@@ -204,7 +208,7 @@ class Robustness(unittest.TestCase):
 
     def test_too_little_memory_ends_with_4(self):
         if "ASAN_OPTIONS" in os.environ:
-            self.skipTest("AddressSanitizer itself wants more than there is")
+            self.skip("AddressSanitizer itself wants more than there is")
 
         def little():
             resource.setrlimit(resource.RLIMIT_AS, (400 << 20, 400 << 20))

@@ -39,6 +39,10 @@ class Tool(unittest.TestCase):
         path.write_text(text)
         return path
 
+    def skip(self, reason):
+        print(f"skipped: {reason}", file=sys.stderr)
+        self.skipTest(reason)
+
     def done(self, *arguments):
         result = palpate(*arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -49,6 +53,17 @@ class Tool(unittest.TestCase):
         self.assertEqual(result.returncode, code, result.stdout + result.stderr)
         self.assertTrue(result.stderr.strip() or code == 2)
         return result.stderr
+
+    def test_a_boundary_finer_than_the_mesh_is_told(self):
+        scene = self.write("coarse.json", json.dumps({
+            "version": 1, "surface": {"plane": {"size_mm": [20, 20], "vertices": [5, 5]}},
+            "field": {"length_mm": 1, "signal_sd": 1, "noise": 0.001}, "level": {"estimate": "known", "value": 8.7}}))
+        rows = ["0.01,0.01,0,9"] + [f"{x},{y},0,7" for x in (0.005, 0.015) for y in (0.005, 0.015)]
+        measured = self.write("m.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
+        result = palpate("boundary", scene, "--measurements", measured, "--out", self.folder / "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("smaller than a triangle", result.stderr)
+        self.assertIn("smaller than a triangle", json.loads((self.folder / "out" / "summary.json").read_text())["warnings"][0])
 
     def test_the_edge_tells_the_level_and_how_well_it_is_known(self):
         self.done("simulate", self.scene, "--out", self.folder / "out", "--set", "level.estimate=edge")
@@ -192,7 +207,7 @@ class Tool(unittest.TestCase):
     def test_replays_a_recording(self):
         recording = RECORDINGS / "fig_circle_forward.csv"
         if not recording.exists():
-            self.skipTest(f"{recording.name} is not here")
+            self.skip(f"{recording.name} is not here")
         out = self.folder / "replay"
         words = self.done("replay", ROOT / "examples" / "replay_circle.json", "--recording", recording, "--out", out)
         summary = json.loads((out / "summary.json").read_text())
@@ -201,7 +216,7 @@ class Tool(unittest.TestCase):
 
     def test_says_what_to_do_with_a_closed_organ(self):
         if not LIVER.exists():
-            self.skipTest(f"{LIVER.name} is not here")
+            self.skip(f"{LIVER.name} is not here")
         self.assertIn("surface.patch", self.done("info", LIVER, "--unit", "cm"))
         scene = self.write("liver.json", json.dumps({"surface": {"mesh": str(LIVER), "unit": "cm"}}))
         self.assertIn("surface.patch", self.refused(3, "simulate", scene))
