@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "exploration/field_fit.h"
 #include "palpation/base/error.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/expected_error.h"
@@ -22,49 +23,10 @@ constexpr double kEnoughEvidence = 3.0;
 constexpr double kDistinct_m = 1e-12;
 constexpr double kRounding = 1e-13;
 
-/// A belief to start from: what is learned has no value yet, so the priors' medians stand in.
-Belief unlearned(const Surface& surface, const FieldModel& field) {
-  Kernel kernel = field.kernel;
-  if (field.learn_length) kernel.length_m = field.length_median_m;
-  if (field.learn_signal) kernel.signal_sd = 1.0;
-  BeliefOptions options = field.belief;
-  if (field.learn_noise) options.noise_sd = 0.1 * kernel.signal_sd;
-  if (field.learns()) options.standardize = options.noise_is_relative = false;
-  return Belief(Prior(surface, field.metric, kernel, field.constant), options);
-}
-
 double median(std::vector<double> values) {
   const std::size_t middle = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + static_cast<long>(middle), values.end());
   return values[middle];
-}
-
-std::vector<double> used_readings(std::span<const Palpation> palpations) {
-  std::vector<double> readings;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
-  }
-  return readings;
-}
-
-/// Mean and standard deviation of the readings, as BeliefOptions::standardize takes them.
-struct Spread {
-  double mean = 0.0;
-  double sd = 1.0;
-};
-
-Spread spread_of(const std::vector<double>& readings) {
-  Spread spread;
-  double square = 0.0;
-  for (double reading : readings) spread.mean += (reading - readings.front()) / static_cast<double>(readings.size());
-  spread.mean += readings.front();
-  for (double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / static_cast<double>(readings.size());
-  if (square > 0.0) spread.sd = std::sqrt(square);
-  return spread;
-}
-
-bool all_equal(const std::vector<double>& readings) {
-  return std::adjacent_find(readings.begin(), readings.end(), std::not_equal_to<>()) == readings.end();
 }
 
 /// Whether the mean has a range: that of rounding is none, and to cut it would make tumours of noise.
@@ -143,7 +105,14 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   }
   std::vector<Palpation> all = belief_.palpations();
   all.insert(all.end(), palpations.begin(), palpations.end());
-  belief_ = field_.learns() ? fitted(all) : belief_.condition_on(palpations);
+  if (field_.learns()) {
+    FieldFit fit = fit_field(surface_, field_, all, learned_);
+    belief_ = std::move(fit.belief);
+    learned_ = fit.learned;
+    if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(all), fit.signal_evidence);
+  } else {
+    belief_ = belief_.condition_on(palpations);
+  }
   marginals_ = belief_.at_vertices();
   if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) {
     const bool is_flat = all_equal(used_readings(all)) || !has_range(marginals_);
@@ -156,31 +125,6 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
 Level Exploration::estimated_level() const {
   if (level_rule_.estimate == LevelEstimate::Edge) return level_from_edge(surface_, belief_, marginals_, level_rule_.fraction);
   return level_from_range(marginals_, level_rule_.fraction);
-}
-
-/// A new belief with the hyperparameters that the readings teach.
-Belief Exploration::fitted(std::span<const Palpation> palpations) {
-  Belief fresh = unlearned(surface_, field_);
-  if (gather_sites(fresh.prior(), palpations).size() < 2 || all_equal(used_readings(palpations))) return fresh.condition_on(palpations);
-  LearnOptions options;
-  options.length_median_m = field_.length_median_m;
-  if (!field_.learn_length) options.length_m = field_.kernel.length_m;
-  if (!field_.learn_signal) options.signal_sd = field_.kernel.signal_sd;
-  if (!field_.learn_noise) options.noise_sd = field_.belief.noise_sd;
-  // A field of zero mean around the readings' mean, if they are standardized: what is learned is in reading units all the same.
-  const bool centred = field_.belief.standardize && field_.constant.sd == 0.0;
-  const Spread spread = centred ? spread_of(used_readings(palpations)) : Spread{};
-  std::vector<Palpation> shifted(palpations.begin(), palpations.end());
-  for (Palpation& palpation : shifted) palpation.reading -= spread.mean;
-  const Learned learned = learn(fresh.prior(), shifted, learned_, options);
-  learned_ = learned.values;
-  if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(palpations), learned.signal_evidence);
-
-  Kernel kernel = field_.kernel;
-  kernel.length_m = learned_.length_m;
-  kernel.signal_sd = learned_.signal_sd / spread.sd;
-  const Prior prior(surface_, field_.metric, kernel, field_.constant);
-  return Belief(prior, {.noise_sd = learned_.noise_sd, .standardize = centred}).condition_on(palpations);
 }
 
 /// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length

@@ -96,7 +96,6 @@ class Exploration {
 
  private:
   void learn_from(std::span<const Palpation> palpations);
-  Belief fitted(std::span<const Palpation> palpations);
   Level estimated_level() const;
   void plan_next();
   Acquisition acquisition_in_force() const;

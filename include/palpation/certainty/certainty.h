@@ -1,0 +1,33 @@
+/// How sure the boundary is: everywhere at once, in one field.
+///
+/// At each vertex the score says how many standard deviations the place lies inside the boundary (outside where negative), the level's own
+/// uncertainty included:  P(inside) = Phi(score). Level sets of the score are the boundary's margins: 0 is the boundary, q and -q bound a
+/// band, -Phi^-1(1 - r) is the line beyond which tissue is tumour with probability r at most.
+#pragma once
+
+#include "palpation/belief/belief.h"
+#include "palpation/belief/level.h"
+#include "palpation/certainty/expected_error.h"
+
+namespace palpation {
+
+struct Certainty {
+  Field score;                ///< at the vertices
+  double probability = 0.95;  ///< with this probability the whole true outline lies in the band ...
+  double band_score =
+      0.0;  ///< ... where |score| <= band_score: the inner loop is { score = band_score }, the outer { score = -band_score }
+  double half_width_m = 0.0;  ///< of the band along the surface, the mean over the boundary; 0 where there is none
+  ExpectedError expected;     ///< wrong area of the region { score >= 0 }
+
+  /// Phi(score).
+  Field probability_inside() const;
+  /// The score of the cut line: outside { score >= cut_score(r) } a place is tumour with probability r at most. Throws InvalidInput unless
+  /// 0 < r < 1.
+  static double cut_score(double risk);
+};
+
+/// Throws InvalidInput unless 0 < probability < 1. `marginals`: of the belief, at the vertices.
+Certainty certainty_of(const Surface& surface, const Belief& belief, const Marginals& marginals, const Level& level,
+                       double probability = 0.95);
+
+}  // namespace palpation

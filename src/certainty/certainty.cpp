@@ -1,0 +1,53 @@
+#include "palpation/certainty/certainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certainty/normal.h"
+#include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
+
+namespace palpation {
+namespace {
+
+/// Area between the score's level sets at -q and q, over twice the boundary's length.
+double mean_half_width(const Surface& surface, const Field& score, double band_score) {
+  double length = 0.0;
+  for (const LevelLoop& loop : level_loops(surface, score, 0.0)) {
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+      if (loop.on_border[i]) continue;
+      length += (surface.position(loop.points[(i + 1) % loop.points.size()]) - surface.position(loop.points[i])).norm();
+    }
+  }
+  if (length == 0.0) return 0.0;
+  double area = 0.0;
+  for (Eigen::Index vertex = 0; vertex < score.size(); ++vertex) {
+    if (std::abs(score[vertex]) <= band_score) area += surface.vertex_areas()[vertex];
+  }
+  return 0.5 * area / length;
+}
+
+}  // namespace
+
+Field Certainty::probability_inside() const {
+  return score.unaryExpr([](double z) { return normal_probability(z); });
+}
+
+double Certainty::cut_score(double risk) {
+  require(risk > 0.0 && risk < 1.0, "cut_score", "risk = " + text_of(risk), "must lie in (0, 1)");
+  return normal_quantile(risk);
+}
+
+Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& marginals, const Level& level, double probability) {
+  require(probability > 0.0 && probability < 1.0, "certainty_of", "probability = " + text_of(probability), "must lie in (0, 1)");
+  const double level_variance = level.stddev.value_or(0.0) * level.stddev.value_or(0.0);
+  const double least_sd = 1e-9 * std::max(1e-300, marginals.mean.cwiseAbs().maxCoeff());
+  Certainty certainty{.score = marginals.mean.array() - level.value, .probability = probability};
+  certainty.score.array() /= (marginals.variance.array() + level_variance).sqrt().max(least_sd);
+  certainty.band_score = normal_quantile(0.5 + 0.5 * probability);
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  certainty.expected = expected_error(surface, marginals, level);
+  return certainty;
+}
+
+}  // namespace palpation
