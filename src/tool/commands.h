@@ -54,5 +54,7 @@ void compare_boundaries(const SceneArguments& arguments, const std::filesystem::
 void info(const InfoArguments& arguments);
 void make_mesh(const MeshArguments& arguments);
 void experiment(const ExperimentArguments& arguments);
+/// The experiments that there are.
+std::vector<std::string> experiment_names();
 
 }  // namespace palpation::tool

@@ -113,8 +113,8 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
 }
 
 void add_experiment_command(CLI::App& app, Arguments& arguments) {
-  CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials: table1, figure4");
-  command->add_option("NAME", arguments.experiment.name, "which")->required()->check(CLI::IsMember({"table1", "figure4"}));
+  CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials");
+  command->add_option("NAME", arguments.experiment.name, "which")->required()->check(CLI::IsMember(experiment_names()));
   command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
   command->add_option("--trials", arguments.experiment.trials, "per cell")->check(whole(1, kMostTrials));
   command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following")

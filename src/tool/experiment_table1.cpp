@@ -1,0 +1,86 @@
+// experiment table1: the simulations of Garg et al. 2016, rerun.
+#include <cstdio>
+#include <map>
+
+#include "palpation/base/error.h"
+#include "tool/experiment.h"
+#include "tool/paper_scene.h"
+
+namespace palpation::tool {
+namespace {
+
+/// Where a cell stands in the table.
+struct Entry {
+  std::string shape, row, algorithm, level;
+  std::optional<double> printed;  ///< in the paper
+};
+
+struct Table {
+  std::vector<Entry> entries;
+  std::vector<Cell> cells;  ///< one per entry
+};
+
+/// Table I as printed, in % of the search area: shape, row, algorithm. The bias rows beyond 1 % are lost.
+std::optional<double> printed_value(const std::string& shape, const std::string& row, const std::string& algorithm) {
+  static const std::map<std::string, std::vector<double>> rows = {{"noise 1 %", {.840, .567, .056, 1.467, 1.001, .175}},
+                                                                  {"noise 5 %", {.807, .672, .177, 1.525, 1.256, .373}},
+                                                                  {"noise 10 %", {1.189, .951, .393, 2.155, 2.135, .749}},
+                                                                  {"noise 25 %", {2.610, 2.870, 1.314, 3.987, 5.116, 2.210}},
+                                                                  {"bias 1 %", {.759, .573, .060, 1.255, 1.093, .141}}};
+  const auto found = rows.find(row);
+  if (found == rows.end()) return std::nullopt;
+  const std::size_t algorithm_index = algorithm == "evr" ? 0 : algorithm == "ucb" ? 1 : 2;
+  return found->second[(shape == "disk" ? 0 : 3) + algorithm_index];
+}
+
+Table table_of(const Scene& base, bool keep_tumours) {
+  Table table;
+  const auto add = [&](const std::string& level, const std::string& row, double noise, double bias) {
+    for (const std::string& shape : keep_tumours ? std::vector<std::string>{"the scene's"} : kPaperShapes) {
+      for (const std::string& algorithm : kPaperAlgorithms) {
+        Scene scene =
+            base.with("probe.noise", noise).with("probe.bias", bias).with("plan.acquisition", algorithm).with("level.estimate", level);
+        if (!keep_tumours) scene = scene.with("probe.tumours", paper_tumour(shape));
+        table.entries.push_back({shape, row, algorithm, level, printed_value(shape, row, algorithm)});
+        table.cells.push_back({row + ", " + shape + ", " + algorithm + ", level " + level, scene});
+      }
+    }
+  };
+  for (const std::string level : {"known", "range"}) {
+    for (const int percent : {1, 5, 10, 25}) add(level, "noise " + std::to_string(percent) + " %", percent / 100.0, 0.0);
+    for (const int percent : {1, 5, 50, 100}) add(level, "bias " + std::to_string(percent) + " %", 0.01, percent / 100.0);
+  }
+  return table;
+}
+
+void report(const std::vector<Entry>& entries, const Errors& errors, const ExperimentArguments& arguments) {
+  std::string csv = "level,row,shape,algorithm,trials,error_percent,standard_error,printed\n";
+  std::string level;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& entry = entries[i];
+    const Statistics result = statistics(finals(errors[i]));
+    if (entry.level != level) {
+      level = entry.level;
+      std::printf(
+          "\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed in the paper)\n",
+          level == "known" ? "Level known beforehand (the authors' code)" : "Level from the greatest and least mean (the paper's text)",
+          arguments.trials);
+    }
+    if (entry.algorithm == "evr") std::printf("%-12s%-12s", entry.row.c_str(), entry.shape.c_str());
+    std::printf("  %-8s%s (%s)", entry.algorithm.c_str(), in_words(result).c_str(), or_dash(entry.printed).c_str());
+    if (entry.algorithm == "ils-ucb") std::printf("\n");
+    csv += entry.level + "," + entry.row + "," + entry.shape + "," + entry.algorithm + "," + std::to_string(arguments.trials) + "," +
+           text_of(result.mean) + "," + or_empty(result.standard_error) + "," + or_empty(entry.printed) + "\n";
+  }
+  write_table(arguments, "table1", csv);
+}
+
+}  // namespace
+
+void table1(const ExperimentArguments& arguments) {
+  const Table table = table_of(base_scene(arguments, paper_scene()), !arguments.scene.empty());
+  if (printed_scenes(table.cells, arguments)) return;
+  report(table.entries, run_trials(table.cells, arguments), arguments);
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,50 @@
+#include "tool/paper_scene.h"
+
+namespace palpation::tool {
+
+using nlohmann::json;
+
+json paper_scene() {
+  return {{"version", 1},
+          {"surface", {{"plane", {{"size_mm", {25, 50}}, {"vertices", {200, 200}}}}}},
+          {"field",
+           {{"metric", "chart"},
+            {"kernel", "squared-exponential"},
+            {"length_mm", 3.3},
+            {"signal_sd", 5},
+            {"noise_to_signal", 0.2},
+            {"trend", "constant"},
+            {"constant_sd", 7.211102550927978},
+            {"standardize", true}}},
+          {"level", {{"estimate", "known"}, {"value", 8}, {"fraction", 0.5}}},
+          {"plan",
+           {{"acquisition", "ils-ucb"},
+            {"gamma", 0.5},
+            {"scaling", "max"},
+            {"initial", {{"design", "random"}, {"count", 5}}},
+            {"batch", 10},
+            {"batches", 10},
+            {"least_spacing_mm", 0}}},
+          {"probe",
+           {{"kind", "simulated"},
+            {"low", 7},
+            {"high", 9},
+            {"slope_per_m", 1400},
+            {"noise", 0.01},
+            {"bias", 0},
+            {"bias_axis", {0, 1, 0}},
+            {"tumours", json::array()}}},
+          {"seed", 0}};
+}
+
+json paper_tumour(const std::string& shape) {
+  if (shape == "disk") return json::array({{{"shape", "disk"}, {"centre_mm", {11.492, 30, 0}}, {"radius_mm", 6.25}}});
+  return json::array({{{"shape", "horseshoe"},
+                       {"centre_mm", {9.492, 20, 0}},
+                       {"arc_radius_mm", 7},
+                       {"half_width_mm", 2.5},
+                       {"arc_deg", 180},
+                       {"facing", {1, 0, 0}}}});
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,20 @@
+/// The simulations of Garg et al. 2016, with the constants of the authors' public code.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace palpation::tool {
+
+/// The phantom and the model: GPy's squared exponential of variance 25 (z-scored readings), likelihood variance 1, a constant of variance
+/// 52; the level known. Without tumours.
+nlohmann::json paper_scene();
+
+/// "disk" or "horseshoe", as probe.tumours.
+nlohmann::json paper_tumour(const std::string& shape);
+
+inline const std::vector<std::string> kPaperShapes = {"disk", "horseshoe"};
+inline const std::vector<std::string> kPaperAlgorithms = {"evr", "ucb", "ils-ucb"};
+
+}  // namespace palpation::tool
