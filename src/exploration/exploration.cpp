@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "exploration/field_fit.h"
+#include "exploration/lag_fit.h"
 #include "palpation/base/error.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/expected_error.h"
@@ -103,19 +104,21 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     const int vertex = touched_vertex(surface_, palpation);
     if (touch_once_ && vertex >= 0) reachable_[vertex] = false;
   }
-  std::vector<Palpation> all = belief_.palpations();
+  std::vector<Palpation> all = palpations_;
   all.insert(all.end(), palpations.begin(), palpations.end());
-  if (field_.learns()) {
-    FieldFit fit = fit_field(surface_, field_, all, learned_);
-    belief_ = std::move(fit.belief);
-    learned_ = fit.learned;
-    if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(all), fit.signal_evidence);
+  if (field_.learns() || field_.lag.is_modelled()) {
+    LagFit fit = fit_lagged(surface_, field_, all, learned_, lag_);
+    belief_ = std::move(fit.field.belief);
+    learned_ = fit.field.learned;
+    if (field_.lag.is_modelled()) lag_ = fit.lag;
+    if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(all), fit.field.signal_evidence);
   } else {
     belief_ = belief_.condition_on(palpations);
   }
+  palpations_ = std::move(all);
   marginals_ = belief_.at_vertices();
   if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) {
-    const bool is_flat = all_equal(used_readings(all)) || !has_range(marginals_);
+    const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(marginals_);
     level_ = is_flat ? std::nullopt : std::optional(estimated_level());
   }
   if (!palpations.empty()) probe_ = palpations.back().where;

@@ -20,7 +20,7 @@ void restate(Episode& episode) {
   const Exploration& exploration = episode.exploration;
   TraceRow row;
   row.batch = exploration.batch() - 1;
-  row.measurements = static_cast<int>(exploration.belief().palpations().size());
+  row.measurements = static_cast<int>(exploration.palpations().size());
   row.path_m = episode.path_m;
   if (exploration.belief().site_count() > 0) {
     episode.estimate = Region();

@@ -16,6 +16,7 @@
 #include "palpation/io/wkt.h"
 #include "palpation/io/write_vtp.h"
 #include "tool/boundary_curves.h"
+#include "tool/setup.h"
 #include "tool/words.h"
 
 extern char** environ;
@@ -159,7 +160,7 @@ json OutputFolder::summary(const Episode& episode) const {
                  {"options", scene_.complete()},
                  {"computed", surface_.computed()},
                  {"vertices", surface_.vertex_count()},
-                 {"measurements", exploration.belief().palpations().size()},
+                 {"measurements", exploration.palpations().size()},
                  {"search_area_mm2", surface_.area() * kMm2},
                  {"level", level ? json(level->value) : json(nullptr)},
                  {"level_sd", level ? maybe(level->stddev) : json(nullptr)},
@@ -174,6 +175,10 @@ json OutputFolder::summary(const Episode& episode) const {
                  {"warnings", warnings},
                  {"stop_reason", exploration.stop_reason().empty() ? json(nullptr) : json(exploration.stop_reason())},
                  {"chart_hash", surface_.chart().hash()}};
+  if (field_of(scene_).lag.is_modelled()) {
+    result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
+    result["lag_sd_mm"] = exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
+  }
   if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
   return result;
 }
@@ -215,7 +220,7 @@ void OutputFolder::write(const Episode& episode, const World* world, const json&
   remove_what_an_earlier_run_left(written);
   write_surface_vtp(folder_ / "surface.vtp", surface_, fields_of(episode, world));
   write_boundary(episode, world);
-  write_atomically(folder_ / "measurements.csv", measurements_csv(surface_, episode.exploration.belief().palpations()));
+  write_atomically(folder_ / "measurements.csv", measurements_csv(surface_, episode.exploration.palpations()));
   if (!episode.trace.empty()) write_atomically(folder_ / "trace.csv", trace_csv(episode.trace, surface_.area()));
   if (!steps_.empty()) write_pvd(folder_ / "steps.pvd", steps_);
   write_atomically(folder_ / "timings.json", document(timings));

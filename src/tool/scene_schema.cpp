@@ -61,6 +61,11 @@ SceneKey number_or_learn(std::string path, std::string unit, double least, doubl
   return result;
 }
 
+SceneKey by_default(json standard, SceneKey key) {
+  key.standard = std::move(standard);
+  return key;
+}
+
 SceneKey text(std::string path, std::string meaning) { return key(std::move(path), ValueKind::Text, "", std::move(meaning)); }
 
 SceneKey numbers(std::string path, int count, std::string unit, double least, double most, json standard, std::string meaning) {
@@ -130,6 +135,9 @@ std::vector<SceneKey> make_scene_keys() {
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
             "mean"),
+      by_default(0.0, number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
+                                      "how far behind the probe's travel its readings belong; 0: readings belong where they are made; "
+                                      "learned ones lie between -0.5 and 3 mm")),
       word("level.estimate", {"known", "range", "edge"}, "range",
            "where tissue becomes tumour: known beforehand; min + fraction (max - min) of the mean; or that fraction of the way between the "
            "plateaus of the readings' profile across the edge, with a standard deviation"),

@@ -86,7 +86,7 @@ std::string batch_words(const Episode& episode) {
 }
 
 std::string episode_words(const Episode& episode) {
-  const std::size_t readings = episode.exploration.belief().palpations().size();
+  const std::size_t readings = episode.exploration.palpations().size();
   std::string words = counted(readings, "reading");
   if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
   words += ".\n" + found_words(episode);

@@ -141,6 +141,45 @@ TEST(Exploration, TakesUpReadingsMadeElsewhere) {
   EXPECT_EQ(exploration.next().size(), 10u);
 }
 
+/// A probe whose readings come late by a lag along its travel.
+Probe late_probe(const Surface& tissue, const Phantom& phantom, Random& random, double lag_m) {
+  return [&tissue, &phantom, &random, lag_m](const SurfacePoint& where, const Vec3& heading) {
+    Palpation felt = phantom.touch(tissue.project(tissue.position(where) - lag_m * heading), random);
+    felt.where = where;
+    return std::optional(felt);
+  };
+}
+
+TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
+  const Surface tissue = plane(51, 101);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  const auto wrong_mm2 = [&](const Exploration& exploration) {
+    double wrong = 0.0;
+    for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
+      const bool inside = exploration.marginals().mean[vertex] >= 8.0;
+      if (inside != (phantom.truth()[vertex] >= 8.0)) wrong += 1e6 * tissue.vertex_areas()[vertex];
+    }
+    return wrong;
+  };
+  const auto explored = [&](const LagModel& lag) {
+    Exploration exploration(tissue, {.lag = lag}, {.known = 8.0}, {.acquisition = straddle(), .batches = 9}, 2);
+    Random random(2);
+    run(exploration, late_probe(tissue, phantom, random, 0.0015));
+    return exploration;
+  };
+  const Exploration ignored = explored({}), learned = explored({.learn = true}), known = explored({.known_m = 0.0015});
+  EXPECT_FALSE(ignored.lag().has_value());
+  ASSERT_TRUE(learned.lag().has_value());
+  EXPECT_NEAR(learned.lag()->value_m, 0.0015, 0.0002);
+  EXPECT_EQ(known.lag()->value_m, 0.0015);
+  EXPECT_LT(wrong_mm2(learned), 0.6 * wrong_mm2(ignored));
+  EXPECT_LT(wrong_mm2(known), 0.6 * wrong_mm2(ignored));
+  const Palpation& raw = learned.palpations()[50];
+  EXPECT_EQ(raw.where.barycentric.maxCoeff(), 1.0);  // a stop is a vertex
+  const Vec3 shift = tissue.position(raw.where) - tissue.position(learned.belief().palpations()[50].where);
+  EXPECT_NEAR((shift - learned.lag()->value_m * raw.travel).norm(), 0.0, 2e-5);  // the lag rests at a fiftieth of a millimetre
+}
+
 TEST(Travel, ReadsOnTheWayOncePerMillimetre) {
   const Surface tissue = plane(26, 51);  // 1 mm cells
   const Phantom phantom = disk_phantom(tissue, 0.0);

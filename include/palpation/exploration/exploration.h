@@ -14,12 +14,20 @@
 
 #include "palpation/belief/belief.h"
 #include "palpation/belief/hyperparameters.h"
+#include "palpation/belief/lag.h"
 #include "palpation/belief/level.h"
 #include "palpation/decision/acquisition.h"
 #include "palpation/decision/batch.h"
 #include "palpation/decision/design.h"
 
 namespace palpation {
+
+/// How late readings come (lag.h). By default they do not.
+struct LagModel {
+  double known_m = 0.0;
+  bool learn = false;  ///< in place of known_m
+  bool is_modelled() const { return learn || known_m != 0.0; }
+};
 
 /// How the field is modelled. What is to be learned is learned anew after every batch.
 struct FieldModel {
@@ -32,6 +40,7 @@ struct FieldModel {
   bool learn_signal = true;
   bool learn_noise = true;
   double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
+  LagModel lag{};
 
   bool learns() const { return learn_length || learn_signal || learn_noise; }
 };
@@ -84,6 +93,9 @@ class Exploration {
   const std::string& stop_reason() const { return stop_reason_; }
 
   const Surface& surface() const { return surface_; }
+  /// What was recorded, as it was made.
+  const std::vector<Palpation>& palpations() const { return palpations_; }
+  /// Knows the same readings, where a lag is modelled at the places where they belong.
   const Belief& belief() const { return belief_; }
   const Marginals& marginals() const { return marginals_; }
   /// The level as it is estimated now; nothing before the readings show contrast, nor while they are all alike, unless it is known: the
@@ -93,6 +105,8 @@ class Exploration {
   Field acquisition_field() const;
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
+  /// The lag in use; nothing where none is modelled, or it is to be learned and no reading tells.
+  const std::optional<Lag>& lag() const { return lag_; }
 
  private:
   void learn_from(std::span<const Palpation> palpations);
@@ -110,10 +124,12 @@ class Exploration {
   std::vector<bool> reachable_;
   bool touch_once_;
 
+  std::vector<Palpation> palpations_;
   Belief belief_;
   Marginals marginals_;
   std::optional<Level> level_;
   Hyperparameters learned_;
+  std::optional<Lag> lag_;
   bool contrast_seen_ = false;
   int batch_ = 0;
   std::optional<SurfacePoint> probe_;

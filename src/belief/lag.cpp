@@ -1,0 +1,122 @@
+#include "palpation/belief/lag.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kBeside_m = 0.0005;  // a displaced reading may lie this far beyond the border: as far as a touch is smaller than a probe
+constexpr double kGridStep_m = 0.00025;  // a field's likelihood has one peak within a fraction of its length
+constexpr double kPrecision_m = 1e-5;
+constexpr std::size_t kMostReadings = 400;  // for one number; the likelihood costs their third power
+
+bool is_on_border(const Surface& surface, const SurfacePoint& point) {
+  for (int i = 0; i < 3; ++i) {
+    if (point.barycentric[(i + 2) % 3] < 1e-9 && surface.neighbour(point.face, i) < 0) return true;
+  }
+  return false;
+}
+
+/// Where a reading belongs; nothing if that is beyond the border.
+std::optional<SurfacePoint> place_of(const Surface& surface, const Palpation& palpation, double lag_m) {
+  const Vec3 position = surface.position(palpation.where) - lag_m * palpation.travel;
+  const SurfacePoint closest = surface.project(position);
+  if (!is_on_border(surface, closest)) return closest;
+  const Vec3 normal = surface.face_normal(closest.face);
+  const Vec3 offset = position - surface.position(closest);
+  if ((offset - normal.dot(offset) * normal).norm() > kBeside_m) return std::nullopt;
+  return closest;
+}
+
+bool travels(const Palpation& palpation) { return !palpation.travel.isZero(0.0); }
+
+/// The readings that every lag leaves on the tissue, thinned evenly.
+std::vector<Palpation> telling(const Surface& surface, std::span<const Palpation> palpations, const LagPrior& prior) {
+  std::vector<Palpation> kept;
+  for (const Palpation& palpation : palpations) {
+    if (!palpation.set_aside.empty()) continue;
+    if (travels(palpation) && !(place_of(surface, palpation, prior.least_m) && place_of(surface, palpation, prior.most_m))) continue;
+    kept.push_back(palpation);
+  }
+  const std::size_t stride = (kept.size() + kMostReadings - 1) / kMostReadings;
+  if (stride <= 1) return kept;
+  std::vector<Palpation> thinned;
+  for (std::size_t i = 0; i < kept.size(); i += stride) thinned.push_back(kept[i]);
+  return thinned;
+}
+
+/// The greatest value of a function with one peak between two places (golden section).
+template <typename Function>
+double peak_between(double least, double most, const Function& function) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  double left = most - ratio * (most - least), right = least + ratio * (most - least);
+  double at_left = function(left), at_right = function(right);
+  while (most - least > kPrecision_m) {
+    if (at_left >= at_right) {
+      most = right;
+      right = left;
+      at_right = at_left;
+      at_left = function(left = most - ratio * (most - least));
+    } else {
+      least = left;
+      left = right;
+      at_left = at_right;
+      at_right = function(right = least + ratio * (most - least));
+    }
+  }
+  return 0.5 * (least + most);
+}
+
+}  // namespace
+
+std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpation> palpations, double lag_m) {
+  require(std::isfinite(lag_m), "displaced", "lag_m = " + text_of(lag_m), "must be finite");
+  std::vector<Palpation> moved(palpations.begin(), palpations.end());
+  if (lag_m == 0.0) return moved;
+  for (Palpation& palpation : moved) {
+    if (!travels(palpation)) continue;
+    if (const std::optional<SurfacePoint> place = place_of(surface, palpation, lag_m)) {
+      palpation.where = *place;
+    } else if (palpation.set_aside.empty()) {
+      palpation.set_aside = "belongs beyond the tissue";
+    }
+  }
+  return moved;
+}
+
+std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palpations, const Hyperparameters& at,
+                             const LagPrior& lag_prior) {
+  const Surface& surface = prior.surface();
+  const std::vector<Palpation> readings = telling(surface, palpations, lag_prior);
+  if (readings.size() < 2 || std::none_of(readings.begin(), readings.end(), travels)) return std::nullopt;
+  const auto log_posterior = [&](double lag_m) {
+    const double z = (lag_m - lag_prior.mean_m) / lag_prior.sd_m;
+    try {
+      return likelihood_gradient(prior, gather_sites(prior, displaced(surface, readings, lag_m)), at).value - 0.5 * z * z;
+    } catch (const NumericalError&) {
+      return -std::numeric_limits<double>::infinity();  // this lag brings places together that the noise does not part
+    }
+  };
+  double best = lag_prior.mean_m, best_value = -std::numeric_limits<double>::infinity();
+  const int steps = static_cast<int>(std::lround((lag_prior.most_m - lag_prior.least_m) / kGridStep_m));
+  for (int i = 0; i <= steps; ++i) {
+    const double lag_m = lag_prior.least_m + i * kGridStep_m;
+    const double value = log_posterior(lag_m);
+    if (value > best_value) {
+      best = lag_m;
+      best_value = value;
+    }
+  }
+  const double least = std::max(lag_prior.least_m, best - kGridStep_m), most = std::min(lag_prior.most_m, best + kGridStep_m);
+  Lag lag{peak_between(least, most, log_posterior), lag_prior.sd_m};
+  const double step = 0.5 * kGridStep_m;
+  const double fall = 2.0 * log_posterior(lag.value_m) - log_posterior(lag.value_m - step) - log_posterior(lag.value_m + step);
+  if (fall > 0.0 && std::isfinite(fall)) lag.stddev_m = std::min(lag.stddev_m, step / std::sqrt(fall));
+  return lag;
+}
+
+}  // namespace palpation

@@ -1,0 +1,21 @@
+/// A belief from readings that come late: where they belong is learned together with the field.
+#pragma once
+
+#include <optional>
+
+#include "exploration/field_fit.h"
+#include "palpation/belief/lag.h"
+
+namespace palpation {
+
+struct LagFit {
+  FieldFit field;            ///< its belief knows the readings where they belong
+  std::optional<Lag> lag{};  ///< nothing where it was to be learned and no reading tells
+};
+
+/// `palpations` as they were made. A lag to be learned is profiled with the field's hyperparameters held, then these are learned anew, and
+/// again until it rests; `before` is the lag to start from. Without a lag the same as fit_field.
+LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
+                  const std::optional<Lag>& before);
+
+}  // namespace palpation
