@@ -2,8 +2,8 @@
 ///
 /// Cramer and Rao's bound for a closed outline that is known to be smooth: its offset along the normal has P modes, as many as lengths of
 /// 4.5 mm in the perimeter. Every reading is where it tells most. With noise s (a fraction of the plateaus' difference), slope k and level
-/// fraction f, a reading on the boundary locates it to s / (k f (1 - f)), and of n readings the share w is spent on the plateaus, which tell
-/// the level, w being the best of whole twentieths (close to 1 / (sqrt(P) + 1); 0 where the plateaus are known):
+/// fraction f, a reading on the boundary locates it to s / (k f (1 - f)), and of n readings the share w is spent on the plateaus, which
+/// tell the level, w being the best of whole twentieths (close to 1 / (sqrt(P) + 1); 0 where the plateaus are known):
 ///
 ///     sd(offset) = s / (k f (1 - f)) sqrt((P / (1 - w) + 1 / w) / n)        (plateaus known: sqrt(P / n)),
 ///     E|wrong area| = perimeter sqrt(2 / pi) sd(offset).
