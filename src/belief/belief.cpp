@@ -1,5 +1,7 @@
 #include "palpation/belief/belief.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,6 +43,7 @@ Belief::Belief(Prior prior, const BeliefOptions& options) : prior_(std::move(pri
   restate_readings();
   keep_rows(0);
   restate_constant();
+  restate_slope();
 }
 
 double Belief::signal_sd() const { return prior_.kernel().signal_sd * spread_; }
@@ -64,6 +67,7 @@ Belief Belief::condition_on(std::span<const Palpation> more) const {
   if (unchanged < row_count()) next.keep_rows(unchanged);
   next.append_rows();
   next.restate_constant();
+  next.restate_slope();
   return next;
 }
 
@@ -94,6 +98,10 @@ void Belief::restate_readings() {
 void Belief::keep_rows(int count) {
   while (!rows_.empty() && row_count() > count) rows_.pop_back();
   const int vertices = prior_.surface().vertex_count();
+  if (prior_.has_slope()) {
+    v_tilts_ = Tilts::Zero(vertices, 3);
+    tilts_.conservativeResize(row_count(), 3);
+  }
   explained_ = covered_ = v_ones_ = v_whitened_ = Field::Zero(vertices);
   ones_.conservativeResize(row_count());
   whitened_.conservativeResize(row_count());
@@ -107,6 +115,7 @@ void Belief::keep_rows(int count) {
         covered_[vertex] += k * k;
         v_ones_[vertex] += v * ones_[rows->first + row];
         v_whitened_[vertex] += v * whitened_[rows->first + row];
+        if (prior_.has_slope()) v_tilts_.row(vertex) += v * tilts_.row(rows->first + row);
       }
     }
   }
@@ -168,6 +177,15 @@ void Belief::append_rows() {
     whitened_[first + row] = (readings_[first + row] - origin_ - before.dot(whitened_.head(first + row))) / pivot;
   }
 
+  if (prior_.has_slope()) {
+    tilts_.conservativeResize(site_count(), 3);
+    for (int row = 0; row < count; ++row) {
+      const Vec3 tilt = prior_.tilt(sites_[first + row].coordinates);
+      tilts_.row(first + row) =
+          (tilt.transpose() - factor.row(row).head(first + row) * tilts_.topRows(first + row)) / factor(row, first + row);
+    }
+  }
+
   const Surface& surface = prior_.surface();
   fresh->v = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(tile_count(surface)) * count * kLanes);
   const int stride = static_cast<int>(factor.cols());
@@ -193,6 +211,7 @@ void Belief::append_rows() {
           explained_[vertex] += v * v;
           v_ones_[vertex] += v * ones_[first + row];
           v_whitened_[vertex] += v * whitened_[first + row];
+          if (prior_.has_slope()) v_tilts_.row(vertex) += v * tilts_.row(first + row);
         }
       }
     }
@@ -215,6 +234,35 @@ void Belief::restate_constant() {
       constant_precision_ > 0.0 ? origin_ + (prior_precision * (centre_ - origin_) + ones_.dot(whitened_)) / constant_precision_ : centre_;
 }
 
+bool Belief::constant_is_unsure() const { return std::isfinite(constant_precision_) && constant_precision_ > 0.0; }
+
+/// Posterior of the slope once the constant is integrated out: B = signal^2 I + W'W - W'1 1'W / (the constant's precision), W = tilts_.
+void Belief::restate_slope() {
+  if (!prior_.has_slope()) return;
+  const double slope_precision = prior_.kernel().signal_sd * prior_.kernel().signal_sd;  // of a prior of unit variance, over the signal's
+  const Vec3 along_ones = tilts_.transpose() * ones_;
+  constant_per_tilt_ = constant_is_unsure() ? Vec3(along_ones / constant_precision_) : Vec3(Vec3::Zero());
+  Eigen::Matrix3d precision = tilts_.transpose() * tilts_ - along_ones * constant_per_tilt_.transpose();
+  precision.diagonal().array() += slope_precision;
+  tilt_covariance_ = precision.llt().solve(Eigen::Matrix3d::Identity());
+  tilt_ = tilt_covariance_ * (tilts_.transpose() * (whitened_ - (constant_ - origin_) * ones_));
+}
+
+/// r of the header at x, for a slope of one standard deviation.
+Vec3 Belief::tilt_residual(const Vec3& x, const Vec3& v_tilts, double residual_ones, Part part) const {
+  const Vec3 of_component = -v_tilts - residual_ones * constant_per_tilt_;
+  return part == Part::Detrended ? of_component : Vec3(prior_.tilt(x) + of_component);
+}
+
+Vec3 Belief::slope() const { return prior_.slope().sd.cwiseProduct(tilt_); }
+
+std::vector<Palpation> Belief::detrended_palpations() const {
+  std::vector<Palpation> detrended = palpations_;
+  if (!prior_.has_slope()) return detrended;
+  for (Palpation& palpation : detrended) palpation.reading -= tilt_.dot(prior_.tilt(prior_.coordinates(palpation.where)));
+  return detrended;
+}
+
 Eigen::VectorXd Belief::solve_lower(Eigen::VectorXd right_side) const {
   for (const auto& rows : rows_) {
     auto part = right_side.segment(rows->first, rows->count);
@@ -230,7 +278,7 @@ double Belief::site_variance(int site) const {
   return d * (1.0 - d * solve_lower(Eigen::VectorXd::Unit(site_count(), site)).squaredNorm());
 }
 
-Marginals Belief::at_vertices() const {
+Marginals Belief::at_vertices(Part part) const {
   const int vertices = prior_.surface().vertex_count();
   Eigen::VectorXd unexplained = 1.0 - explained_.array();
   for (int site = 0; site < site_count(); ++site) {
@@ -243,23 +291,26 @@ Marginals Belief::at_vertices() const {
   // Since K >= k k', the variance is at least s / (s + |k|^2).
   const double least_noise = diagonal_.empty() ? 1.0 : *std::min_element(diagonal_.begin(), diagonal_.end());
   const double signal_variance = signal_sd() * signal_sd();
-  const bool constant_unsure = std::isfinite(constant_precision_) && constant_precision_ > 0.0;
   Marginals result{Eigen::VectorXd(vertices), Eigen::VectorXd(vertices)};
   for (int vertex = 0; vertex < vertices; ++vertex) {
     const double floor = site_count() == 0 ? 1.0 : least_noise > 0.0 ? least_noise / (least_noise + covered_[vertex]) : 0.0;
     double variance = std::clamp(unexplained[vertex], floor, 1.0);
     const double residual = 1.0 - v_ones_[vertex];
-    if (constant_unsure) variance += residual * residual / constant_precision_;
+    if (constant_is_unsure()) variance += residual * residual / constant_precision_;
     result.variance[vertex] = signal_variance * variance;
     result.mean[vertex] = constant_ + (v_whitened_[vertex] - (constant_ - origin_) * v_ones_[vertex]);
+    if (prior_.has_slope()) {
+      const Vec3 tilt = tilt_residual(prior_.coordinates(vertex), v_tilts_.row(vertex), residual, part);
+      result.variance[vertex] += signal_variance * tilt.dot(tilt_covariance_ * tilt);
+      result.mean[vertex] += tilt_.dot(tilt);
+    }
   }
   return result;
 }
 
-Marginals Belief::at(std::span<const SurfacePoint> points) const {
+Marginals Belief::at(std::span<const SurfacePoint> points, Part part) const {
   const int count = static_cast<int>(points.size());
   const double signal_variance = signal_sd() * signal_sd();
-  const bool constant_unsure = std::isfinite(constant_precision_) && constant_precision_ > 0.0;
   Marginals result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for_ranges(count, 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -274,9 +325,14 @@ Marginals Belief::at(std::span<const SurfacePoint> points) const {
       double variance = std::clamp(1.0 - v.squaredNorm(), 0.0, 1.0);
       if (same_site >= 0 && diagonal_[same_site] < kSmallNoise) variance = site_variance(same_site);
       const double residual = 1.0 - v.dot(ones_);
-      if (constant_unsure) variance += residual * residual / constant_precision_;
+      if (constant_is_unsure()) variance += residual * residual / constant_precision_;
       result.variance[i] = signal_variance * variance;
       result.mean[i] = constant_ + (v.dot(whitened_) - (constant_ - origin_) * v.dot(ones_));
+      if (prior_.has_slope()) {
+        const Vec3 tilt = tilt_residual(x, tilts_.transpose() * v, residual, part);
+        result.variance[i] += signal_variance * tilt.dot(tilt_covariance_ * tilt);
+        result.mean[i] += tilt_.dot(tilt);
+      }
     }
   });
   return result;
@@ -306,6 +362,10 @@ double Belief::log_marginal_likelihood() const {
       log_determinant += std::log(constant_precision_ * prior_sd * prior_sd / signal_variance);
     }
   }
+  if (prior_.has_slope()) {
+    square -= tilt_.dot(tilt_covariance_.inverse() * tilt_);
+    log_determinant -= std::log(tilt_covariance_.determinant()) + 3.0 * std::log(prior_.kernel().signal_sd * prior_.kernel().signal_sd);
+  }
   double result = -0.5 * (square / signal_variance + log_determinant + free_readings * std::log(2.0 * std::numbers::pi));
   for (const Site& site : sites_) result += scatter_log_likelihood(site, noise_variance());
   return result;
@@ -319,13 +379,16 @@ CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belie
     for (int row = 0; row < rows->count; ++row) column_.push_back(rows->value(row, vertex));
   }
   residual_ones_ = 1.0 - belief.v_ones_[vertex];
+  if (belief.prior_.has_slope()) {
+    const Vec3 tilt = belief.tilt_residual(coordinates_, belief.v_tilts_.row(vertex), residual_ones_, Part::Whole);
+    tilt_weights_ = belief.tilt_covariance_ * tilt;
+  }
 }
 
 void CovarianceWith::operator()(int first, int count, double* out) const {
   const Prior& prior = belief_.prior_;
   const double signal_variance = belief_.signal_sd() * belief_.signal_sd();
-  const double precision = belief_.constant_precision_;
-  const double constant_share = std::isfinite(precision) && precision > 0.0 ? residual_ones_ / precision : 0.0;
+  const double constant_share = belief_.constant_is_unsure() ? residual_ones_ / belief_.constant_precision_ : 0.0;
   for (int tile = first / kLanes; tile * kLanes < first + count; ++tile) {
     double covariance[kLanes] = {};
     for (const auto& rows : belief_.rows_) {
@@ -336,6 +399,10 @@ void CovarianceWith::operator()(int first, int count, double* out) const {
       if (vertex < first || vertex >= first + count) continue;
       const double prior_correlation = correlation(prior.kernel(), prior.coordinates(vertex) - coordinates_);
       out[vertex - first] = signal_variance * (prior_correlation + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
+      if (!prior.has_slope()) continue;
+      const Vec3 tilt =
+          belief_.tilt_residual(prior.coordinates(vertex), belief_.v_tilts_.row(vertex), 1.0 - belief_.v_ones_[vertex], Part::Whole);
+      out[vertex - first] += signal_variance * tilt.dot(tilt_weights_);
     }
   }
 }

@@ -16,9 +16,10 @@
 namespace palpation {
 namespace {
 
-constexpr double kRatioMedian = 0.02;  // of (noise / signal)^2
-constexpr double kRatioSpread = 2.0;   // of its logarithm
-constexpr double kLeastNoise = 1e-6;   // of the readings' range, where it is learned
+constexpr double kRatioMedian = 0.02;   // of (noise / signal)^2
+constexpr double kRatioSpread = 2.0;    // of its logarithm
+constexpr double kLeastNoise = 1e-6;    // of the readings' range, where it is learned
+constexpr double kNoiseFreeLog = 30.0;  // how far below the readings' own variance that of noise is looked for: 1e-6 in standard deviation
 constexpr int kMostEvaluations = 100;
 
 /// d log(scatter likelihood) / d log(noise sd), and d (merged variance, merged mean) / d log(noise sd).
@@ -115,15 +116,65 @@ void check_fixed(const char* name, const std::optional<double>& value, bool zero
           zero_allowed ? "must be finite and not negative" : "must be positive and finite");
 }
 
-/// Log likelihood of the readings as independent draws around one unknown constant, their variance the best one.
-double noise_only_log_likelihood(const std::vector<double>& readings) {
+using Tilts = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+Tilts tilts_of(const Prior& prior, std::span<const Site> sites) {
+  Tilts tilts(sites.size(), 3);
+  for (std::size_t i = 0; i < sites.size(); ++i) tilts.row(static_cast<Eigen::Index>(i)) = prior.tilt(sites[i].coordinates);
+  return tilts;
+}
+
+/// P of likelihood_gradient once a slope of normal prior is integrated out too, P - P H (I + H' P H)^-1 H' P with H = Prior::tilt at the
+/// sites; returns what that adds to the log likelihood besides the change of P.
+double integrate_slope_out(const Prior& prior, std::span<const Site> sites, Eigen::MatrixXd& p) {
+  const Tilts tilts = tilts_of(prior, sites);
+  const Tilts weights = p * tilts;
+  const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + tilts.transpose() * weights);
+  p.noalias() -= weights * precision.solve(weights.transpose());
+  return -precision.matrixLLT().diagonal().array().log().sum();
+}
+
+/// The readings as independent draws around a plane: what a field must explain better.
+struct Plane {
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+  std::vector<double> residuals;  ///< up to a constant
+};
+
+/// Around one unknown constant, their variance the best one.
+Plane noise_around_constant(const std::vector<double>& readings) {
   const double n = static_cast<double>(readings.size());
   double mean = 0.0, square = 0.0;
   for (double reading : readings) mean += reading / n;
   for (double reading : readings) square += (reading - mean) * (reading - mean);
   const double variance = square / (n - 1.0);
-  if (variance <= 0.0) return std::numeric_limits<double>::infinity();
-  return -0.5 * ((n - 1.0) * (std::log(2.0 * std::numbers::pi * variance) + 1.0) + std::log(n));
+  if (variance <= 0.0) return {std::numeric_limits<double>::infinity(), readings};
+  return {-0.5 * ((n - 1.0) * (std::log(2.0 * std::numbers::pi * variance) + 1.0) + std::log(n)), readings};
+}
+
+/// Around an unknown constant and a slope of the prior's, the variance the best of a row of values a tenth apart in logarithm.
+Plane noise_around_plane(const Prior& prior, std::span<const Site> sites, const std::vector<double>& readings) {
+  const double n = static_cast<double>(readings.size());
+  Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(readings.data(), static_cast<Eigen::Index>(readings.size()));
+  y.array() -= y.mean();
+  Tilts tilts = tilts_of(prior, sites);
+  tilts.rowwise() -= tilts.colwise().mean().eval();
+  const Eigen::Matrix3d gram = tilts.transpose() * tilts;
+  const Vec3 along = tilts.transpose() * y;
+  const double square = y.squaredNorm();
+  if (square <= 0.0) return noise_around_constant(readings);
+  Plane best;
+  for (double log_variance = std::log(square / n); log_variance > std::log(square / n) - kNoiseFreeLog; log_variance -= 0.1) {
+    const double variance = std::exp(log_variance);
+    const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + gram / variance);
+    const Vec3 tilt = precision.solve(along / variance);
+    const double log_likelihood =
+        -0.5 * ((n - 1.0) * (std::log(2.0 * std::numbers::pi) + log_variance) + std::log(n) + (square - along.dot(tilt)) / variance) -
+        precision.matrixLLT().diagonal().array().log().sum();
+    if (!(log_likelihood > best.log_likelihood)) continue;
+    const Eigen::VectorXd residuals = y - tilts * tilt;
+    best = {log_likelihood, {residuals.begin(), residuals.end()}};
+  }
+  return best;
 }
 
 }  // namespace
@@ -180,6 +231,7 @@ LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site>
       result.value -= 0.5 * std::log(precision / constant_precision);
     }
   }
+  if (prior.has_slope()) result.value += integrate_slope_out(prior, sites, p);
   // Readings are taken relative to one of them where the constant is unknown: P 1 = 0 then, so only rounding changes.
   const double origin = std::isinf(constant_sd) ? readings[0] : 0.0;
   const Eigen::VectorXd residuals = readings.array() - origin;
@@ -203,8 +255,11 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
 
   std::vector<double> readings;
   for (const Site& site : sites) readings.push_back(merge(site, 1.0).mean);
-  const auto [least, greatest] = std::minmax_element(readings.begin(), readings.end());
-  const double range = *greatest > *least ? *greatest - *least : std::max(1e-12, std::abs(*greatest) * 1e-12);
+  const Plane plane = prior.has_slope() ? noise_around_plane(prior, sites, readings) : noise_around_constant(readings);
+  const auto [least, greatest] = std::minmax_element(plane.residuals.begin(), plane.residuals.end());
+  double range = *greatest > *least ? *greatest - *least : std::max(1e-12, std::abs(*greatest) * 1e-12);
+  // Around a plane, what is left of readings that lie on one is rounding.
+  if (prior.has_slope()) range = std::max(range, kLeastNoise * std::abs(readings.front()));
 
   Objective objective{
       prior, sites, options, {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)}, {}};
@@ -236,7 +291,7 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
     throw NumericalError("learn: no starting point gives a finite likelihood over " + std::to_string(sites.size()) + " places");
   }
   Learned learned{objective.at(best.x.data()), best.value, 0.0};
-  learned.signal_evidence = likelihood_gradient(prior, sites, learned.values).value - noise_only_log_likelihood(readings);
+  learned.signal_evidence = likelihood_gradient(prior, sites, learned.values).value - plane.log_likelihood;
   return learned;
 }
 

@@ -58,6 +58,50 @@ TEST(Likelihood, HasTheGradientOfItsDifferences) {
   }
 }
 
+Slope some_slope() { return {.sd = {40.0, 25.0, 0.0}, .origin = {0.0125, 0.025, 0.0}}; }
+
+TEST(Likelihood, IsTheBeliefsOwnWithASlopeToo) {
+  const Surface tissue = plane(20, 40);
+  Random random(1);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
+  readings.push_back(readings[5]);
+  readings[7].noise_variance = 0.3;
+  for (const double constant_sd : {0.0, 4.0, kUnknown}) {
+    const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3}, {.sd = constant_sd}, some_slope());
+    const double ours = likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
+    EXPECT_NEAR(ours, Belief(prior, {.noise_sd = 0.2}).condition_on(readings).log_marginal_likelihood(), 1e-8);
+  }
+}
+
+TEST(Likelihood, HasTheGradientOfItsDifferencesWithASlopeToo) {
+  const Surface tissue = plane(20, 40);
+  Random random(2);
+  const std::vector<Palpation> readings = bumpy_readings(tissue, 25, random);
+  for (const double constant_sd : {0.0, 4.0, kUnknown}) {
+    const Prior prior(tissue, Metric::Chart, {}, {.sd = constant_sd}, some_slope());
+    const std::vector<Site> sites = gather_sites(prior, readings);
+    const auto value = [&](const Vec3& logs) {
+      return likelihood_gradient(prior, sites, {std::exp(logs[0]), std::exp(logs[1]), std::exp(logs[2])});
+    };
+    const Vec3 at(std::log(0.0045), std::log(0.9), std::log(0.15));
+    const Vec3 gradient = value(at).gradient;
+    for (int parameter = 0; parameter < 3; ++parameter) {
+      const Vec3 step = 1e-4 * Vec3::Unit(parameter);  // truncation 1e-8 x third derivative, rounding 1e-12 / 1e-4
+      EXPECT_NEAR(gradient[parameter], (value(at + step).value - value(at - step).value) / 2e-4, 2e-5) << parameter;
+    }
+  }
+}
+
+TEST(Learn, SeesNoSignalInATiltedPlane) {
+  const Surface tissue = plane(20, 40);
+  Random random(4);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 30, random);
+  for (Palpation& palpation : readings) palpation.reading = 7.0 + 60.0 * tissue.position(palpation.where).y() + 0.05 * random.normal();
+  const Slope slope = slope_across(tissue, Metric::Chart, 2.0);
+  EXPECT_LT(learn(Prior(tissue, Metric::Chart, {}, {}, slope), readings, {}, {}).signal_evidence, 0.0);
+  EXPECT_GT(learn(Prior(tissue, Metric::Chart, {}), readings, {}, {}).signal_evidence, 30.0);
+}
+
 TEST(Learn, FindsAnOptimum) {
   const Surface tissue = plane(40, 80);
   Random random(3);

@@ -4,7 +4,11 @@
 ///     adds)
 ///
 /// where K is the matrix of correlations and D the noise of each site over the signal's variance: nothing else is ever added to the
-/// diagonal. A constant of unknown value is integrated out (universal kriging).
+/// diagonal. A constant of unknown value is integrated out (universal kriging), and so is the slope where the prior has one:
+///
+///     mean += E[b].r,  variance += r' Cov[b] r,  r = x - x0 - (X - x0)' L^-T V - a (1 - 1' L^-T V),
+///
+/// a the change of the constant's mean for a unit of slope. Of c + g alone the same holds with r less x - x0.
 ///
 /// A value: conditioning makes another belief. Copies share the rows of L and V they have in common, which are only ever appended, so
 /// "suppose I touched there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point
@@ -32,11 +36,14 @@ struct Marginals {
   Eigen::VectorXd variance;
 };
 
+/// Of the field: all of it, or what is left without the slope, c + g.
+enum class Part { Whole, Detrended };
+
 struct BeliefOptions {
   double noise_sd = 0.0;           ///< of a reading whose own variance is not given
   bool noise_is_relative = false;  ///< noise_sd is a fraction of the kernel's signal_sd
-  bool standardize = false;  ///< the kernel's signal_sd and the constant's sd are multiples of the readings' standard deviation, and the
-                             ///< constant's mean is the readings' mean: outputs z-scored, as GPy does
+  bool standardize = false;        ///< the kernel's signal_sd, the constant's sd and the slope's are multiples of the readings' standard
+                             ///< deviation, and the constant's mean is the readings' mean: outputs z-scored, as GPy does
 };
 
 class Belief {
@@ -53,11 +60,16 @@ class Belief {
   /// positive definite in double precision (two sites all but coincide, without noise).
   Belief condition_on(std::span<const Palpation> more) const;
 
-  Marginals at_vertices() const;
-  Marginals at(std::span<const SurfacePoint> points) const;
+  Marginals at_vertices(Part part = Part::Whole) const;
+  Marginals at(std::span<const SurfacePoint> points, Part part = Part::Whole) const;
 
-  /// Log density of the readings; restricted to what does not depend on the constant where that is unknown (REML, without the term
-  /// log|H'H|/2).
+  /// Posterior mean of the slope, reading units per metre along each coordinate of the metric.
+  Vec3 slope() const;
+  /// The palpations less the mean slope at their places: readings of c + g. The same where the prior has no slope.
+  std::vector<Palpation> detrended_palpations() const;
+
+  /// Log density of the readings, the slope integrated out; restricted to what does not depend on the constant where that is unknown (REML,
+  /// without the term log|H'H|/2).
   double log_marginal_likelihood() const;
 
   /// The noise variance of a reading whose own is not given, reading units squared.
@@ -76,6 +88,9 @@ class Belief {
   void append_rows();
   Eigen::MatrixXd factor_of_new_sites(int first) const;
   void restate_constant();
+  void restate_slope();
+  bool constant_is_unsure() const;
+  Vec3 tilt_residual(const Vec3& x, const Vec3& v_tilts, double residual_ones, Part part) const;
   double site_variance(int site) const;
 
   Prior prior_;
@@ -97,6 +112,14 @@ class Belief {
   Field v_whitened_;                 // V' L^-1 (y - origin)
   double constant_precision_ = 0.0;  // posterior precision of c over the signal's; 0: c is not known at all, infinite: known
   double constant_ = 0.0;            // posterior mean of c
+
+  // The slope, in standard deviations of its prior; empty and zero where there is none.
+  using Tilts = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  Tilts tilts_;                                                // L^-1 of Prior::tilt at the sites
+  Tilts v_tilts_;                                              // V' L^-1 of the same
+  Vec3 tilt_ = Vec3::Zero();                                   // posterior mean
+  Eigen::Matrix3d tilt_covariance_ = Eigen::Matrix3d::Zero();  // over the signal's variance
+  Vec3 constant_per_tilt_ = Vec3::Zero();                      // by how much c falls for each
 };
 
 /// Posterior covariance of the field between one vertex and others: the row that a hypothetical touch there would add.
@@ -111,8 +134,9 @@ class CovarianceWith {
  private:
   const Belief& belief_;
   Vec3 coordinates_;
-  std::vector<double> column_;  // of V
-  double residual_ones_;        // 1 - V' L^-1 1
+  std::vector<double> column_;        // of V
+  double residual_ones_;              // 1 - V' L^-1 1
+  Vec3 tilt_weights_ = Vec3::Zero();  // of the slope's residual at the other vertex
 };
 
 }  // namespace palpation

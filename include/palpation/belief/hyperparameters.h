@@ -4,7 +4,8 @@
 /// estimate:
 ///   log length ~ N(log length_median, length_spread^2)       without it one run in four loses the tumour;
 ///   log (noise / signal)^2 ~ N(log 0.02, 2^2)                only where both are learned;
-///   signal >= a quarter of the readings' range               half of half the contrast: a field that does not explain it is no field.
+///   signal >= a quarter of the readings' range               half of half the contrast: a field that does not explain it is no field;
+///                                                            where the prior has a slope, of the range around the best plane.
 /// The optimizer is NLopt's L-BFGS with the exact gradient, started from the given values and from the priors' medians; the better optimum
 /// counts.
 #pragma once
@@ -32,8 +33,9 @@ struct LearnOptions {
 
 struct Learned {
   Hyperparameters values;
-  double log_posterior = 0.0;    ///< log likelihood plus log priors, up to the priors' constants
-  double signal_evidence = 0.0;  ///< log likelihood ratio of this field to noise alone around a constant
+  double log_posterior = 0.0;  ///< log likelihood plus log priors, up to the priors' constants
+  double signal_evidence =
+      0.0;  ///< log likelihood ratio of this field to noise alone around a constant, or a plane where the prior has a slope
 };
 
 /// `prior` says metric, kernel family and constant; its hyperparameters are where the search starts. Readings that are set aside do not
