@@ -10,7 +10,6 @@
 #include "exploration/lag_fit.h"
 #include "palpation/base/error.h"
 #include "palpation/certainty/edge_profile.h"
-#include "palpation/certainty/expected_error.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
 
@@ -69,7 +68,7 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
       marginals_(belief_.at_vertices()) {
   require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
   require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches), "must not be negative");
-  require(plan_.stop_error_m2 >= 0.0, "Plan", "stop_error_m2 = " + text_of(plan_.stop_error_m2), "must not be negative or NaN");
+  check(plan_.stop);
   require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule", "fraction = " + text_of(level_rule_.fraction),
           "must lie in (0, 1)");
   for (int vertex : reach.vertices) {
@@ -121,6 +120,11 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(marginals_);
     level_ = is_flat ? std::nullopt : std::optional(estimated_level());
   }
+  certainty_.reset();
+  if (level_ && belief_.site_count() > 0) {
+    certainty_ = certainty_of(surface_, belief_, marginals_, *level_, plan_.stop.band_probability);
+    expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
+  }
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
 }
@@ -170,15 +174,24 @@ void Exploration::plan_next() {
     stop_reason_ = "budget";
     return;
   }
-  if (plan_.stop_error_m2 > 0.0 && level_ && contrast_seen_ && belief_.site_count() > 0 &&
-      expected_error(surface_, marginals_, *level_).symmetric_difference_m2() <= plan_.stop_error_m2) {
-    stop_reason_ = "expected error";
-    return;
-  }
+  stop_reason_ = reason_to_stop();
+  if (!stop_reason_.empty()) return;
   Belief believed = belief_;
   if (!contrast_seen_) believed = unlearned(surface_, field_).condition_on(belief_.palpations());
   next_ = in_tour_order(choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), plan_.batch).vertices);
   if (next_.empty()) stop_reason_ = "nothing left to touch";
+  if (contrast_seen_ && certainty_ && gains_too_little(plan_.stop, expected_errors_m2_, *certainty_, surface_, belief_, *level_, next_)) {
+    next_.clear();
+    stop_reason_ = "nothing to gain";
+  }
+}
+
+/// By how sure the boundary is; the rest of the reasons show when the next batch is planned.
+std::string Exploration::reason_to_stop() const {
+  if (!contrast_seen_ || !certainty_) return "";
+  if (certainty_->expected.symmetric_difference_m2() <= plan_.stop.error_m2 && plan_.stop.error_m2 > 0.0) return "expected error";
+  if (certainty_->half_width_m > 0.0 && certainty_->half_width_m <= plan_.stop.band_m) return "band";
+  return "";
 }
 
 }  // namespace palpation

@@ -103,7 +103,7 @@ Run run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
   run.warnings = boundary_remarks(episode).size();
   run.found = !episode.estimate.empty() && exploration.level().has_value();
   if (!run.found) return run;
-  const Certainty certainty = certainty_of(surface, exploration.belief(), exploration.marginals(), *exploration.level(), kProbability);
+  const Certainty certainty = certainty_of(surface, exploration.belief(), exploration.component(), *exploration.level(), kProbability);
   run.covered = covers(surface, certainty, world);
   run.half_width_m = certainty.half_width_m;
   run.expected_m2 = certainty.expected.symmetric_difference_m2();

@@ -208,7 +208,10 @@ Plan plan_of(const Scene& scene) {
   plan.batch.size = scene.integer("plan.batch");
   plan.batch.least_spacing_m = scene.metres("plan.least_spacing_mm");
   plan.batches = scene.integer("plan.batches");
-  plan.stop_error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6;
+  plan.stop = {.error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6,
+               .band_m = scene.metres("plan.stop.band_mm"),
+               .least_gain = scene.number("plan.stop.least_gain"),
+               .band_probability = scene.number("band.probability")};
   plan.safe_start = scene.truth("plan.safe_start");
   return plan;
 }

@@ -126,7 +126,7 @@ TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
 TEST(Exploration, StopsAtTheExpectedErrorThatWasAskedFor) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.02);
-  Exploration exploration(tissue, {}, {.known = 8.0}, {.acquisition = straddle(), .batches = 40, .stop_error_m2 = 10e-6}, 1);
+  Exploration exploration(tissue, {}, {.known = 8.0}, {.acquisition = straddle(), .batches = 40, .stop = {.error_m2 = 10e-6}}, 1);
   Random random(1);
   run(exploration, probe_of(phantom, random));
   EXPECT_EQ(exploration.stop_reason(), "expected error");

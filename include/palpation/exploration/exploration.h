@@ -16,9 +16,11 @@
 #include "palpation/belief/hyperparameters.h"
 #include "palpation/belief/lag.h"
 #include "palpation/belief/level.h"
+#include "palpation/certainty/certainty.h"
 #include "palpation/decision/acquisition.h"
 #include "palpation/decision/batch.h"
 #include "palpation/decision/design.h"
+#include "palpation/exploration/stopping.h"
 
 namespace palpation {
 
@@ -41,6 +43,9 @@ struct FieldModel {
   bool learn_noise = true;
   double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
   LagModel lag{};
+  /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are touched, and until then nothing is
+  /// concluded. Level and boundary are of the field without it.
+  bool linear_trend = false;
 
   bool learns() const { return learn_length || learn_signal || learn_noise; }
 };
@@ -61,8 +66,8 @@ struct Plan {
   Design initial = Design::Grid;
   int initial_count = 16;
   BatchOptions batch{.least_spacing_m = 0.0005};
-  int batches = 9;             ///< after the initial one
-  double stop_error_m2 = 0.0;  ///< stop once the expected symmetric difference is no larger; 0: never
+  int batches = 9;  ///< after the initial one
+  StopRule stop{};
   /// Explore by variance alone until the readings show contrast: for learned fields, which five readings of healthy tissue would teach that
   /// noise is all.
   bool safe_start = true;
@@ -89,7 +94,7 @@ class Exploration {
   /// Takes up readings that were made elsewhere or before: nothing is concluded from planned stops that are not among them.
   void take_up(std::span<const Palpation> palpations);
 
-  /// Why next() is empty: "budget", "expected error", "nothing left to touch"; empty while it is not.
+  /// Why next() is empty: "budget", "expected error", "band", "nothing to gain", "nothing left to touch"; empty while it is not.
   const std::string& stop_reason() const { return stop_reason_; }
 
   const Surface& surface() const { return surface_; }
@@ -97,10 +102,16 @@ class Exploration {
   const std::vector<Palpation>& palpations() const { return palpations_; }
   /// Knows the same readings, where a lag is modelled at the places where they belong.
   const Belief& belief() const { return belief_; }
+  /// The whole field: its variance is what touches are planned by.
   const Marginals& marginals() const { return marginals_; }
+  /// The field without its slope, which level and boundary are of: equal to marginals() where no trend is modelled.
+  const Marginals& component() const { return component_; }
   /// The level as it is estimated now; nothing before the readings show contrast, nor while they are all alike, unless it is known: the
   /// range of noise is no level.
   const std::optional<Level>& level() const { return level_; }
+  /// How sure the boundary is, its band with the probability that the plan's stop rule names; nothing where there is no level or no
+  /// reading.
+  const std::optional<Certainty>& certainty() const { return certainty_; }
   /// What the next batch maximizes, at the vertices.
   Field acquisition_field() const;
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
@@ -112,6 +123,8 @@ class Exploration {
   void learn_from(std::span<const Palpation> palpations);
   Level estimated_level() const;
   void plan_next();
+  std::string reason_to_stop() const;
+  bool trend_is_missing() const;
   Acquisition acquisition_in_force() const;
   std::vector<int> in_tour_order(std::vector<int> stops) const;
   std::vector<int> candidates() const;
@@ -127,7 +140,10 @@ class Exploration {
   std::vector<Palpation> palpations_;
   Belief belief_;
   Marginals marginals_;
+  Marginals component_;
   std::optional<Level> level_;
+  std::optional<Certainty> certainty_;
+  std::vector<double> expected_errors_m2_;  // after each batch with a level
   Hyperparameters learned_;
   std::optional<Lag> lag_;
   bool contrast_seen_ = false;
