@@ -128,7 +128,7 @@ Level level_from_edge(const Surface& surface, const Belief& belief, const Margin
   std::vector<EdgeReading> readings;
   std::vector<SurfacePoint> points;
   std::vector<Vec3> places;
-  for (const Palpation& palpation : belief.palpations()) {
+  for (const Palpation& palpation : belief.detrended_palpations()) {
     if (!palpation.set_aside.empty()) continue;
     readings.push_back({0.0, palpation.reading, std::isnan(palpation.noise_variance) ? belief.noise_variance() : palpation.noise_variance});
     points.push_back(palpation.where);
@@ -137,7 +137,7 @@ Level level_from_edge(const Surface& surface, const Belief& belief, const Margin
   if (readings.empty() || !(range > 0.0)) return level;
   // Readings without noise still scatter about the profile: as much as the model of the edge is wrong, a hundredth of the range.
   for (EdgeReading& reading : readings) reading.variance = std::max(reading.variance, 1e-4 * range * range);
-  const Eigen::VectorXd mean = belief.at(points).mean;
+  const Eigen::VectorXd mean = belief.at(points, Part::Detrended).mean;
   const EdgePrior prior{.plateau = 0.5 * (marginals.mean.maxCoeff() + marginals.mean.minCoeff()), .plateau_sd = range};
   for (int round = 0; round < kMostRounds; ++round) {
     const std::vector<double> distances = distances_from(surface, level_loops(surface, marginals.mean, level.value), places);

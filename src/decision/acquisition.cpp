@@ -86,9 +86,15 @@ double PointwiseScorer::operator()(double mean, double variance) const {
   return result;
 }
 
+Marginals planning_marginals(const Belief& belief) {
+  Marginals marginals = belief.at_vertices();
+  if (belief.prior().has_slope()) marginals.mean = belief.at_vertices(Part::Detrended).mean;
+  return marginals;
+}
+
 Field score(const Acquisition& acquisition, const Belief& belief, const Level& level) {
   if (const auto* whole = std::get_if<Whole>(&acquisition)) return whole->scores(belief, level);
-  const Marginals marginals = belief.at_vertices();
+  const Marginals marginals = planning_marginals(belief);
   std::vector<int> all(static_cast<std::size_t>(marginals.mean.size()));
   std::iota(all.begin(), all.end(), 0);
   const PointwiseScorer scorer(std::get<Pointwise>(acquisition), level, marginals, all);

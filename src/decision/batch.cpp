@@ -220,7 +220,7 @@ Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const L
   const auto& pointwise = std::get<Pointwise>(acquisition);
   require(options.evaluation != Evaluation::Lazy || pointwise.grows_with_stddev, "choose_batch", "lazy evaluation",
           "needs an acquisition that grows with stddev");
-  const Marginals marginals = belief.at_vertices();
+  const Marginals marginals = planning_marginals(belief);
   const PointwiseScorer scorer(pointwise, level, marginals, candidates);
   Search search{scorer, marginals.mean, LookAhead(belief, marginals.variance), std::move(allowed)};
   const bool lazy = options.evaluation == Evaluation::Lazy ||

@@ -7,6 +7,10 @@
 
 namespace palpation {
 
+/// What touches are planned by: the variance of the whole field, but where it has a slope the mean without it, since the level is of that.
+/// The variance without it is no measure of what a touch would tell: constant and slope, which no touch tells apart alone, flood it.
+Marginals planning_marginals(const Belief& belief);
+
 class PointwiseScorer {
  public:
   /// Keeps a reference to the acquisition.

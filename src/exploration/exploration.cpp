@@ -65,7 +65,8 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
       reachable_(static_cast<std::size_t>(surface_.vertex_count()), reach.vertices.empty()),
       touch_once_(reach.touch_once || (!field_.learn_noise && field_.belief.noise_sd == 0.0)),
       belief_(unlearned(surface_, field_)),
-      marginals_(belief_.at_vertices()) {
+      marginals_(belief_.at_vertices()),
+      component_(marginals_) {
   require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
   require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches), "must not be negative");
   check(plan_.stop);
@@ -110,19 +111,23 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;
-    if (!contrast_seen_) contrast_seen_ = shows_contrast(used_readings(all), fit.field.signal_evidence);
+    if (!contrast_seen_ && !trend_is_missing())
+      contrast_seen_ = shows_contrast(used_readings(field_.linear_trend ? belief_.detrended_palpations() : all), fit.field.signal_evidence);
+  } else if (trend_is_missing()) {
+    belief_ = fixed_field(surface_, field_, all);
   } else {
     belief_ = belief_.condition_on(palpations);
   }
   palpations_ = std::move(all);
   marginals_ = belief_.at_vertices();
-  if (belief_.site_count() > 0 && contrast_seen_ && !level_rule_.known) {
-    const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(marginals_);
+  component_ = field_.linear_trend ? belief_.at_vertices(Part::Detrended) : marginals_;
+  if (belief_.site_count() > 0 && contrast_seen_ && !trend_is_missing() && !level_rule_.known) {
+    const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(component_);
     level_ = is_flat ? std::nullopt : std::optional(estimated_level());
   }
   certainty_.reset();
   if (level_ && belief_.site_count() > 0) {
-    certainty_ = certainty_of(surface_, belief_, marginals_, *level_, plan_.stop.band_probability);
+    certainty_ = certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
   }
   if (!palpations.empty()) probe_ = palpations.back().where;
@@ -130,13 +135,17 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
 }
 
 Level Exploration::estimated_level() const {
-  if (level_rule_.estimate == LevelEstimate::Edge) return level_from_edge(surface_, belief_, marginals_, level_rule_.fraction);
-  return level_from_range(marginals_, level_rule_.fraction);
+  if (level_rule_.estimate == LevelEstimate::Edge) return level_from_edge(surface_, belief_, component_, level_rule_.fraction);
+  return level_from_range(component_, level_rule_.fraction);
 }
+
+bool Exploration::trend_is_missing() const { return field_.linear_trend && !belief_.prior().has_slope(); }
 
 /// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length
 /// instead.
-Acquisition Exploration::acquisition_in_force() const { return contrast_seen_ && level_ ? plan_.acquisition : Acquisition(evr()); }
+Acquisition Exploration::acquisition_in_force() const {
+  return contrast_seen_ && level_ && !trend_is_missing() ? plan_.acquisition : Acquisition(evr());
+}
 
 std::vector<int> Exploration::candidates() const {
   std::vector<int> vertices;

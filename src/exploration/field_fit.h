@@ -10,6 +10,9 @@ namespace palpation {
 /// A belief to start from: what is learned has no value yet, so the priors' medians stand in.
 Belief unlearned(const Surface& surface, const FieldModel& field);
 
+/// A belief of fixed hyperparameters from all readings, with the slope where it is modelled and may join.
+Belief fixed_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations);
+
 /// The readings that are not set aside.
 std::vector<double> used_readings(std::span<const Palpation> palpations);
 
@@ -18,7 +21,7 @@ bool all_equal(const std::vector<double>& readings);
 struct FieldFit {
   Belief belief;
   Hyperparameters learned;
-  double signal_evidence = 0.0;  ///< log likelihood ratio of this field to noise alone around a constant
+  double signal_evidence = 0.0;  ///< log likelihood ratio of this field to noise alone around a constant, or around a plane
 };
 
 /// A new belief with the hyperparameters that the readings teach, searched from `start`; from fewer than two places, or readings that are

@@ -12,7 +12,7 @@ FieldFit fit_at(const Surface& surface, const FieldModel& field, std::span<const
                 double lag_m) {
   const std::vector<Palpation> moved = displaced(surface, palpations, lag_m);
   if (field.learns()) return fit_field(surface, field, moved, start);
-  return {unlearned(surface, field).condition_on(moved), start};
+  return {fixed_field(surface, field, moved), start};
 }
 
 Hyperparameters in_force(const Belief& belief) {
@@ -23,7 +23,7 @@ Hyperparameters in_force(const Belief& belief) {
 Prior for_lag(const Belief& belief) {
   const Prior& prior = belief.prior();
   if (std::isinf(prior.constant().sd)) return prior;
-  return Prior(prior.surface(), prior.metric(), prior.kernel());
+  return Prior(prior.surface(), prior.metric(), prior.kernel(), {}, prior.slope());
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ void restate(Episode& episode) {
     if (exploration.level()) {
       const Level level = *exploration.level();
       row.level = level.value;
-      row.expected_error_m2 = expected_error(exploration.surface(), exploration.marginals(), level).symmetric_difference_m2();
-      episode.estimate = superlevel_region(exploration.surface(), exploration.marginals().mean, level.value);
+      row.expected_error_m2 = expected_error(exploration.surface(), exploration.component(), level).symmetric_difference_m2();
+      episode.estimate = superlevel_region(exploration.surface(), exploration.component().mean, level.value);
     }
     if (episode.truth) episode.error = compare(exploration.surface(), episode.estimate, *episode.truth);
     row.error = episode.error;
@@ -203,8 +203,9 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
 Snapshot snapshot(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Marginals& marginals = exploration.marginals();
-  Snapshot now{marginals.mean, marginals.variance.cwiseSqrt(), exploration.acquisition_field(), {}};
-  if (exploration.level()) now.probability_inside = probability_inside(marginals, *exploration.level());
+  Snapshot now{marginals.mean, marginals.variance.cwiseSqrt(), exploration.acquisition_field(), {}, {}};
+  if (exploration.belief().prior().has_slope()) now.mean_detrended = exploration.component().mean;
+  if (exploration.level()) now.probability_inside = probability_inside(exploration.component(), *exploration.level());
   return now;
 }
 

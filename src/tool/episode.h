@@ -29,6 +29,7 @@ struct World {
 /// The state after a batch.
 struct Snapshot {
   Field mean, stddev, acquisition, probability_inside;  ///< the last one empty while there is no level
+  Field mean_detrended{};                               ///< empty where no trend is modelled
 };
 
 struct Episode {

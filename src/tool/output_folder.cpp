@@ -110,6 +110,7 @@ using NamedFields = std::vector<std::pair<std::string, Field>>;
 NamedFields fields_of(const Episode& episode, const World* world) {
   const Snapshot now = snapshot(episode);
   NamedFields fields{{"mean", now.mean}, {"stddev", now.stddev}, {"acquisition", now.acquisition}};
+  if (now.mean_detrended.size() > 0) fields.emplace_back("mean_detrended", now.mean_detrended);
   if (now.probability_inside.size() > 0) fields.emplace_back("probability_inside", now.probability_inside);
   if (world != nullptr) fields.emplace_back("truth", world->truth);
   return fields;
@@ -191,7 +192,7 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
     curves.insert(curves.end(), more.begin(), more.end());
   };
   if (episode.exploration.level() && episode.exploration.belief().site_count() > 0) {
-    add(episode.exploration.marginals().mean, episode.exploration.level()->value, CurveKind::Estimate);
+    add(episode.exploration.component().mean, episode.exploration.level()->value, CurveKind::Estimate);
   }
   if (world != nullptr) add(world->truth, world->true_level, CurveKind::Truth);
   write_boundary_vtp(folder_ / "boundary.vtp", surface_, curves);

@@ -129,7 +129,9 @@ std::vector<SceneKey> make_scene_keys() {
              "what a learned length is likely to be: the median of a lognormal prior (spread 0.4)"),
       number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
              "period of the periodic kernel, the same along both axes; needed with it, and without effect on others"),
-      word("field.trend", {"zero", "constant"}, "constant", "mean of the field before any reading"),
+      word("field.trend", {"zero", "constant", "linear"}, "constant",
+           "mean of the field before any reading; linear: a constant and a slope, which a tilt of the tissue or a drifting sensor adds: "
+           "level and boundary are of the field without it"),
       or_zero(number("field.constant_sd", "reading", kLeastReading, kMostReading, nullptr,
                      "how well that constant is known beforehand (as signal_sd); left out: not at all; without effect on a trend of zero")),
       truth("field.standardize", true,

@@ -181,6 +181,7 @@ FieldModel field_of(const Scene& scene) {
     field.belief.noise_sd = scene.number("field.noise");
   }
   field.length_median_m = scene.metres("field.length_prior_mm");
+  field.linear_trend = scene.word("field.trend") == "linear";
   if (scene.word("field.trend") == "zero")
     field.constant.sd = 0.0;
   else if (scene.has("field.constant_sd"))

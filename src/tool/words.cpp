@@ -20,10 +20,12 @@ std::string reading_text(double value) {
   return text.data();
 }
 
+std::string no_level_words(const Exploration& exploration) { return exploration.trend_is_missing() ? kTooFewForTrend : kNoContrast; }
+
 std::string found_words(const Episode& episode) {
   const std::vector<PolygonWithHoles> parts = episode.estimate.polygons();
   if (episode.exploration.belief().site_count() == 0) return "No reading yet, so nothing is known.\n";
-  if (!episode.exploration.level()) return std::string(kNoContrast) + "\n";
+  if (!episode.exploration.level()) return no_level_words(episode.exploration) + "\n";
   const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
   std::string words =
@@ -53,9 +55,9 @@ std::string fixed(double value, int digits) {
 std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   if (exploration.belief().site_count() == 0) return {};
-  if (!exploration.level()) return {kNoContrast};
+  if (!exploration.level()) return {no_level_words(exploration)};
   std::vector<std::string> remarks =
-      remarks_on_level_set(exploration.surface(), exploration.marginals().mean, exploration.level()->value).words();
+      remarks_on_level_set(exploration.surface(), exploration.component().mean, exploration.level()->value).words();
   for (std::string& remark : remarks) remark += '.';
   return remarks;
 }

@@ -116,6 +116,8 @@ class Exploration {
   Field acquisition_field() const;
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
+  /// Whether a trend is modelled, but too few places are touched yet to tell a tumour from a tilt.
+  bool trend_is_missing() const;
   /// The lag in use; nothing where none is modelled, or it is to be learned and no reading tells.
   const std::optional<Lag>& lag() const { return lag_; }
 
@@ -124,7 +126,6 @@ class Exploration {
   Level estimated_level() const;
   void plan_next();
   std::string reason_to_stop() const;
-  bool trend_is_missing() const;
   Acquisition acquisition_in_force() const;
   std::vector<int> in_tour_order(std::vector<int> stops) const;
   std::vector<int> candidates() const;
