@@ -171,6 +171,8 @@ std::string name_of(CurveKind kind) {
       return "band_inner";
     case CurveKind::BandOuter:
       return "band_outer";
+    case CurveKind::Cut:
+      return "cut";
   }
   throw InvalidInput("name_of: curve kind " + std::to_string(static_cast<int>(kind)) + " does not exist");
 }

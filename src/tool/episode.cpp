@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "palpation/base/error.h"
-#include "palpation/certainty/expected_error.h"
 #include "palpation/decision/baseline.h"
 #include "palpation/geometry/path.h"
 #include "tool/setup.h"
@@ -27,7 +26,7 @@ void restate(Episode& episode) {
     if (exploration.level()) {
       const Level level = *exploration.level();
       row.level = level.value;
-      row.expected_error_m2 = expected_error(exploration.surface(), exploration.component(), level).symmetric_difference_m2();
+      row.expected_error_m2 = exploration.certainty()->expected.symmetric_difference_m2();
       episode.estimate = superlevel_region(exploration.surface(), exploration.component().mean, level.value);
     }
     if (episode.truth) episode.error = compare(exploration.surface(), episode.estimate, *episode.truth);
@@ -37,8 +36,9 @@ void restate(Episode& episode) {
 }
 
 Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach reach) {
-  return Episode{.exploration =
-                     Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach))};
+  return Episode{
+      .exploration = Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach)),
+      .cut_risk = scene.number("band.cut_risk")};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
@@ -203,9 +203,12 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
 Snapshot snapshot(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Marginals& marginals = exploration.marginals();
-  Snapshot now{marginals.mean, marginals.variance.cwiseSqrt(), exploration.acquisition_field(), {}, {}};
+  Snapshot now{marginals.mean, marginals.variance.cwiseSqrt(), exploration.acquisition_field(), {}, {}, {}};
   if (exploration.belief().prior().has_slope()) now.mean_detrended = exploration.component().mean;
-  if (exploration.level()) now.probability_inside = probability_inside(exploration.component(), *exploration.level());
+  if (exploration.certainty()) {
+    now.score = exploration.certainty()->score;
+    now.probability_inside = exploration.certainty()->probability_inside();
+  }
   return now;
 }
 

@@ -28,8 +28,9 @@ struct World {
 
 /// The state after a batch.
 struct Snapshot {
-  Field mean, stddev, acquisition, probability_inside;  ///< the last one empty while there is no level
-  Field mean_detrended{};                               ///< empty where no trend is modelled
+  Field mean, stddev, acquisition;
+  Field score{}, probability_inside{};  ///< of certainty.h; empty while there is no level
+  Field mean_detrended{};               ///< empty where no trend is modelled
 };
 
 struct Episode {
@@ -41,6 +42,7 @@ struct Episode {
   std::vector<int> stops{};         ///< all planned stops, in the order of travel
   std::vector<SurfacePoint> way{};  ///< the places between them
   double path_m = 0.0;
+  double cut_risk = 0.05;               ///< of the cut line
   std::vector<double> batch_seconds{};  ///< planning and updating, the boundary and its error included
 };
 

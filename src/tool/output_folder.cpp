@@ -16,6 +16,7 @@
 #include "palpation/io/wkt.h"
 #include "palpation/io/write_vtp.h"
 #include "tool/boundary_curves.h"
+#include "tool/parts.h"
 #include "tool/setup.h"
 #include "tool/words.h"
 
@@ -53,28 +54,39 @@ json error_json(const RegionError& error, double search_area_m2) {
           {"mean_distance_mm", maybe(error.mean_distance_m, kMm)}};
 }
 
-/// Area, centroid and extent of one polygon, in chart millimetres.
-json part_json(const PolygonWithHoles& polygon) {
-  double twice_area = 0.0;
-  Vec2 moment = Vec2::Zero();
-  const Vec2 origin = polygon.outer.front();
-  Vec2 least = origin, most = origin;
-  const auto add = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 a = ring[i] - origin;
-      const Vec2 b = ring[(i + 1) % ring.size()] - origin;
-      const double cross = a.x() * b.y() - a.y() * b.x();
-      twice_area += cross;
-      moment += cross * (a + b) / 3.0;
-      least = least.cwiseMin(ring[i]);
-      most = most.cwiseMax(ring[i]);
-    }
-  };
-  add(polygon.outer);
-  for (const Ring& hole : polygon.holes) add(hole);
-  const Vec2 centroid = (origin + moment / twice_area) * kMm;
-  const Vec2 extent = (most - least) * kMm;
-  return {{"area_mm2", 0.5 * twice_area * kMm2}, {"centroid_mm", {centroid.x(), centroid.y()}}, {"extent_mm", {extent.x(), extent.y()}}};
+json pair_mm(const Vec2& place_m) { return {place_m.x() * kMm, place_m.y() * kMm}; }
+
+/// One part or hole, in chart millimetres.
+json place_json(const TumourPart& part) {
+  return {{"area_mm2", std::abs(part.area_m2) * kMm2},
+          {"centroid_mm", pair_mm(part.centroid_m)},
+          {"extent_mm", pair_mm(part.most_m - part.least_m)}};
+}
+
+json part_json(const TumourPart& part) {
+  json result = place_json(part);
+  result["probability"] = part.probability;
+  result["touches_border"] = part.touches_border;
+  result["holes"] = json::array();
+  for (const Ring& hole : part.polygon.holes) result["holes"].push_back(place_json(measured(hole)));
+  return result;
+}
+
+/// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is known of a boundary.
+void add_certainty(json& summary, const Episode& episode, double cut_risk) {
+  for (const char* key : {"expected_missed_mm2", "expected_extra_mm2", "band", "cut"}) summary[key] = nullptr;
+  const std::optional<Certainty>& certainty = episode.exploration.certainty();
+  if (!certainty) return;
+  const Surface& surface = episode.exploration.surface();
+  const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
+  summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
+  summary["expected_extra_mm2"] = certainty->expected.extra_m2 * kMm2;
+  summary["band"] = {{"probability", certainty->probability},
+                     {"score", q},
+                     {"half_width_mm", certainty->half_width_m * kMm},
+                     {"inner_area_mm2", superlevel_area(surface, certainty->score, q) * kMm2},
+                     {"outer_area_mm2", superlevel_area(surface, certainty->score, -q) * kMm2}};
+  summary["cut"] = {{"risk", cut_risk}, {"score", cut}, {"area_mm2", superlevel_area(surface, certainty->score, cut) * kMm2}};
 }
 
 std::string cell(const std::optional<double>& value, double factor = 1.0) { return value ? text_of(*value * factor) : ""; }
@@ -111,7 +123,10 @@ NamedFields fields_of(const Episode& episode, const World* world) {
   const Snapshot now = snapshot(episode);
   NamedFields fields{{"mean", now.mean}, {"stddev", now.stddev}, {"acquisition", now.acquisition}};
   if (now.mean_detrended.size() > 0) fields.emplace_back("mean_detrended", now.mean_detrended);
-  if (now.probability_inside.size() > 0) fields.emplace_back("probability_inside", now.probability_inside);
+  if (now.score.size() > 0) {
+    fields.emplace_back("score", now.score);
+    fields.emplace_back("probability_inside", now.probability_inside);
+  }
   if (world != nullptr) fields.emplace_back("truth", world->truth);
   return fields;
 }
@@ -150,7 +165,7 @@ void OutputFolder::write_step(const Episode& episode, const World* world) {
 json OutputFolder::summary(const Episode& episode) const {
   const Exploration& exploration = episode.exploration;
   json parts = json::array();
-  for (const PolygonWithHoles& polygon : episode.estimate.polygons()) parts.push_back(part_json(polygon));
+  for (const TumourPart& part : parts_of(episode)) parts.push_back(part_json(part));
   const std::optional<Level>& level = exploration.level();
   std::vector<std::string> warnings = warnings_;
   const std::vector<std::string> remarks = boundary_remarks(episode);
@@ -180,6 +195,7 @@ json OutputFolder::summary(const Episode& episode) const {
     result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
     result["lag_sd_mm"] = exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
   }
+  add_certainty(result, episode, scene_.number("band.cut_risk"));
   if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
   return result;
 }
@@ -193,6 +209,11 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
   };
   if (episode.exploration.level() && episode.exploration.belief().site_count() > 0) {
     add(episode.exploration.component().mean, episode.exploration.level()->value, CurveKind::Estimate);
+  }
+  if (const std::optional<Certainty>& certainty = episode.exploration.certainty()) {
+    add(certainty->score, certainty->band_score, CurveKind::BandInner);
+    add(certainty->score, -certainty->band_score, CurveKind::BandOuter);
+    add(certainty->score, Certainty::cut_score(scene_.number("band.cut_risk")), CurveKind::Cut);
   }
   if (world != nullptr) add(world->truth, world->true_level, CurveKind::Truth);
   write_boundary_vtp(folder_ / "boundary.vtp", surface_, curves);

@@ -5,9 +5,13 @@
 #include <cstdio>
 
 #include "palpation/boundary/level_remarks.h"
+#include "tool/parts.h"
 
 namespace palpation::tool {
 namespace {
+
+/// Below this probability a part is told as one that may not exist.
+constexpr double kSure = 0.95;
 
 std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
@@ -22,26 +26,54 @@ std::string reading_text(double value) {
 
 std::string no_level_words(const Exploration& exploration) { return exploration.trend_is_missing() ? kTooFewForTrend : kNoContrast; }
 
+std::string percent(double probability) {
+  const double value = 100.0 * probability;
+  return fixed(value, value > 99.0 && value < 100.0 ? 1 : 0) + " %";
+}
+
+std::string part_words(const TumourPart& part) {
+  const Vec2 size = (part.most_m - part.least_m) * 1e3;
+  const Vec2 middle = (part.most_m + part.least_m) * 500.0;
+  std::string words =
+      "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around (" + fixed(middle.x(), 1) + ", " + fixed(middle.y(), 1) + ") mm";
+  if (!part.polygon.holes.empty()) words += ", with " + counted(part.polygon.holes.size(), "hole");
+  if (part.touches_border) words += ", reaching the border of the tissue";
+  if (part.probability < kSure) words += ", tumour with probability " + percent(part.probability) + " only";
+  return words + "\n";
+}
+
+/// What a surgeon asks: how far off the line may be, and where to cut.
+std::string band_words(const Certainty& certainty, const Surface& surface, double cut_risk) {
+  const double inner = superlevel_area(surface, certainty.score, certainty.band_score) * 1e6;
+  const double outer = superlevel_area(surface, certainty.score, -certainty.band_score) * 1e6;
+  const double cut = superlevel_area(surface, certainty.score, Certainty::cut_score(cut_risk)) * 1e6;
+  return "With probability " + percent(certainty.probability) + " the whole outline lies in a band around this line, " +
+         fixed(certainty.half_width_m * 1e3, 2) + " mm to either side on average: " + fixed(inner, 1) + " mm2 lie inside of the band, " +
+         fixed(outer, 1) +
+         " mm2 within its outer curve.\nExpected to be wrong: " + fixed(certainty.expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
+         fixed(certainty.expected.missed_m2 * 1e6, 1) + " missed and " + fixed(certainty.expected.extra_m2 * 1e6, 1) +
+         " extra. To leave tumour at no place with more than " + percent(cut_risk) + " risk, cut around " + fixed(cut, 1) + " mm2.\n";
+}
+
 std::string found_words(const Episode& episode) {
-  const std::vector<PolygonWithHoles> parts = episode.estimate.polygons();
   if (episode.exploration.belief().site_count() == 0) return "No reading yet, so nothing is known.\n";
-  if (!episode.exploration.level()) return no_level_words(episode.exploration) + "\n";
+  if (!episode.exploration.level()) return std::string(kNoContrast) + "\n";
+  const std::vector<TumourPart> parts = parts_of(episode);
   const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
   std::string words =
       "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
-  for (const PolygonWithHoles& part : parts) {
-    Vec2 least = part.outer.front(), most = part.outer.front();
-    for (const Vec2& corner : part.outer) {
-      least = least.cwiseMin(corner);
-      most = most.cwiseMax(corner);
-    }
-    const Vec2 size = (most - least) * 1e3;
-    const Vec2 middle = (most + least) * 500.0;
-    words += "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around (" + fixed(middle.x(), 1) + ", " + fixed(middle.y(), 1) +
-             ") mm" + (part.holes.empty() ? "" : ", with " + counted(part.holes.size(), "hole")) + "\n";
-  }
-  return words;
+  for (const TumourPart& part : parts) words += part_words(part);
+  return words + band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
+}
+
+std::string stop_words(const std::string& reason) {
+  if (reason == "budget") return "Stopped because all planned batches are done.\n";
+  if (reason == "expected error") return "Stopped because the expected wrong area is small enough.\n";
+  if (reason == "band") return "Stopped because the band is narrow enough.\n";
+  if (reason == "nothing to gain") return "Stopped because more readings would change little.\n";
+  if (reason == "nothing left to touch") return "Stopped because no place is left to touch.\n";
+  return "";
 }
 
 }  // namespace
@@ -59,6 +91,18 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   std::vector<std::string> remarks =
       remarks_on_level_set(exploration.surface(), exploration.component().mean, exploration.level()->value).words();
   for (std::string& remark : remarks) remark += '.';
+  const std::vector<TumourPart> parts = parts_of(episode);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].probability < kSure)
+      remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) + " is tumour with probability " +
+                        percent(parts[i].probability) + " only.");
+    if (parts[i].touches_border)
+      remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
+                        " reaches the border of the tissue, beyond which it may go on.");
+  }
+  const std::optional<Certainty>& certainty = exploration.certainty();
+  if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
+    remarks.push_back("No place is tumour as good as surely: the band has no inner curve.");
   return remarks;
 }
 
@@ -91,7 +135,9 @@ std::string episode_words(const Episode& episode) {
   const std::size_t readings = episode.exploration.palpations().size();
   std::string words = counted(readings, "reading");
   if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
-  words += ".\n" + found_words(episode);
+  words += ".\n";
+  if (!episode.stops.empty()) words += stop_words(episode.exploration.stop_reason());
+  words += found_words(episode);
   if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area());
   return words;
 }

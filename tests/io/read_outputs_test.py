@@ -21,7 +21,7 @@ except ImportError:
     sys.exit(77)
 
 FIELDS = ["mean", "stddev", "acquisition"]  # probability_inside and truth only where they are known
-KINDS = {0: "estimate", 1: "truth", 2: "band_inner", 3: "band_outer"}
+KINDS = {0: "estimate", 1: "truth", 2: "band_inner", 3: "band_outer", 4: "cut"}
 
 
 class Faults:

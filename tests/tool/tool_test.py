@@ -89,6 +89,44 @@ class Tool(unittest.TestCase):
         self.assertEqual(len((out / "trace.csv").read_text().splitlines()), 1 + 5)
         self.assertEqual(len((out / "waypoints.csv").read_text().splitlines()), 1 + 56)
 
+    def summary_of(self, command, *arguments):
+        out = self.folder / "other"
+        self.done(command, self.scene, "--out", out, "--quiet", *arguments)
+        return (out / "summary.json").read_text()
+
+    def test_the_band_lies_around_the_boundary(self):
+        out = self.folder / "out"
+        words = self.done("simulate", self.scene, "--out", out)
+        self.assertIn("With probability 95 % the whole outline lies in a band", words)
+        summary = json.loads((out / "summary.json").read_text())
+        band, cut = summary["band"], summary["cut"]
+        self.assertEqual((band["probability"], cut["risk"]), (0.95, 0.05))
+        self.assertLess(band["inner_area_mm2"], summary["area_mm2"])
+        self.assertLess(summary["area_mm2"], cut["area_mm2"])
+        self.assertLess(cut["area_mm2"], band["outer_area_mm2"])
+        self.assertGreater(band["half_width_mm"], 0.0)
+        self.assertAlmostEqual(summary["expected_missed_mm2"] + summary["expected_extra_mm2"], summary["expected_error_mm2"], delta=1e-9)
+        (part,) = summary["parts"]
+        self.assertGreater(part["probability"], 0.99)
+        self.assertEqual((part["holes"], part["touches_border"]), ([], False))
+        narrow = json.loads(self.summary_of("simulate", "--set", "band.probability=0.5", "--set", "band.cut_risk=0.4"))
+        self.assertLess(narrow["band"]["half_width_mm"], band["half_width_mm"])
+        self.assertLess(narrow["cut"]["area_mm2"], cut["area_mm2"])
+
+    def test_a_tumour_at_the_border_is_found_scored_and_told(self):
+        out = self.folder / "out"
+        disk = '[{"shape": "disk", "centre_mm": [25, 25, 0], "radius_mm": 6}]'
+        words = self.done("simulate", self.scene, "--set", f"probe.tumours={disk}", "--out", out)
+        self.assertIn("reaching the border", words)
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertTrue(summary["parts"][0]["touches_border"])
+        self.assertGreater(summary["error"]["dice"], 0.8)
+        self.assertTrue(any("reaches the border" in warning for warning in summary["warnings"]))
+
+    def test_a_stop_has_its_reason_in_words(self):
+        words = self.done("simulate", self.scene, "--set", "plan.stop.band_mm=3", "--set", "plan.batches=12", "--set", "level.estimate=edge")
+        self.assertIn("Stopped because the band is narrow enough.", words)
+
     def test_healthy_tissue_holds_nothing(self):
         out = self.folder / "healthy"
         words = self.done("simulate", self.scene, "--set", "probe.tumours=[]", "--out", out)

@@ -21,9 +21,10 @@ enum class CurveKind {
   Truth = 1,      ///< boundary of the true tumour
   BandInner = 2,  ///< inside of it lies tumour, as good as surely
   BandOuter = 3,  ///< outside of it lies healthy tissue, as good as surely
+  Cut = 4,        ///< outside of it a place is tumour with a chosen risk at most
 };
 
-/// "estimate", "truth", "band_inner" or "band_outer": the text of the array `kind_name`.
+/// "estimate", "truth", "band_inner", "band_outer" or "cut": the text of the array `kind_name`.
 std::string name_of(CurveKind kind);
 
 /// A closed line in space; the first point is not repeated.
