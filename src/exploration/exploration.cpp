@@ -9,6 +9,7 @@
 #include "exploration/field_fit.h"
 #include "exploration/lag_fit.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/screening.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
@@ -104,9 +105,10 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     const int vertex = touched_vertex(surface_, palpation);
     if (touch_once_ && vertex >= 0) reachable_[vertex] = false;
   }
-  std::vector<Palpation> all = palpations_;
-  all.insert(all.end(), palpations.begin(), palpations.end());
-  if (field_.learns() || field_.lag.is_modelled()) {
+  std::vector<Palpation> recorded = recorded_;
+  recorded.insert(recorded.end(), palpations.begin(), palpations.end());
+  std::vector<Palpation> all = field_.screening ? screened(surface_, recorded) : recorded;
+  if (field_.learns() || field_.lag.is_modelled() || field_.screening) {
     LagFit fit = fit_lagged(surface_, field_, all, learned_, lag_);
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
@@ -118,9 +120,11 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   } else {
     belief_ = belief_.condition_on(palpations);
   }
+  recorded_ = std::move(recorded);
   palpations_ = std::move(all);
   marginals_ = belief_.at_vertices();
-  component_ = field_.linear_trend ? belief_.at_vertices(Part::Detrended) : marginals_;
+  component_ = marginals_;
+  if (field_.linear_trend) component_.mean = belief_.at_vertices(Part::Detrended).mean;
   if (belief_.site_count() > 0 && contrast_seen_ && !trend_is_missing() && !level_rule_.known) {
     const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(component_);
     level_ = is_flat ? std::nullopt : std::optional(estimated_level());

@@ -137,6 +137,9 @@ std::vector<SceneKey> make_scene_keys() {
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
             "mean"),
+      truth("field.screening", false,
+            "jams, hangs, lost contact, start-ups, base steps between rows and outliers are found and set aside, with the reason in "
+            "measurements.csv"),
       by_default(0.0, number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
                                       "how far behind the probe's travel its readings belong; 0: readings belong where they are made; "
                                       "learned ones lie between -0.5 and 3 mm")),

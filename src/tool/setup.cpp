@@ -187,6 +187,7 @@ FieldModel field_of(const Scene& scene) {
   else if (scene.has("field.constant_sd"))
     field.constant.sd = scene.number("field.constant_sd");
   field.belief.standardize = scene.truth("field.standardize");
+  field.screening = scene.truth("field.screening");
   field.lag.learn = scene.word("field.lag_mm") == "learn";
   if (!field.lag.learn) field.lag.known_m = scene.metres("field.lag_mm");
   return field;

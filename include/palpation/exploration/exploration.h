@@ -43,6 +43,7 @@ struct FieldModel {
   bool learn_noise = true;
   double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
   LagModel lag{};
+  bool screening = false;  ///< readings that are no tissue are set aside (screening.h), judged anew after every batch
   /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are touched, and until then nothing is
   /// concluded. Level and boundary are of the field without it.
   bool linear_trend = false;
@@ -98,13 +99,14 @@ class Exploration {
   const std::string& stop_reason() const { return stop_reason_; }
 
   const Surface& surface() const { return surface_; }
-  /// What was recorded, as it was made.
+  /// What was recorded, as it was made; with the reason where it was set aside.
   const std::vector<Palpation>& palpations() const { return palpations_; }
   /// Knows the same readings, where a lag is modelled at the places where they belong.
   const Belief& belief() const { return belief_; }
   /// The whole field: its variance is what touches are planned by.
   const Marginals& marginals() const { return marginals_; }
-  /// The field without its slope, which level and boundary are of: equal to marginals() where no trend is modelled.
+  /// What level and boundary are of: the mean without the slope, with the variance of the whole field; equal to marginals() where no trend
+  /// is modelled. The variance without the slope would count as unsure what level and slope trade between them: it overstates the error.
   const Marginals& component() const { return component_; }
   /// The level as it is estimated now; nothing before the readings show contrast, nor while they are all alike, unless it is known: the
   /// range of noise is no level.
@@ -138,7 +140,8 @@ class Exploration {
   std::vector<bool> reachable_;
   bool touch_once_;
 
-  std::vector<Palpation> palpations_;
+  std::vector<Palpation> recorded_;    // as it came
+  std::vector<Palpation> palpations_;  // screened
   Belief belief_;
   Marginals marginals_;
   Marginals component_;
