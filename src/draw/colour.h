@@ -26,6 +26,9 @@ inline constexpr Colour kAmber{245, 170, 20};
 inline constexpr Colour kMissed{213, 62, 30};
 inline constexpr Colour kExtra{36, 122, 190};
 inline constexpr Colour kAgreement{164, 207, 190};
+inline constexpr Colour kSurelyTumour{226, 138, 122};
+inline constexpr Colour kUnsure{253, 219, 138};
+inline constexpr Colour kCutPurple{116, 30, 140};
 inline constexpr Colour kHealthy{246, 246, 243};
 
 /// The colour at `share` of the way from a to b.

@@ -17,10 +17,11 @@ struct Layout {
   int width_px = 1800;
   int height_px = 900;
   std::array<Box, 3> maps;
+  Box close_up;  ///< in place of the third map: of another view, as large as fits
   std::vector<std::vector<LegendEntry>> legend;
 };
 
 /// Three maps at equal scale: side by side on a sheet 1800 pixels wide, or one above the other where the tissue is much wider than high.
-Layout layout_of(const Outcome& outcome, const View& view);
+Layout layout_of(const Outcome& outcome, const View& view, const View& close_up);
 
 }  // namespace palpation::draw

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "draw/axis.h"
 #include "draw/look.h"
 
 namespace palpation::draw {
@@ -15,7 +16,12 @@ std::vector<LegendEntry> entries_of(const Outcome& outcome) {
   std::vector<LegendEntry> entries;
   if (outcome.has_curve("estimate")) entries.push_back({"estimated boundary", {kEstimateLine}, {}});
   if (outcome.has_curve("truth")) entries.push_back({"true boundary", {kTruthLine}, {}});
-  if (outcome.has_curve("band_inner") || outcome.has_curve("band_outer")) entries.push_back({"band of the boundary", {kBandLine}, {}});
+  if (outcome.has_curve("cut") && outcome.shows_band()) {
+    const std::string risk = outcome.summary.cut_risk ? " (" + short_number(100.0 * *outcome.summary.cut_risk, 3) + " % risk)" : "";
+    entries.push_back({"cut line" + risk, {kCutLine}, {}});
+  }
+  if (!outcome.shows_band() && (outcome.has_curve("band_inner") || outcome.has_curve("band_outer")))
+    entries.push_back({"band of the boundary", {kBandLine}, {}});
   const auto add_touch = [&](const Touch& example, const std::string& words, auto&& belongs) {
     const bool occurs = std::any_of(outcome.touches.begin(), outcome.touches.end(), belongs);
     if (occurs) entries.push_back({words, {}, look_of(example, /*radius_px=*/6.5)});

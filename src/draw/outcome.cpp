@@ -109,11 +109,28 @@ std::optional<ErrorNumbers> error_in(const Json& summary) {
                       .dice = number_in(*found, "dice")};
 }
 
+std::optional<BandNumbers> band_in(const Json& summary) {
+  const auto found = summary.find("band");
+  if (found == summary.end() || !found->is_object()) return std::nullopt;
+  return BandNumbers{.probability = number_in(*found, "probability"),
+                     .score = number_in(*found, "score"),
+                     .half_width_mm = number_in(*found, "half_width_mm"),
+                     .inner_area_mm2 = number_in(*found, "inner_area_mm2"),
+                     .outer_area_mm2 = number_in(*found, "outer_area_mm2")};
+}
+
+std::optional<double> cut_risk_in(const Json& summary) {
+  const auto found = summary.find("cut");
+  return found != summary.end() && found->is_object() ? number_in(*found, "risk") : std::nullopt;
+}
+
 Summary read_summary(const fs::path& path) {
   if (!fs::exists(path)) return {};
   const Json json = Json::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) fail(path, "not a JSON object");
-  Summary summary{.level = number_in(json, "level"),
+  Summary summary{.band = band_in(json),
+                  .cut_risk = cut_risk_in(json),
+                  .level = number_in(json, "level"),
                   .area_mm2 = number_in(json, "area_mm2"),
                   .expected_error_mm2 = number_in(json, "expected_error_mm2"),
                   .measurements = number_in(json, "measurements"),
@@ -199,6 +216,8 @@ vtkDataArray* Outcome::field(const std::string& name) const {
 bool Outcome::has_curve(const std::string& kind) const {
   return std::any_of(curves.begin(), curves.end(), [&](const Curve& curve) { return curve.kind == kind; });
 }
+
+bool Outcome::shows_band() const { return summary.band && summary.band->score && field("score") != nullptr; }
 
 std::optional<double> Outcome::level_along(const std::string& kind, const std::string& name) const {
   constexpr std::size_t kSamples = 40;

@@ -22,7 +22,7 @@ struct Touch {
 };
 
 struct Curve {
-  std::string kind;          ///< "estimate", "truth", "band_inner", "band_outer", ...
+  std::string kind;          ///< "estimate", "truth", "band_inner", "band_outer", "cut", ...
   std::vector<Vec3> points;  ///< metres; the first is repeated at the end
 };
 
@@ -30,7 +30,13 @@ struct ErrorNumbers {
   std::optional<double> symmetric_difference_mm2, missed_mm2, extra_mm2, percent_of_search_area, dice;
 };
 
+struct BandNumbers {
+  std::optional<double> probability, score, half_width_mm, inner_area_mm2, outer_area_mm2;
+};
+
 struct Summary {
+  std::optional<BandNumbers> band;
+  std::optional<double> cut_risk;
   std::optional<double> level, area_mm2, expected_error_mm2, measurements;
   std::optional<ErrorNumbers> error;
   std::string reading_unit;  ///< empty if nobody said
@@ -46,6 +52,8 @@ struct Outcome {
   /// The field of that name, or null.
   vtkDataArray* field(const std::string& name) const;
   bool has_curve(const std::string& kind) const;
+  /// Whether it is known where the band lies: its score, and the field of it.
+  bool shows_band() const;
   /// The level whose contours the curves of a kind are. Where a curve follows the border of the tissue the field lies above the level, so
   /// this is a low quantile of the field along the curves.
   std::optional<double> level_along(const std::string& kind, const std::string& field) const;

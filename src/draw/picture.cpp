@@ -18,14 +18,16 @@ namespace palpation::draw {
 namespace {
 
 constexpr const char* kSquareMm = " mm\u00b2";
+constexpr const char* kPlusMinus = "\u00b1 ";
 
-enum class Third { Margins, Probability, Mean };
+enum class Third { Band, Margins, Probability, Mean };
 
 struct Plan {
   std::optional<double> level;        // of the estimate
   std::optional<double> truth_level;  // of the truth
   Third third = Third::Mean;
   View view;
+  View close_up;  // of the boundary
   double touch_radius_px = 4.0;
   Layout layout;
 };
@@ -39,6 +41,7 @@ double touch_radius_px(std::size_t count, const Box& map) {
 }
 
 Third third_panel(const Outcome& outcome, const Plan& plan) {
+  if (outcome.shows_band()) return Third::Band;
   if (plan.level && plan.truth_level && outcome.field("truth") != nullptr) return Third::Margins;
   return outcome.field("probability_inside") != nullptr ? Third::Probability : Third::Mean;
 }
@@ -81,7 +84,8 @@ Plan plan_of(const Outcome& outcome) {
   plan.truth_level = outcome.level_along("truth", "truth");
   plan.third = third_panel(outcome, plan);
   plan.view = view_of(outcome, plan.level);
-  plan.layout = layout_of(outcome, plan.view);
+  plan.close_up = zoomed_to(plan.view, outcome, {"estimate", "truth", "cut"});
+  plan.layout = layout_of(outcome, plan.view, plan.close_up);
   plan.touch_radius_px = touch_radius_px(outcome.touches.size(), plan.layout.maps[0]);
   return plan;
 }
@@ -165,8 +169,10 @@ void draw_bar(Sheet& sheet, const Box& map, const ColourScale& scale, const std:
 
 void draw_boundaries(TissueScene& scene, const Outcome& outcome, bool with_truth) {
   scene.draw_border(kRim);
-  scene.draw_curves(outcome, "band_inner", kBandLine);
-  scene.draw_curves(outcome, "band_outer", kBandLine);
+  if (!outcome.shows_band()) {
+    scene.draw_curves(outcome, "band_inner", kBandLine);
+    scene.draw_curves(outcome, "band_outer", kBandLine);
+  }
   scene.draw_curves(outcome, "estimate", kEstimateHalo);
   scene.draw_curves(outcome, "estimate", kEstimateLine);
   if (!with_truth) return;
@@ -179,7 +185,8 @@ std::string unit_of(const Outcome& outcome) {
 }
 
 void draw_mean(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map, const std::string& letter, bool with_touches) {
-  vtkDataArray& mean = *outcome.field("mean");
+  vtkDataArray* detrended = outcome.field("mean_detrended");  // what the level cuts, where there is a trend
+  vtkDataArray& mean = detrended != nullptr ? *detrended : *outcome.field("mean");
   const ColourScale scale = scale_of_mean(mean, plan.level);
   TissueScene scene(sheet.scene(map), plan.view, map);
   scene.paint_field(outcome, mean, scale);
@@ -238,6 +245,35 @@ void draw_margins(Sheet& sheet, const Outcome& outcome, const Plan& plan, const 
   draw_margin_keys(sheet, outcome, map);
 }
 
+void draw_zone_keys(Sheet& sheet, const BandNumbers& band, const Box& map) {
+  const Pixel first(map.right() + 14.0, map.centre().y() + 92.0);
+  const Pixel down(0.0, -62.0);
+  draw_patch_key(sheet, first, kSurelyTumour, "tumour", band.inner_area_mm2);
+  draw_patch_key(sheet, first + down, kUnsure, "unsure", std::nullopt);
+  if (band.half_width_mm)
+    sheet.text(first + down + Pixel(0.0, -22.0), kPlusMinus + short_number(*band.half_width_mm, 2) + " mm",
+               {.size_px = 16.0, .colour = kGrey});
+  draw_patch_key(sheet, first + 2.0 * down, kHealthy, "healthy", std::nullopt);
+}
+
+/// Where to cut: what is tumour as good as surely, what is healthy as good as surely, and the band between.
+void draw_band(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map) {
+  const BandNumbers& band = *outcome.summary.band;
+  TissueScene scene(sheet.scene(map), plan.close_up, map);
+  scene.paint_zones(outcome, *band.score);
+  scene.draw_border(kRim);
+  scene.draw_curves(outcome, "estimate", kMarginLine);
+  scene.draw_curves(outcome, "cut", kCutHalo);
+  scene.draw_curves(outcome, "cut", kCutLine);
+  scene.draw_curves(outcome, "truth", kTruthLine);
+  scene.finish();
+  draw_title(sheet, map, "c",
+             band.probability ? "Where it ends, " + short_number(100.0 * *band.probability, 3) + " % sure" : "Where it ends");
+  draw_ruler(sheet, plan.close_up, map);
+  if (plan.close_up.width_mm < plan.view.width_mm) sheet.frame(map, kFrame);
+  draw_zone_keys(sheet, band, map);
+}
+
 void draw_probability(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map) {
   const ColourScale scale{Palette::WhitePurple, 0.0, 1.0};
   TissueScene scene(sheet.scene(map), plan.view, map);
@@ -251,6 +287,8 @@ void draw_probability(Sheet& sheet, const Outcome& outcome, const Plan& plan, co
 
 void draw_third(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map) {
   switch (plan.third) {
+    case Third::Band:
+      return draw_band(sheet, outcome, plan, plan.layout.close_up);
     case Third::Margins:
       return draw_margins(sheet, outcome, plan, map);
     case Third::Probability:
@@ -268,9 +306,11 @@ std::string touches_text(const Outcome& outcome) {
 std::string error_text(const ErrorNumbers& error) {
   std::string text;
   if (error.symmetric_difference_mm2) text += "Error " + short_number(*error.symmetric_difference_mm2, 3) + kSquareMm;
+  if (error.missed_mm2 && error.extra_mm2 && !text.empty())
+    text += ", " + short_number(*error.missed_mm2, 2) + " missed and " + short_number(*error.extra_mm2, 2) + " extra";
   if (error.percent_of_search_area && !text.empty())
     text += " (" + short_number(*error.percent_of_search_area, 2) + " % of the search area)";
-  if (error.dice) text += (text.empty() ? "Dice " : ", Dice ") + short_number(*error.dice, 3);
+  if (error.dice && text.empty()) text += "Dice " + short_number(*error.dice, 3);
   return text;
 }
 
@@ -284,6 +324,8 @@ std::string caption_of(const Outcome& outcome) {
   } else if (summary.expected_error_mm2) {
     caption += std::string(kBetween) + "expected error " + short_number(*summary.expected_error_mm2, 3) + kSquareMm;
   }
+  if (summary.error && summary.expected_error_mm2)
+    caption += std::string(kBetween) + "expected " + short_number(*summary.expected_error_mm2, 3) + kSquareMm;
   if (summary.area_mm2) caption += std::string(kBetween) + "tumour " + short_number(*summary.area_mm2, 4) + kSquareMm;
   if (summary.level) caption += std::string(kBetween) + "level " + short_number(*summary.level, 4);
   return caption;

@@ -264,6 +264,29 @@ View view_of(const Outcome& outcome, std::optional<double> level) {
   return view;
 }
 
+View zoomed_to(const View& whole, const Outcome& outcome, const std::vector<std::string>& kinds) {
+  constexpr double kRoom = 1.3, kLeastRoom_mm = 4.0;
+  Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 highest = -lowest;
+  for (const Curve& curve : outcome.curves) {
+    if (std::find(kinds.begin(), kinds.end(), curve.kind) == kinds.end()) continue;
+    for (const Vec3& point : curve.points) {
+      lowest = lowest.cwiseMin(whole.to_view_mm(point));
+      highest = highest.cwiseMax(whole.to_view_mm(point));
+    }
+  }
+  if (!whole.flat || !(lowest.x() <= highest.x())) return whole;
+  const auto window = [](double low, double high, double& from, double& length) {
+    const double wanted = std::min(length, kRoom * (high - low) + kLeastRoom_mm);
+    from = std::clamp(0.5 * (low + high - wanted), from, from + length - wanted);
+    length = wanted;
+  };
+  View part = whole;
+  window(lowest.x(), highest.x(), part.left_mm, part.width_mm);
+  window(lowest.y(), highest.y(), part.bottom_mm, part.height_mm);
+  return part;
+}
+
 TissueScene::TissueScene(vtkRenderer& renderer, const View& view, const Box& box)
     : renderer_(renderer), view_(view), mm_per_px_(view.width_mm / box.width) {}
 
@@ -283,21 +306,22 @@ void TissueScene::paint_field(const Outcome& outcome, vtkDataArray& field, const
   renderer_.AddActor(actor);
 }
 
+void TissueScene::paint(vtkPolyData& part, Colour colour) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(&part);
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  set_colour(*actor->GetProperty(), colour);
+  set_light(*actor->GetProperty(), !view_.flat);
+  renderer_.AddActor(actor);
+}
+
 void TissueScene::paint_margins(const Outcome& outcome, double estimate_level, double truth_level) {
   vtkSmartPointer<vtkPolyData> mesh = turned(*outcome.surface, view_);
   if (!view_.flat) mesh = with_normals(*mesh);
   add_field(*mesh, "estimate", *outcome.field("mean"), estimate_level);
   add_field(*mesh, "truth", *outcome.field("truth"), truth_level);
-  const auto paint = [&](vtkPolyData& part, Colour colour) {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(&part);
-    mapper->ScalarVisibilityOff();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    set_colour(*actor->GetProperty(), colour);
-    set_light(*actor->GetProperty(), !view_.flat);
-    renderer_.AddActor(actor);
-  };
   const Halves estimate = cut_at_zero(*mesh, "estimate");
   const Halves found = cut_at_zero(*estimate.above, "truth");
   const Halves left = cut_at_zero(*estimate.below, "truth");
@@ -305,6 +329,18 @@ void TissueScene::paint_margins(const Outcome& outcome, double estimate_level, d
   paint(*found.below, kExtra);
   paint(*left.above, kMissed);
   paint(*left.below, kHealthy);
+}
+
+void TissueScene::paint_zones(const Outcome& outcome, double band_score) {
+  vtkSmartPointer<vtkPolyData> mesh = turned(*outcome.surface, view_);
+  if (!view_.flat) mesh = with_normals(*mesh);
+  add_field(*mesh, "inner", *outcome.field("score"), band_score);
+  add_field(*mesh, "outer", *outcome.field("score"), -band_score);
+  const Halves outer = cut_at_zero(*mesh, "outer");
+  const Halves inner = cut_at_zero(*outer.above, "inner");
+  paint(*inner.above, kSurelyTumour);
+  paint(*inner.below, kUnsure);
+  paint(*outer.below, kHealthy);
 }
 
 void TissueScene::draw_curves(const Outcome& outcome, const std::string& kind, const LineStyle& style) {

@@ -29,6 +29,9 @@ struct View {
 
 View view_of(const Outcome& outcome, std::optional<double> level);
 
+/// The part of a view of flat tissue that holds the curves of these kinds, with some room; the whole view where there are none.
+View zoomed_to(const View& whole, const Outcome& outcome, const std::vector<std::string>& kinds);
+
 /// One panel's scene. Coordinates are the view's; sizes of lines and dots are pixels of the sheet. Later lines and dots lie above earlier
 /// ones.
 class TissueScene {
@@ -38,6 +41,8 @@ class TissueScene {
   void paint_field(const Outcome& outcome, vtkDataArray& field, const ColourScale& scale);
   /// Four colours: where neither, only the estimate, only the truth, or both reach their levels.
   void paint_margins(const Outcome& outcome, double estimate_level, double truth_level);
+  /// Three colours: where the score is above the band, in it, and below.
+  void paint_zones(const Outcome& outcome, double band_score);
   void draw_curves(const Outcome& outcome, const std::string& kind, const LineStyle& style);
   /// The rim of the tissue.
   void draw_border(const LineStyle& style);
@@ -48,6 +53,7 @@ class TissueScene {
 
  private:
   double lift_next_layer();
+  void paint(vtkPolyData& part, Colour colour);
   void add_unlit(vtkPolyData& shapes, Colour colour);
 
   vtkRenderer& renderer_;
