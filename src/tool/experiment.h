@@ -16,6 +16,7 @@ namespace palpation::tool {
 
 void table1(const ExperimentArguments& arguments);
 void figure4(const ExperimentArguments& arguments);
+void table2(const ExperimentArguments& arguments);
 void coverage(const ExperimentArguments& arguments);
 
 /// The scene that was given, or this one, with the overrides.

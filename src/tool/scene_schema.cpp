@@ -180,6 +180,7 @@ std::vector<SceneKey> make_scene_keys() {
              "the paper's beta: what is added from one end of the tissue to the other, as a fraction of high - low"),
       numbers("probe.bias_axis", 3, "", -kMostDirection, kMostDirection, nullptr,
               "along which; not zero; left out: the longest side of the tissue"),
+      number("probe.lag_mm", "mm", -100.0, 100.0, 0.0, "how late a simulated reading comes: at x, travelling along t, it is of x - lag t"),
       tumours("probe.tumours", kMostTumours, "a list of shapes; several may overlap"),
       number("band.probability", "", 0.01, 1.0 - 1e-6, 0.95, "with which the whole true outline lies between the band's two curves"),
       number("band.cut_risk", "", 1e-6, 0.5, 0.05, "of the cut line: outside of it a place is tumour with this probability at most"),

@@ -240,6 +240,7 @@ Phantom phantom_of(const Scene& scene, const Surface& surface) {
   model.noise = scene.number("probe.noise");
   model.bias = scene.number("probe.bias");
   model.fraction = scene.number("level.fraction");
+  model.lag_m = scene.metres("probe.lag_mm");
   if (scene.gives("probe.bias_axis")) {
     const std::vector<double> axis = scene.numbers("probe.bias_axis");
     model.bias_axis = Vec3(axis[0], axis[1], axis[2]).stableNormalized();

@@ -53,7 +53,9 @@ World simulated_world(const Scene& scene, const Surface& surface) {
   const auto phantom = std::make_shared<Phantom>(phantom_of(scene, surface));
   const auto random = std::make_shared<Random>(scene.seed() ^ kProbeStream);
   World world;
-  world.probe = [phantom, random](const SurfacePoint& where, const Vec3&) { return std::optional(phantom->touch(where, *random)); };
+  world.probe = [phantom, random](const SurfacePoint& where, const Vec3& travel) {
+    return std::optional(phantom->touch(where, travel, *random));
+  };
   world.truth = phantom->truth();
   world.true_level = phantom->true_level();
   world.warnings = warnings_about(scene, *phantom);

@@ -19,6 +19,7 @@ void check(const StiffnessModel& model) {
   need(std::isfinite(model.noise) && model.noise >= 0.0, "noise", model.noise, "must be finite and not negative");
   need(std::isfinite(model.bias), "bias", model.bias, "must be finite");
   need(model.fraction > 0.0 && model.fraction < 1.0, "fraction", model.fraction, "must be above 0 and below 1");
+  need(std::isfinite(model.lag_m), "lag", model.lag_m, "must be finite");
   require(model.bias_axis.allFinite(), "Phantom", "bias axis", "must be finite");
 }
 
@@ -72,6 +73,13 @@ Palpation Phantom::touch(const SurfacePoint& where, Random& random) const {
   Palpation palpation;
   palpation.where = where;
   palpation.reading = stiffness(interpolate(surface_, distance_, where)) + bias + noise;
+  return palpation;
+}
+
+Palpation Phantom::touch(const SurfacePoint& where, const Vec3& travel, Random& random) const {
+  if (model_.lag_m == 0.0 || travel.isZero(0.0)) return touch(where, random);
+  Palpation palpation = touch(surface_.project(surface_.position(where) - model_.lag_m * travel), random);
+  palpation.where = where;
   return palpation;
 }
 

@@ -146,5 +146,18 @@ TEST(Phantom, RefusesModelsThatAreNone) {
   EXPECT_THROW(Phantom(tissue, {Disk{.radius_m = -1.0}}, {}), InvalidInput);
 }
 
+// Travelling along x, a probe that is 2 mm late feels at (18, 30) what is at (16, 30); along -y what is at (18, 32). At rest nothing is
+// late.
+TEST(Phantom, AnswersLateAlongTheTravel) {
+  const Surface tissue = sheet(0.025, 0.050, 0.001);
+  const Phantom late(tissue, {kDisk}, {.lag_m = 0.002});
+  const SurfacePoint where = tissue.at_vertex(vertex_at_mm(tissue, 18, 30));
+  Random random(1);
+  EXPECT_NEAR(late.touch(where, Vec3::UnitX(), random).reading, reading_at_mm(late, tissue, 16, 30), 1e-9);
+  EXPECT_NEAR(late.touch(where, -Vec3::UnitY(), random).reading, reading_at_mm(late, tissue, 18, 32), 1e-9);
+  EXPECT_EQ(late.touch(where, Vec3::Zero(), random).reading, reading_at_mm(late, tissue, 18, 30));
+  EXPECT_EQ(tissue.position(late.touch(where, Vec3::UnitX(), random).where), tissue.position(where));
+}
+
 }  // namespace
 }  // namespace palpation

@@ -3,7 +3,8 @@
 ///     Y(x) = low + (high - low) / (1 + exp(-slope d(x) - ln(f / (1 - f)))) + bias x1 (high - low) + noise,
 ///
 /// d the signed distance to the true outline (positive inside), f the level's fraction, x1 running from 0 to 1 along the bias axis over the
-/// tissue. The shift by f makes the true outline the contour at low + f (high - low); at f = 1/2 it is the paper's formula as printed.
+/// tissue. A reading made while the probe travels comes late: at x, along the unit vector t, it is of the place x - lag t. The shift by f
+/// makes the true outline the contour at low + f (high - low); at f = 1/2 it is the paper's formula as printed.
 #pragma once
 
 #include <vector>
@@ -23,6 +24,7 @@ struct StiffnessModel {
   double bias = 0.0;              ///< the paper's beta
   Vec3 bias_axis = Vec3::Zero();  ///< zero: the longest side of the tissue's bounding box
   double fraction = 0.5;          ///< of the level, in (0, 1)
+  double lag_m = 0.0;             ///< below 0: readings come early
 };
 
 class Phantom {
@@ -38,6 +40,9 @@ class Phantom {
   /// A reading: bias and noise included; its noise variance is left to the field. Inside a face the signed distance is linear. Every touch
   /// draws one normal, even without noise, so that runs at several noise levels feel the same fluctuations.
   Palpation touch(const SurfacePoint& where, Random& random) const;
+  /// The same while travelling along a unit vector, or resting where it is zero. The place that is felt is the tissue's closest point to
+  /// x - lag t; the palpation is said to be at x.
+  Palpation touch(const SurfacePoint& where, const Vec3& travel, Random& random) const;
 
  private:
   double stiffness(double signed_distance_m) const;
