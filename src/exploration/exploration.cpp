@@ -9,7 +9,6 @@
 #include "exploration/field_fit.h"
 #include "exploration/lag_fit.h"
 #include "palpation/base/error.h"
-#include "palpation/belief/screening.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
@@ -107,7 +106,7 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   }
   std::vector<Palpation> recorded = recorded_;
   recorded.insert(recorded.end(), palpations.begin(), palpations.end());
-  std::vector<Palpation> all = field_.screening ? screened(surface_, recorded) : recorded;
+  std::vector<Palpation> all = screened_readings(surface_, field_, recorded, lag_);
   if (field_.learns() || field_.lag.is_modelled() || field_.screening) {
     LagFit fit = fit_lagged(surface_, field_, all, learned_, lag_);
     belief_ = std::move(fit.field.belief);

@@ -1,0 +1,72 @@
+// Screening in the loop: what a probe's fault does to an exploration, and that a sound probe loses nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "belief/tissue.h"
+#include "palpation/belief/screening.h"
+#include "palpation/exploration/exploration.h"
+#include "palpation/world/phantom.h"
+
+namespace palpation {
+namespace {
+
+int set_aside_in(const Exploration& exploration) {
+  const std::vector<Palpation>& all = exploration.palpations();
+  return static_cast<int>(std::count_if(all.begin(), all.end(), [](const Palpation& one) { return !one.set_aside.empty(); }));
+}
+
+FieldModel screened_field() {
+  FieldModel field;
+  field.screening = true;
+  return field;
+}
+
+Probe late_probe(const Surface& tissue, const Phantom& phantom, Random& random, double lag_m) {
+  return [&tissue, &phantom, &random, lag_m](const SurfacePoint& where, const Vec3& heading) {
+    Palpation felt = phantom.touch(tissue.project(tissue.position(where) - lag_m * heading), random);
+    felt.where = where;
+    return std::optional(felt);
+  };
+}
+
+// Tumours down to 2.5 mm, little and much noise, with a lag that is not known of, none, and one that is: next to nothing is set aside, and
+// never in the first touches, where one of them may be all that was felt of a tumour.
+TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
+  const Surface tissue = plane(26, 51);
+  int readings = 0, lost = 0;
+  for (const double noise : {0.01, 0.05, 0.25}) {
+    for (const double lag_m : {0.0, 0.0015}) {
+      for (const bool known : {false, true}) {
+        const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), noise > 0.1 ? 0.006 : 0.0025}}, {.noise = noise});
+        FieldModel field = screened_field();
+        if (known) field.lag.known_m = lag_m;
+        Exploration exploration(tissue, field, {.known = 8.0},
+                                {.acquisition = straddle(), .initial = Design::Random, .initial_count = 10, .batches = 6}, 5);
+        Random random(5);
+        int first = -1;
+        run(exploration, late_probe(tissue, phantom, random, lag_m),
+            [&](const Tour&) { first = first < 0 ? set_aside_in(exploration) : first; });
+        EXPECT_EQ(first, 0) << noise << " " << lag_m;
+        readings += static_cast<int>(exploration.palpations().size());
+        lost += set_aside_in(exploration);
+      }
+    }
+  }
+  EXPECT_LE(lost, readings / 200) << readings;
+}
+
+TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
+  const Surface tissue = plane(26, 51);
+  std::vector<Palpation> hung;
+  for (int vertex = 0; vertex < 20; ++vertex) hung.push_back(touch(tissue, 26 * vertex, 7.0));
+  Exploration exploration(tissue, screened_field(), {}, {}, 1);
+  exploration.take_up(hung);
+  ASSERT_EQ(exploration.palpations().size(), 20u);
+  for (const Palpation& palpation : exploration.palpations()) EXPECT_EQ(palpation.set_aside, kFrozen);
+  EXPECT_EQ(exploration.belief().site_count(), 0);
+  EXPECT_FALSE(exploration.level().has_value());
+}
+
+}  // namespace
+}  // namespace palpation
