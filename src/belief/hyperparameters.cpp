@@ -246,6 +246,45 @@ LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site>
   return result;
 }
 
+/// With L L' = S, w = L^-1 (y - origin) and H = L^-1 (the constant and the slope, each over its prior's standard deviation):
+/// log p = -(w'w - w'H (I + H'H)^-1 H'w + log|S| + log|I + H'H| + n log 2 pi) / 2, without I for a constant that is not known at all.
+double log_likelihood(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at) {
+  const auto n = static_cast<Eigen::Index>(sites.size());
+  Kernel kernel = prior.kernel();
+  kernel.length_m = at.length_m;
+  const double noise_variance = at.noise_sd * at.noise_sd;
+  const double constant_sd = prior.constant().sd;
+  double result = 0.0;
+  Eigen::MatrixXd s(n, n);
+  Eigen::MatrixXd right(n, 5);  // readings, constant, slope
+  right.rightCols<3>() = tilts_of(prior, sites);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const MergedReading merged = merge(sites[j], noise_variance);
+    result += scatter_log_likelihood(sites[j], noise_variance);
+    for (Eigen::Index i = j; i < n; ++i) {
+      s(i, j) = at.signal_sd * at.signal_sd * correlation(kernel, sites[i].coordinates - sites[j].coordinates);
+    }
+    s(j, j) += merged.variance;
+    right(j, 0) = merged.mean;
+    right(j, 1) = std::isinf(constant_sd) ? 1.0 : constant_sd;
+  }
+  // Readings are taken relative to one of them where the constant is not known: rounding is all that changes.
+  if (std::isinf(constant_sd)) right.col(0).array() -= right(0, 0);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(s);
+  const auto diagonal = s.diagonal().array();
+  if (factor.info() != Eigen::Success || !diagonal.isFinite().all() || !(diagonal > 0.0).all()) {
+    throw NumericalError("log_likelihood: the covariance is not positive definite at length " + text_of(at.length_m));
+  }
+  factor.matrixL().solveInPlace(right);
+  const Eigen::VectorXd along = right.rightCols<4>().transpose() * right.col(0);
+  Eigen::Matrix4d precision = right.rightCols<4>().transpose() * right.rightCols<4>();
+  precision.diagonal().array() += Eigen::Array4d(std::isinf(constant_sd) ? 0.0 : 1.0, 1.0, 1.0, 1.0);
+  const Eigen::LLT<Eigen::Matrix4d> normal(precision);
+  const double free_readings = static_cast<double>(n) - (std::isinf(constant_sd) ? 1.0 : 0.0);
+  result -= diagonal.log().sum() + normal.matrixLLT().diagonal().array().log().sum();
+  return result - 0.5 * (right.col(0).squaredNorm() - along.dot(normal.solve(along)) + free_readings * std::log(2.0 * std::numbers::pi));
+}
+
 Learned learn(const Prior& prior, std::span<const Palpation> palpations, const Hyperparameters& start, const LearnOptions& options) {
   check_fixed("length_m", options.length_m, false);
   check_fixed("signal_sd", options.signal_sd, false);

@@ -96,7 +96,7 @@ std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palp
   const auto log_posterior = [&](double lag_m) {
     const double z = (lag_m - lag_prior.mean_m) / lag_prior.sd_m;
     try {
-      return likelihood_gradient(prior, gather_sites(prior, displaced(surface, readings, lag_m)), at).value - 0.5 * z * z;
+      return log_likelihood(prior, gather_sites(prior, displaced(surface, readings, lag_m)), at) - 0.5 * z * z;
     } catch (const NumericalError&) {
       return -std::numeric_limits<double>::infinity();  // this lag brings places together that the noise does not part
     }

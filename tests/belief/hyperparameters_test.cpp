@@ -92,6 +92,22 @@ TEST(Likelihood, HasTheGradientOfItsDifferencesWithASlopeToo) {
   }
 }
 
+TEST(Likelihood, IsTheSameWithoutItsGradient) {
+  const Surface tissue = plane(20, 40);
+  Random random(5);
+  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
+  readings.push_back(readings[5]);
+  readings[7].noise_variance = 0.3;
+  for (const double constant_sd : {0.0, 4.0, kUnknown}) {
+    for (const Slope& slope : {Slope{}, some_slope()}) {
+      const Prior prior(tissue, Metric::Chart, {.family = KernelFamily::Matern52}, {.sd = constant_sd}, slope);
+      const std::vector<Site> sites = gather_sites(prior, readings);
+      const Hyperparameters at{0.004, 1.3, 0.2};
+      EXPECT_NEAR(log_likelihood(prior, sites, at), likelihood_gradient(prior, sites, at).value, 1e-8);
+    }
+  }
+}
+
 TEST(Learn, SeesNoSignalInATiltedPlane) {
   const Surface tissue = plane(20, 40);
   Random random(4);
