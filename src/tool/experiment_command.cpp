@@ -18,6 +18,7 @@ constexpr Experiment kExperiments[] = {
     {"figure4", figure4},
     {"table2", table2},
     {"coverage", coverage},
+    {"detection", detection},
 };
 
 }  // namespace

@@ -24,13 +24,6 @@ constexpr double kLeastSlope_per_m = 500.0, kMostSlope_per_m = 2000.0;
 constexpr double kProbability = 0.95;
 constexpr std::array kNoises = {0.01, 0.05, 0.10, 0.25};
 
-/// The search area of Garg et al. 2016, section VII, with vertices half a millimetre apart; all else as it is by default.
-json coverage_scene() {
-  return {{"version", 1},
-          {"surface", {{"plane", {{"size_mm", {54, 49}}, {"vertices", {109, 99}}}}}},
-          {"probe", {{"kind", "simulated"}, {"low", 7}, {"high", 9}, {"tumours", json::array()}}}};
-}
-
 /// What one run is held against.
 struct Run {
   std::uint64_t seed = 0;
@@ -170,8 +163,14 @@ void report(const std::vector<Run>& runs, const ExperimentArguments& arguments) 
 
 }  // namespace
 
+json random_tumours_scene() {
+  return {{"version", 1},
+          {"surface", {{"plane", {{"size_mm", {54, 49}}, {"vertices", {109, 99}}}}}},
+          {"probe", {{"kind", "simulated"}, {"low", 7}, {"high", 9}, {"tumours", json::array()}}}};
+}
+
 void coverage(const ExperimentArguments& arguments) {
-  const Scene base = base_scene(arguments, coverage_scene());
+  const Scene base = base_scene(arguments, random_tumours_scene());
   std::vector<Cell> cells;
   for (const double noise : kNoises) cells.push_back({"noise " + fixed(100.0 * noise, 0) + " %", base.with("probe.noise", noise)});
   if (printed_scenes(cells, arguments)) return;
