@@ -9,6 +9,7 @@
 #include "exploration/field_fit.h"
 #include "exploration/lag_fit.h"
 #include "palpation/base/error.h"
+#include "palpation/boundary/erosion.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
@@ -132,6 +133,10 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   if (level_ && belief_.site_count() > 0) {
     certainty_ = certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
+  }
+  if (field_.indenter_radius_m > 0.0 && level_) {
+    component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
+    if (certainty_) certainty_->score = eroded(surface_, certainty_->score, field_.indenter_radius_m).field;
   }
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();

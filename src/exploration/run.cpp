@@ -24,7 +24,7 @@ Tour travel(const Surface& surface, std::span<const int> stops, const std::optio
     std::optional<Palpation> felt = probe(where, heading);
     if (!felt) return;
     felt->kind = kind;
-    felt->travel = heading;
+    if (felt->travel.isZero(0.0)) felt->travel = heading;
     tour.palpations.push_back(*felt);
   };
   for (int stop : stops) {

@@ -121,7 +121,7 @@ void scan(Episode& episode, std::span<const SurfacePoint> places, const Probe& p
     const Vec3 heading = step.norm() > 0.0 ? step.normalized() : Vec3(Vec3::Zero());
     if (std::optional<Palpation> palpation = probe(places[i], heading)) {
       palpation->batch = episode.exploration.batch();
-      palpation->travel = heading;
+      if (palpation->travel.isZero(0.0)) palpation->travel = heading;
       fresh.push_back(*palpation);
     }
     previous = here;

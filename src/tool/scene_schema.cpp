@@ -137,6 +137,8 @@ std::vector<SceneKey> make_scene_keys() {
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
             "mean"),
+      number("field.indenter_radius_mm", "mm", 0.0, 20.0, 0.0,
+             "of the probe's round tip, which feels an edge by as much too early: the boundary is drawn that much inwards; 0: not at all"),
       truth("field.screening", false,
             "jams, hangs, lost contact, start-ups, base steps between rows and outliers are found and set aside, with the reason in "
             "measurements.csv"),

@@ -12,6 +12,7 @@ namespace palpation {
 namespace {
 
 constexpr double kStandstill_m = 1e-6;
+constexpr double kOneWay = 0.8;    // length of the mean direction of rows that run one way, poses trembling a little
 constexpr double kJump_m = 0.005;  // from the end of one row to the start of the next
 
 void check(const RecordedReadings& recording, const std::string& name) {
@@ -115,7 +116,7 @@ std::optional<Palpation> RecordedWorld::touch(const SurfacePoint& where, const V
   Palpation palpation;
   palpation.where = where;
   palpation.reading = *reading;
-  palpation.travel = direction;
+  palpation.travel = travels_[best].norm() > kOneWay ? Vec3(travels_[best].normalized()) : direction;
   return palpation;
 }
 

@@ -43,7 +43,8 @@ struct FieldModel {
   bool learn_noise = true;
   double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
   LagModel lag{};
-  bool screening = false;  ///< readings that are no tissue are set aside (screening.h), judged anew after every batch
+  double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early: boundary and band lie that much inwards
+  bool screening = false;          ///< readings that are no tissue are set aside (screening.h), judged anew after every batch
   /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are touched, and until then nothing is
   /// concluded. Level and boundary are of the field without it.
   bool linear_trend = false;
@@ -161,7 +162,8 @@ class Exploration {
 /// deviation) above the median of at least ten, or a smooth field explains them better than noise alone by three nats.
 bool shows_contrast(std::span<const double> readings, double signal_evidence);
 
-/// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit direction of travel, or zero.
+/// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit direction of travel, or zero; a reading that
+/// was made in another direction says so.
 using Probe = std::function<std::optional<Palpation>(const SurfacePoint& where, const Vec3& travel)>;
 
 /// Touches the stops in order, starting from where the last batch ended, and on the way every way_step_m (0: stops only).

@@ -29,7 +29,8 @@ class RecordedWorld {
   /// positive and finite; and as Surface::chart.
   RecordedWorld(Surface surface, std::vector<RecordedReadings> recordings, double reach_m = 0.002);
 
-  /// The reading at a place when the probe comes along `travel` (zero: unknown); nothing where there is no contact. With several recordings
+  /// The reading at a place when the probe comes along `travel` (zero: unknown); nothing where there is no contact. Its own direction of
+  /// travel is that in which it was recorded, where its recording's rows run one way, otherwise `travel`. With several recordings
   /// the one whose mean direction of travel fits best (by the scalar product) answers, the first of equals; where it has no contact there
   /// is none.
   std::optional<Palpation> touch(const SurfacePoint& where, const Vec3& travel) const;
