@@ -8,6 +8,7 @@
 
 #include "exploration/field_fit.h"
 #include "exploration/lag_fit.h"
+#include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/erosion.h"
 #include "palpation/certainty/edge_profile.h"

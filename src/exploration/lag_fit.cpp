@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "palpation/belief/screening.h"
-
 namespace palpation {
 namespace {
 
@@ -42,22 +40,6 @@ LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<con
     fit.field = fit_at(surface, field, palpations, fit.field.learned, lag_m);
   }
   return fit;
-}
-
-std::vector<Palpation> screened_readings(const Surface& surface, const FieldModel& field, std::span<const Palpation> recorded,
-                                         const std::optional<Lag>& before) {
-  std::vector<Palpation> result(recorded.begin(), recorded.end());
-  if (!field.screening) return result;
-  if (!field.lag.is_modelled()) return screened(surface, recorded);
-  const double lag_m = !field.lag.learn ? field.lag.known_m : before ? before->value_m : LagPrior{}.mean_m;
-  std::vector<Palpation> moved = displaced(surface, recorded, lag_m);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    moved[i].travel.setZero();
-    moved[i].set_aside = recorded[i].set_aside;
-  }
-  moved = screened(surface, moved);
-  for (std::size_t i = 0; i < moved.size(); ++i) result[i].set_aside = moved[i].set_aside;
-  return result;
 }
 
 }  // namespace palpation

@@ -18,9 +18,4 @@ struct LagFit {
 LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
                   const std::optional<Lag>& before);
 
-/// The readings, screened where the field asks for it. Where a lag is modelled they are compared at the places where they belong, whatever
-/// their direction of travel.
-std::vector<Palpation> screened_readings(const Surface& surface, const FieldModel& field, std::span<const Palpation> recorded,
-                                         const std::optional<Lag>& before);
-
 }  // namespace palpation
