@@ -20,11 +20,12 @@ double mean_half_width(const Surface& surface, const Field& score, double band_s
     }
   }
   if (length == 0.0) return 0.0;
-  double area = 0.0;
-  for (Eigen::Index vertex = 0; vertex < score.size(); ++vertex) {
-    if (std::abs(score[vertex]) <= band_score) area += surface.vertex_areas()[vertex];
-  }
+  const double area = superlevel_area(surface, score, -band_score) - superlevel_area(surface, score, band_score);
   return 0.5 * area / length;
+}
+
+void check_probability(double probability) {
+  require(probability > 0.0 && probability < 1.0, "certainty_of", "probability = " + text_of(probability), "must lie in (0, 1)");
 }
 
 }  // namespace
@@ -39,14 +40,24 @@ double Certainty::cut_score(double risk) {
 }
 
 Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& marginals, const Level& level, double probability) {
-  require(probability > 0.0 && probability < 1.0, "certainty_of", "probability = " + text_of(probability), "must lie in (0, 1)");
+  check_probability(probability);
   const double level_variance = level.stddev.value_or(0.0) * level.stddev.value_or(0.0);
   const double least_sd = 1e-9 * std::max(1e-300, marginals.mean.cwiseAbs().maxCoeff());
-  Certainty certainty{.score = marginals.mean.array() - level.value, .probability = probability};
+  Certainty certainty{.score = marginals.mean.array() - level.value, .probability = probability, .expected = {}};
   certainty.score.array() /= (marginals.variance.array() + level_variance).sqrt().max(least_sd);
   certainty.band_score = normal_quantile(0.5 + 0.5 * probability);
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   certainty.expected = expected_error(surface, marginals, level);
+  return certainty;
+}
+
+Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability) {
+  check_probability(probability);
+  Certainty certainty{
+      .score = edge.depth().mean.array() / edge.depth().variance.array().sqrt(), .probability = probability, .expected = {}};
+  certainty.band_score = edge.band_score(probability);
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  certainty.expected.missed_m2 = certainty.expected.extra_m2 = 0.5 * edge.expected_error_m2();
   return certainty;
 }
 

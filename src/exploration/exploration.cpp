@@ -70,6 +70,7 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
       marginals_(belief_.at_vertices()),
       component_(marginals_) {
   require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
+  require(plan_.edge_share >= 0.0 && plan_.edge_share <= 1.0, "Plan", "edge_share = " + text_of(plan_.edge_share), "must lie in [0, 1]");
   require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches), "must not be negative");
   check(plan_.stop);
   require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule", "fraction = " + text_of(level_rule_.fraction),
@@ -114,7 +115,8 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;
-    if (!contrast_seen_ && !trend_is_missing())
+    // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
+    if (plan_.safe_start && field_.learns() && !trend_is_missing())
       contrast_seen_ = shows_contrast(used_readings(field_.linear_trend ? belief_.detrended_palpations() : all), fit.field.signal_evidence);
   } else if (trend_is_missing()) {
     belief_ = fixed_field(surface_, field_, all);
@@ -128,11 +130,16 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   if (field_.linear_trend) component_.mean = belief_.at_vertices(Part::Detrended).mean;
   if (belief_.site_count() > 0 && contrast_seen_ && !trend_is_missing() && !level_rule_.known) {
     const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(component_);
-    level_ = is_flat ? std::nullopt : std::optional(estimated_level());
+    level_.reset();
+    edge_.reset();
+    if (!is_flat) estimate_boundary();
+  } else if (!level_rule_.known) {
+    level_.reset();
   }
   certainty_.reset();
   if (level_ && belief_.site_count() > 0) {
-    certainty_ = certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
+    certainty_ = edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
+                       : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
   }
   if (field_.indenter_radius_m > 0.0 && level_) {
@@ -143,9 +150,19 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   plan_next();
 }
 
-Level Exploration::estimated_level() const {
-  if (level_rule_.estimate == LevelEstimate::Edge) return level_from_edge(surface_, belief_, component_, level_rule_.fraction);
-  return level_from_range(component_, level_rule_.fraction);
+void Exploration::estimate_boundary() {
+  if (level_rule_.estimate == LevelEstimate::Range) {
+    level_ = level_from_range(component_, level_rule_.fraction);
+    return;
+  }
+  level_ = level_from_edge(surface_, belief_, component_, level_rule_.fraction);
+  edge_ = EdgeBelief::around(belief_, component_, level_->value, level_rule_.fraction);
+  if (edge_) level_ = edge_->level();
+}
+
+Contour Exploration::contour() const {
+  require(level_.has_value(), "Exploration::contour", "no level", "draws no boundary");
+  return edge_ ? Contour{edge_->depth().mean, 0.0} : Contour{component_.mean, level_->value};
 }
 
 bool Exploration::trend_is_missing() const { return field_.linear_trend && !belief_.prior().has_slope(); }
@@ -194,14 +211,42 @@ void Exploration::plan_next() {
   }
   stop_reason_ = reason_to_stop();
   if (!stop_reason_.empty()) return;
-  Belief believed = belief_;
-  if (!contrast_seen_) believed = unlearned(surface_, field_).condition_on(belief_.palpations());
-  next_ = in_tour_order(choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), plan_.batch).vertices);
+  next_ = in_tour_order(chosen_stops());
   if (next_.empty()) stop_reason_ = "nothing left to touch";
   if (contrast_seen_ && certainty_ && gains_too_little(plan_.stop, expected_errors_m2_, *certainty_, surface_, belief_, *level_, next_)) {
     next_.clear();
     stop_reason_ = "nothing to gain";
   }
+}
+
+/// First what tells the most about the boundary, then what the acquisition finds best once those are touched.
+std::vector<int> Exploration::chosen_stops() const {
+  if (!contrast_seen_) {
+    const Belief believed = unlearned(surface_, field_).condition_on(belief_.palpations());
+    return choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), plan_.batch).vertices;
+  }
+  Belief believed = belief_;
+  BatchOptions options = plan_.batch;
+  std::vector<int> stops;
+  if (edge_) {
+    const int count = static_cast<int>(std::floor(plan_.edge_share * options.size));
+    stops = edge_->most_telling(candidates(), count, options.least_spacing_m, marginals_.variance);
+  }
+  if (!stops.empty()) {
+    std::vector<Palpation> supposed;
+    for (int stop : stops) supposed.push_back({.where = surface_.at_vertex(stop), .reading = marginals_.mean[stop]});
+    believed = believed.condition_on(supposed);
+    options.size -= static_cast<int>(stops.size());
+  }
+  std::vector<int> others = candidates();
+  std::erase_if(others, [&](int vertex) {
+    return std::any_of(stops.begin(), stops.end(), [&](int stop) {
+      return vertex == stop || (surface_.vertex(vertex) - surface_.vertex(stop)).norm() < options.least_spacing_m;
+    });
+  });
+  const std::vector<int> rest = choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), others, options).vertices;
+  stops.insert(stops.end(), rest.begin(), rest.end());
+  return stops;
 }
 
 /// By how sure the boundary is; the rest of the reasons show when the next batch is planned.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpation/base/error.h"
+#include "palpation/certainty/detection.h"
 #include "palpation/decision/baseline.h"
 #include "palpation/geometry/path.h"
 #include "tool/setup.h"
@@ -27,7 +28,8 @@ void restate(Episode& episode) {
       const Level level = *exploration.level();
       row.level = level.value;
       row.expected_error_m2 = exploration.certainty()->expected.symmetric_difference_m2();
-      episode.estimate = superlevel_region(exploration.surface(), exploration.component().mean, level.value);
+      const Contour contour = exploration.contour();
+      episode.estimate = superlevel_region(exploration.surface(), contour.field, contour.level);
     }
     if (episode.truth) episode.error = compare(exploration.surface(), episode.estimate, *episode.truth);
     row.error = episode.error;
@@ -35,10 +37,21 @@ void restate(Episode& episode) {
   episode.trace.push_back(row);
 }
 
+/// Standard deviation; 0 for readings that are all alike.
+double scatter(const std::vector<double>& readings) {
+  const double count = static_cast<double>(readings.size());
+  double mean = 0.0, square = 0.0;
+  for (const double reading : readings) mean += reading / count;
+  for (const double reading : readings) square += (reading - mean) * (reading - mean) / count;
+  return std::sqrt(square);
+}
+
 Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach reach) {
   return Episode{
       .exploration = Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach)),
-      .cut_risk = scene.number("band.cut_risk")};
+      .cut_risk = scene.number("band.cut_risk"),
+      .band_probability = scene.number("band.probability"),
+      .assumed_contrast = scene.has("plan.assumed_contrast") ? std::optional(scene.number("plan.assumed_contrast")) : std::nullopt};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
@@ -198,6 +211,21 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
     restate(episode);
     return episode;
   });
+}
+
+std::optional<double> diameter_ruled_out_m(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  if (exploration.level() || exploration.belief().site_count() == 0) return std::nullopt;
+  std::vector<Vec3> places;
+  std::vector<double> readings;
+  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
+    if (!palpation.set_aside.empty()) continue;
+    places.push_back(exploration.surface().position(palpation.where));
+    readings.push_back(palpation.reading);
+  }
+  Sought sought{.probability = episode.band_probability};
+  if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
+  return palpation::diameter_ruled_out_m(exploration.surface(), places, sought);
 }
 
 Snapshot snapshot(const Episode& episode) {

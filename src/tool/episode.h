@@ -42,8 +42,10 @@ struct Episode {
   std::vector<int> stops{};         ///< all planned stops, in the order of travel
   std::vector<SurfacePoint> way{};  ///< the places between them
   double path_m = 0.0;
-  double cut_risk = 0.05;               ///< of the cut line
-  std::vector<double> batch_seconds{};  ///< planning and updating, the boundary and its error included
+  double cut_risk = 0.05;  ///< of the cut line
+  double band_probability = 0.95;
+  std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
+  std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
 };
 
 using AfterBatch = std::function<void(const Episode&)>;
@@ -58,5 +60,9 @@ Episode run_episode(const Scene& scene, const Surface& surface, const World& wor
 Episode episode_from(const Scene& scene, const Surface& surface, std::span<const Palpation> palpations);
 
 Snapshot snapshot(const Episode& episode);
+
+/// Where readings show no contrast: the least diameter of a tumour that would have been found, with the band's probability. Its contrast is
+/// the assumed one, else four times the scatter of the readings. Nothing where something was found, or where no size can be ruled out.
+std::optional<double> diameter_ruled_out_m(const Episode& episode);
 
 }  // namespace palpation::tool

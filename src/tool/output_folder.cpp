@@ -195,6 +195,7 @@ json OutputFolder::summary(const Episode& episode) const {
     result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
     result["lag_sd_mm"] = exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
   }
+  result["nothing_wider_than_mm"] = maybe(diameter_ruled_out_m(episode), kMm);
   add_certainty(result, episode, scene_.number("band.cut_risk"));
   if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
   return result;
@@ -208,7 +209,8 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
     curves.insert(curves.end(), more.begin(), more.end());
   };
   if (episode.exploration.level() && episode.exploration.belief().site_count() > 0) {
-    add(episode.exploration.component().mean, episode.exploration.level()->value, CurveKind::Estimate);
+    const Contour contour = episode.exploration.contour();
+    add(contour.field, contour.level, CurveKind::Estimate);
   }
   if (const std::optional<Certainty>& certainty = episode.exploration.certainty()) {
     add(certainty->score, certainty->band_score, CurveKind::BandInner);

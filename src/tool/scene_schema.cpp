@@ -145,14 +145,16 @@ std::vector<SceneKey> make_scene_keys() {
       by_default(0.0, number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
                                       "how far behind the probe's travel its readings belong; 0: readings belong where they are made; "
                                       "learned ones lie between -0.5 and 3 mm")),
-      word("level.estimate", {"known", "range", "edge"}, "range",
+      word("level.estimate", {"known", "range", "edge"}, "edge",
            "where tissue becomes tumour: known beforehand; min + fraction (max - min) of the mean; or that fraction of the way between the "
            "plateaus of the readings' profile across the edge, with a standard deviation"),
       number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5, "of that way; it also defines the true outline of a simulated tumour"),
       number("level.value", "reading", -kMostReading, kMostReading, nullptr,
              "the level, needed where level.estimate is known; kept, but without effect, where it is not"),
-      word("plan.acquisition", {"ils-ucb", "ucb", "evr", "straddle", "lse", "random", "raster", "refinement"}, "ils-ucb",
-           "what makes a touch worth while; raster and refinement are the classical scans instead"),
+      word("plan.acquisition", {"auto", "ils-ucb", "ucb", "evr", "straddle", "lse", "random", "raster", "refinement"}, "auto",
+           "what makes a touch worth while: auto sends most of a batch where it tells the most about the boundary, and the rest where the "
+           "straddle criterion looks for more; raster and refinement are the classical scans instead"),
+      number("plan.edge_share", "", 0.0, 1.0, 0.8, "that most, where plan.acquisition is auto and level.estimate edge"),
       number("plan.gamma", "", 0.0, 1.0, 0.5, "of ucb and ils-ucb: 0 explores, 1 exploits"),
       word("plan.scaling", {"raw", "max"}, "raw", "of ucb and ils-ucb: as the paper writes them, or both terms over their maxima"),
       word("plan.initial.design", {"grid", "random", "low-discrepancy"}, "grid", "the first touches"),
@@ -170,6 +172,10 @@ std::vector<SceneKey> make_scene_keys() {
       number("plan.stop.least_gain", "", 0.0, 1.0, 0.0,
              "stop once three batches lowered the expected wrong area by less than this part of it, and the next would too; 0: when the "
              "batches are done"),
+      number(
+          "plan.assumed_contrast", "reading", kLeastReading, kMostReading, nullptr,
+          "by which a tumour that must not be missed stands out, at least: for the answer that there is none wider than so much; left out: "
+          "four times the readings' scatter"),
       number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0,
              "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
       word("probe.kind", {"simulated"}, "simulated", "where readings come from in `palpate simulate`"),

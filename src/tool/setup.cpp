@@ -138,7 +138,7 @@ Acquisition acquisition_of(const Scene& scene) {
   const Scaling scaling = scene.word("plan.scaling") == "max" ? Scaling::MaxScaled : Scaling::Raw;
   if (name == "ucb") return ucb(gamma, scaling);
   if (name == "evr") return evr();
-  if (name == "straddle") return straddle();
+  if (name == "straddle" || name == "auto") return straddle();
   if (name == "lse") return lse_ambiguity();
   if (name == "random") return random_scores(scene.seed());
   return ils_ucb(gamma, scaling);
@@ -215,6 +215,7 @@ Plan plan_of(const Scene& scene) {
                .band_m = scene.metres("plan.stop.band_mm"),
                .least_gain = scene.number("plan.stop.least_gain"),
                .band_probability = scene.number("band.probability")};
+  if (scene.word("plan.acquisition") == "auto") plan.edge_share = scene.number("plan.edge_share");
   plan.safe_start = scene.truth("plan.safe_start");
   return plan;
 }

@@ -55,9 +55,20 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
          " extra. To leave tumour at no place with more than " + percent(cut_risk) + " risk, cut around " + fixed(cut, 1) + " mm2.\n";
 }
 
+/// What is ruled out where nothing was found.
+std::string nothing_words(const Episode& episode) {
+  if (episode.exploration.trend_is_missing()) return "";
+  const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
+  const std::string contrast = episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
+                                                        : "by four times the readings' scatter or more";
+  if (!diameter_m) return "So few readings rule out no tumour that stands out " + contrast + ".\n";
+  return "No tumour that stands out " + contrast + " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
+         percent(episode.band_probability) + " wherever it might be.\n";
+}
+
 std::string found_words(const Episode& episode) {
   if (episode.exploration.belief().site_count() == 0) return "No reading yet, so nothing is known.\n";
-  if (!episode.exploration.level()) return std::string(kNoContrast) + "\n";
+  if (!episode.exploration.level()) return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
   const std::vector<TumourPart> parts = parts_of(episode);
   const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
@@ -88,8 +99,8 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   if (exploration.belief().site_count() == 0) return {};
   if (!exploration.level()) return {no_level_words(exploration)};
-  std::vector<std::string> remarks =
-      remarks_on_level_set(exploration.surface(), exploration.component().mean, exploration.level()->value).words();
+  const Contour contour = exploration.contour();
+  std::vector<std::string> remarks = remarks_on_level_set(exploration.surface(), contour.field, contour.level).words();
   for (std::string& remark : remarks) remark += '.';
   const std::vector<TumourPart> parts = parts_of(episode);
   for (std::size_t i = 0; i < parts.size(); ++i) {

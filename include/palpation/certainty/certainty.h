@@ -7,6 +7,7 @@
 
 #include "palpation/belief/belief.h"
 #include "palpation/belief/level.h"
+#include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/expected_error.h"
 
 namespace palpation {
@@ -29,5 +30,8 @@ struct Certainty {
 /// Throws InvalidInput unless 0 < probability < 1. `marginals`: of the belief, at the vertices.
 Certainty certainty_of(const Surface& surface, const Belief& belief, const Marginals& marginals, const Level& level,
                        double probability = 0.95);
+
+/// The same of a boundary that is believed in depths: the score is the depth over its standard deviation.
+Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability = 0.95);
 
 }  // namespace palpation

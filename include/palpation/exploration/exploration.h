@@ -17,6 +17,7 @@
 #include "palpation/belief/lag.h"
 #include "palpation/belief/level.h"
 #include "palpation/certainty/certainty.h"
+#include "palpation/certainty/edge_belief.h"
 #include "palpation/decision/acquisition.h"
 #include "palpation/decision/batch.h"
 #include "palpation/decision/design.h"
@@ -69,6 +70,9 @@ struct Plan {
   int initial_count = 16;
   BatchOptions batch{.least_spacing_m = 0.0005};
   int batches = 9;  ///< after the initial one
+  /// The part of every batch that goes where it tells the most about the boundary (edge_belief.h), once one is seen and the level is
+  /// inferred from its edge; the rest follows the acquisition, and finds what the boundary does not know of.
+  double edge_share = 0.0;
   StopRule stop{};
   /// Explore by variance alone until the readings show contrast: for learned fields, which five readings of healthy tissue would teach that
   /// noise is all.
@@ -79,6 +83,12 @@ struct Plan {
 struct Reach {
   std::vector<int> vertices{};  ///< rising; empty: all
   bool touch_once = false;      ///< a touched vertex is no candidate any more; so too where readings have no noise
+};
+
+/// The boundary is where the field, one value per vertex, reaches the level.
+struct Contour {
+  Field field;
+  double level = 0.0;
 };
 
 class Exploration {
@@ -112,6 +122,10 @@ class Exploration {
   /// The level as it is estimated now; nothing before the readings show contrast, nor while they are all alike, unless it is known: the
   /// range of noise is no level.
   const std::optional<Level>& level() const { return level_; }
+  /// What is known of the boundary in depths; nothing unless the level is inferred from its edge, and one is seen.
+  const std::optional<EdgeBelief>& edge() const { return edge_; }
+  /// The boundary: of the depth where edge() knows it, of the component else. Throws InvalidInput where there is no level.
+  Contour contour() const;
   /// How sure the boundary is, its band with the probability that the plan's stop rule names; nothing where there is no level or no
   /// reading.
   const std::optional<Certainty>& certainty() const { return certainty_; }
@@ -126,7 +140,8 @@ class Exploration {
 
  private:
   void learn_from(std::span<const Palpation> palpations);
-  Level estimated_level() const;
+  void estimate_boundary();
+  std::vector<int> chosen_stops() const;
   void plan_next();
   std::string reason_to_stop() const;
   Acquisition acquisition_in_force() const;
@@ -147,6 +162,7 @@ class Exploration {
   Marginals marginals_;
   Marginals component_;
   std::optional<Level> level_;
+  std::optional<EdgeBelief> edge_;
   std::optional<Certainty> certainty_;
   std::vector<double> expected_errors_m2_;  // after each batch with a level
   Hyperparameters learned_;

@@ -1,0 +1,70 @@
+/// The boundary as a belief of its own: how deep each place lies inside it, in metres.
+///
+/// A stationary field knows nothing of plateaus, so it is unsure everywhere and smooths the edge. What readings tell of the edge is clearer
+/// in depths. With d(x) the signed distance from a first boundary (positive inside), across the edge
+///
+///     depth(x) = d(x) + c(x),      c ~ GP(0, correction_sd^2 exp(-r^2 / 2 length^2)),
+///     reading  = low + (high - low) / (1 + exp(-slope depth)) + noise                        (equation 4 of Garg et al. 2016)
+///
+/// and c, low, high and log slope are found together, with their covariance: Laplace's approximation at the most probable values, by Gauss
+/// and Newton's steps. So the level's uncertainty is part of the depth's. The boundary lies where the reading is `fraction` of the way from
+/// low to high: there the depth handed out is zero.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "palpation/belief/belief.h"
+#include "palpation/certainty/edge_profile.h"
+
+namespace palpation {
+
+/// What is known of a boundary's shape beforehand.
+struct ShapePrior {
+  double correction_sd_m = 0.001;      ///< how far off the first boundary may be: a millimetre is most of an edge's width
+  double correction_length_m = 0.006;  ///< over which it is off the same way: the least radius of curvature of tumours of a few cm2
+  double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
+  double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
+};
+
+class EdgeBelief {
+ public:
+  /// Around the boundary { mean = first_level } of the belief's field. `component`: what the level cuts, at the vertices (the field, or the
+  /// detrended one). Nothing where no boundary can be drawn there, or no reading is left to place it. Throws InvalidInput for a fraction
+  /// outside (0, 1), NumericalError if the readings' covariance is not positive definite.
+  static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, double first_level, double fraction,
+                                          const ShapePrior& shape = {});
+
+  /// Depth at the vertices: mean in metres, zero at the boundary; variance in m2. Farther from the first boundary than any correction
+  /// reaches, the mean is the distance and the variance the prior's.
+  const Marginals& depth() const { return depth_; }
+  const EdgeProfile& profile() const { return profile_; }
+  /// Between low and high, with its standard deviation.
+  const Level& level() const { return profile_.level; }
+
+  /// Expected area between the boundary and the true one: the integral along it of the depth's mean absolute error, sqrt(2 / pi) sd.
+  double expected_error_m2() const;
+
+  /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
+  /// upcrossings of a Gaussian process, from the depths' correlation along the boundary.
+  double band_score(double probability) const;
+
+  /// Where touches would tell the most: one after the other, the candidate whose reading lowers the depth's expected error along the
+  /// boundary (the integral of its standard deviation) the most, with what the picks before it will tell. Touches on the plateaus, which
+  /// earn the level, are among them when they are worth it. Of candidates within a tenth of the best, the one where the field is known
+  /// least (`field_variance`, at the vertices): what tells as much of the edge may as well tell of the rest.
+  std::vector<int> most_telling(std::span<const int> candidates, int count, double least_spacing_m, const Field& field_variance) const;
+
+ private:
+  struct Fit;
+  EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit);
+
+  Surface surface_;
+  std::shared_ptr<const Fit> fit_;
+  EdgeProfile profile_;
+  Marginals depth_;
+};
+
+}  // namespace palpation

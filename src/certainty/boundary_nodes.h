@@ -1,0 +1,20 @@
+/// Places along a boundary, to sum over it.
+#pragma once
+
+#include <vector>
+
+#include "palpation/geometry/surface.h"
+
+namespace palpation {
+
+struct BoundaryNodes {
+  std::vector<SurfacePoint> points;
+  std::vector<double> length_m;    ///< of the boundary, that each stands for
+  std::vector<bool> follows_last;  ///< whether the node before lies on the same stretch
+};
+
+/// Places at most about 0.8 mm apart along { depth = 0 }, an eighth of the length over which boundaries bend; the tissue's border is no
+/// boundary.
+BoundaryNodes boundary_nodes(const Surface& surface, const Field& depth);
+
+}  // namespace palpation

@@ -1,0 +1,132 @@
+#include "palpation/certainty/edge_belief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "certainty/boundary_nodes.h"
+#include "certainty/depth.h"
+#include "certainty/edge_belief_fit.h"
+#include "certainty/normal.h"
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+/// Readings without noise still scatter about the profile, as much as the model of the edge is wrong: a thousandth of the range.
+constexpr double kModelError = 1e-3;
+
+/// One reading per place, of those that are used.
+EdgeData gathered(const Belief& belief) {
+  EdgeData data;
+  const std::vector<Site> sites = gather_sites(belief.prior(), belief.detrended_palpations());
+  const auto count = static_cast<Eigen::Index>(sites.size());
+  data.reading.resize(count);
+  data.variance.resize(count);
+  data.depth_m.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const MergedReading merged = merge(sites[static_cast<std::size_t>(i)], belief.noise_variance());
+    data.places.push_back(sites[static_cast<std::size_t>(i)].where);
+    data.reading[i] = merged.mean;
+    data.variance[i] = merged.variance;
+  }
+  return data;
+}
+
+double value_at(const Surface& surface, const Field& field, const SurfacePoint& point) {
+  const Eigen::Vector3i corners = surface.triangle(point.face);
+  double value = 0.0;
+  for (int i = 0; i < 3; ++i) value += point.barycentric[i] * field[corners[i]];
+  return value;
+}
+
+std::vector<Vec3> positions(const Surface& surface, std::span<const SurfacePoint> points) {
+  std::vector<Vec3> places;
+  for (const SurfacePoint& point : points) places.push_back(surface.position(point));
+  return places;
+}
+
+/// Signed distances of the vertices and of the readings from { field = level }; false where there is no boundary.
+bool measure_depths(const Surface& surface, const Field& field, double level, Eigen::VectorXd& vertices, EdgeData& data) {
+  const std::vector<LevelLoop> loops = level_loops(surface, field, level);
+  std::vector<Vec3> places;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) places.push_back(surface.vertex(vertex));
+  const std::vector<double> of_vertices = distances_from(surface, loops, places);
+  const std::vector<double> of_readings = distances_from(surface, loops, positions(surface, data.places));
+  if (of_vertices.empty() || of_readings.empty()) return false;
+  vertices.resize(surface.vertex_count());
+  for (Eigen::Index vertex = 0; vertex < vertices.size(); ++vertex) {
+    const double distance = of_vertices[static_cast<std::size_t>(vertex)];
+    vertices[vertex] = field[vertex] >= level ? distance : -distance;
+  }
+  for (Eigen::Index i = 0; i < data.depth_m.size(); ++i) {
+    const double distance = of_readings[static_cast<std::size_t>(i)];
+    data.depth_m[i] = value_at(surface, field, data.places[static_cast<std::size_t>(i)]) >= level ? distance : -distance;
+  }
+  return true;
+}
+
+}  // namespace
+
+EdgeBelief::EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit) : surface_(std::move(surface)), fit_(std::move(fit)) {}
+
+std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Marginals& component, double first_level, double fraction,
+                                             const ShapePrior& shape) {
+  require(fraction > 0.0 && fraction < 1.0, "EdgeBelief", "fraction = " + text_of(fraction), "must lie in (0, 1)");
+  const Surface& surface = belief.prior().surface();
+  EdgeData data = gathered(belief);
+  const double least = component.mean.minCoeff(), range = component.mean.maxCoeff() - least;
+  if (data.places.empty() || !(range > 0.0)) return std::nullopt;
+  const double model_variance = kModelError * kModelError * range * range;
+  const double touch_variance = std::max(belief.noise_variance(), model_variance);
+  data.variance = data.variance.cwiseMax(model_variance);
+
+  Eigen::VectorXd distance;
+  if (!measure_depths(surface, component.mean, first_level, distance, data)) return std::nullopt;
+
+  const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
+                             {range * range, range * range, shape.slope_log_sd * shape.slope_log_sd}};
+  const Kernel kernel{
+      .family = KernelFamily::SquaredExponential, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
+  const Prior correction(surface, belief.prior().metric(), kernel, Constant{.sd = 0.0});
+  EdgeFit edge = fit_edge_belief(data, correction.covariance(data.places, data.places), profile);
+
+  EdgeBelief made(surface, std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance, data.places, std::move(edge)}));
+  made.profile_ = made.fit_->edge_profile();
+  made.depth_ = made.fit_->depth_at_vertices(distance);
+  return made;
+}
+
+double EdgeBelief::expected_error_m2() const {
+  const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
+  const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes.points.size(); ++i) {
+    const auto node = static_cast<Eigen::Index>(i);
+    sum += nodes.length_m[i] * std::sqrt(std::max(covariance(node, node), 0.0));
+  }
+  return std::sqrt(2.0 / std::numbers::pi) * sum;
+}
+
+double EdgeBelief::band_score(double probability) const {
+  const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
+  const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
+  // The path of the standardized depth on the unit sphere: upcrossings of q are its length / 2 pi exp(-q^2 / 2).
+  double turn = 0.0;
+  for (std::size_t i = 1; i < nodes.points.size(); ++i) {
+    if (!nodes.follows_last[i]) continue;
+    const auto here = static_cast<Eigen::Index>(i), before = here - 1;
+    const double scale = std::sqrt(covariance(here, here) * covariance(before, before));
+    if (scale > 0.0) turn += std::acos(std::clamp(covariance(here, before) / scale, -1.0, 1.0));
+  }
+  const auto misses = [&](double q) {
+    return 2.0 * (1.0 - normal_probability(q)) + 2.0 * turn / (2.0 * std::numbers::pi) * std::exp(-0.5 * q * q);
+  };
+  double below = 0.0, above = 40.0;
+  for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {
+    (misses(middle) > 1.0 - probability ? below : above) = middle;
+  }
+  return above;
+}
+
+}  // namespace palpation

@@ -1,0 +1,75 @@
+#include "certainty/edge_belief_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpation {
+namespace {
+
+/// No correction moves a boundary farther than this many of its standard deviations: depths beyond keep their side.
+constexpr double kReach = 6.0;
+
+}  // namespace
+
+double EdgeBelief::Fit::shift_m() const { return std::log(fraction / (1.0 - fraction)) / std::exp(edge.profile[2]); }
+
+Eigen::Matrix3d EdgeBelief::Fit::profile_covariance() const {
+  const Eigen::Matrix3d variance = prior.variance.asDiagonal();
+  const ProfileSlopes shared = edge.by_profile * variance;
+  return variance - shared.transpose() * edge.covariance.solve(shared);
+}
+
+EdgeProfile EdgeBelief::Fit::edge_profile() const {
+  const Eigen::Vector3d of_level(1.0 - fraction, fraction, 0.0);
+  const double variance = of_level.dot(profile_covariance() * of_level);
+  const double low = edge.profile[0], high = edge.profile[1];
+  return {.low = low,
+          .high = high,
+          .slope_per_m = std::exp(edge.profile[2]),
+          .shift_m = 0.0,
+          .level = {low + fraction * (high - low), std::sqrt(std::max(variance, 0.0))}};
+}
+
+Eigen::MatrixXd EdgeBelief::Fit::readings_with_depths(std::span<const SurfacePoint> points) const {
+  Eigen::MatrixXd shared = edge.by_depth.asDiagonal() * correction.covariance(places, points);
+  // depth = distance + correction - logit(fraction) / slope, whose derivative by log slope is the shift.
+  shared.colwise() += edge.by_profile.col(2) * (prior.variance[2] * shift_m());
+  return shared;
+}
+
+Eigen::MatrixXd EdgeBelief::Fit::depth_covariance(std::span<const SurfacePoint> points) const {
+  Eigen::MatrixXd shared = readings_with_depths(points);
+  edge.covariance.matrixL().solveInPlace(shared);
+  Eigen::MatrixXd covariance = correction.covariance(points, points);
+  covariance.array() += shift_m() * shift_m() * prior.variance[2];
+  covariance.noalias() -= shared.transpose() * shared;
+  return covariance;
+}
+
+Marginals EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const {
+  const Surface& surface = correction.surface();
+  const double shift = shift_m(), sd = correction.kernel().signal_sd;
+  const double prior_variance = sd * sd + shift * shift * prior.variance[2];
+  Marginals depth{distance.array() - shift, Eigen::VectorXd::Constant(distance.size(), prior_variance)};
+  std::vector<SurfacePoint> near;
+  std::vector<int> vertices;
+  for (int vertex = 0; vertex < distance.size(); ++vertex) {
+    if (std::abs(distance[vertex]) > kReach * sd) continue;
+    vertices.push_back(vertex);
+    near.push_back(surface.at_vertex(vertex));
+  }
+  // Corrections alone move the mean: the shift is that of the most probable slope already.
+  Eigen::MatrixXd shared = edge.by_depth.asDiagonal() * correction.covariance(places, near);
+  const Eigen::VectorXd moved = shared.transpose() * edge.pull;
+  shared.colwise() += edge.by_profile.col(2) * (prior.variance[2] * shift);
+  edge.covariance.matrixL().solveInPlace(shared);
+  const Eigen::VectorXd known = shared.colwise().squaredNorm();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    depth.mean[vertices[i]] += moved[column];
+    depth.variance[vertices[i]] = std::max(prior_variance - known[column], 1e-12 * prior_variance);
+  }
+  return depth;
+}
+
+}  // namespace palpation

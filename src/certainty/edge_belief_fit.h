@@ -1,0 +1,34 @@
+/// What an EdgeBelief keeps: the fit, and how readings and depths elsewhere go with it.
+#pragma once
+
+#include <vector>
+
+#include "certainty/edge_fit.h"
+#include "palpation/certainty/edge_belief.h"
+
+namespace palpation {
+
+struct EdgeBelief::Fit {
+  Prior correction;
+  ProfilePrior prior;
+  double fraction;
+  double touch_variance;  ///< noise of a reading to come
+  std::vector<SurfacePoint> places;
+  EdgeFit edge;
+
+  /// Of the boundary below the middle of the profile: logit(fraction) / slope.
+  double shift_m() const;
+  /// Posterior covariance of low, high and log slope.
+  Eigen::Matrix3d profile_covariance() const;
+  EdgeProfile edge_profile() const;
+  /// `distance`: of each vertex from the first boundary, signed.
+  Marginals depth_at_vertices(const Eigen::VectorXd& distance) const;
+
+  /// Prior covariance of the readings (rows) with depths at points (columns): what both share is the correction, and the slope by the
+  /// shift.
+  Eigen::MatrixXd readings_with_depths(std::span<const SurfacePoint> points) const;
+  /// Posterior covariance of the depths at points.
+  Eigen::MatrixXd depth_covariance(std::span<const SurfacePoint> points) const;
+};
+
+}  // namespace palpation
