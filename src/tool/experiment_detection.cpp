@@ -61,6 +61,11 @@ std::array<Run, 2> healthy_and_planted(const Scene& base, const Surface& surface
   std::array<Run, 2> runs = {Run{.row = "healthy", .seed = seed, .noise = base.number("probe.noise")},
                              Run{.row = "planted", .seed = seed, .noise = base.number("probe.noise")}};
   runs[0].good = healthy.estimate.empty();
+  runs[0].ruled_out_m = runs[1].ruled_out_m = diameter_ruled_out_m(healthy);
+  if (!runs[0].ruled_out_m) return runs;
+  Random random(seed ^ kPlaceStream);
+  const json disks = json::array({disk_mm(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});
+  runs[1].good = overlaps(surface, episode_of(scene.with("probe.tumours", disks), surface), disks[0], 0.0);
   return runs;
 }
 
@@ -118,7 +123,9 @@ void detection(const ExperimentArguments& arguments) {
   for_trials(cells.size(), arguments, [&](std::size_t cell, std::size_t trial, std::uint64_t seed) {
     std::vector<Run>& runs = found[cell * static_cast<std::size_t>(arguments.trials) + trial];
     if (cell < kNoises.size()) {
-      for (const Run& run : healthy_and_planted(cells[cell].scene, tissue.surface, seed)) runs.push_back(run);
+      for (const Run& run : healthy_and_planted(cells[cell].scene, tissue.surface, seed)) {
+        if (run.row == "healthy" || run.ruled_out_m) runs.push_back(run);
+      }
     } else {
       runs.push_back(two_tumours(cells[cell].scene, tissue.surface, seed));
     }

@@ -123,6 +123,22 @@ class Tool(unittest.TestCase):
         self.assertGreater(summary["error"]["dice"], 0.8)
         self.assertTrue(any("reaches the border" in warning for warning in summary["warnings"]))
 
+    def test_coverage_and_detection_count_runs_over_random_tumours(self):
+        coarse = ["--trials", 1, "--set", "surface.plane.vertices=[37,33]", "--set", "plan.batches=2", "--quiet", "--out", self.folder]
+        words = self.done("experiment", "coverage", *coarse)
+        self.assertIn("noise 25 %", words)
+        header, *rows = (self.folder / "coverage.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 4)
+        names = header.split(",")
+        for row in rows:
+            run = dict(zip(names, row.split(",")))
+            self.assertTrue(50.0 <= float(run["area_mm2"]) <= 400.0 and 500.0 <= float(run["slope_per_m"]) <= 2000.0)
+            self.assertGreater(float(run["bound_mm2"]), 0.0)
+        words = self.done("experiment", "detection", *coarse, "--set", "plan.assumed_contrast=2")
+        self.assertIn("Healthy tissue: nothing found", words)
+        kinds = [row.split(",")[0] for row in (self.folder / "detection.csv").read_text().splitlines()[1:]]
+        self.assertEqual((kinds.count("healthy"), kinds.count("two")), (4, 3))
+
     def test_a_stop_has_its_reason_in_words(self):
         words = self.done("simulate", self.scene, "--set", "plan.stop.band_mm=3", "--set", "plan.batches=12", "--set", "level.estimate=edge")
         self.assertIn("Stopped because the band is narrow enough.", words)
@@ -131,8 +147,13 @@ class Tool(unittest.TestCase):
         out = self.folder / "healthy"
         words = self.done("simulate", self.scene, "--set", "probe.tumours=[]", "--out", out)
         self.assertIn("Nothing found", words)
+        self.assertIn("wider than", words)
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual(summary["parts"], [])
+        self.assertIsNone(summary["band"])
+        stiffer = json.loads(self.summary_of("simulate", "--set", "probe.tumours=[]", "--set", "plan.assumed_contrast=2"))
+        self.assertGreater(summary["nothing_wider_than_mm"], stiffer["nothing_wider_than_mm"])
+        self.assertGreater(stiffer["nothing_wider_than_mm"], 2.0)
         self.assertIsNone(summary["level"])
         self.assertEqual(summary["error"]["dice"], 1.0)
         self.assertIsNone(summary["error"]["hausdorff_mm"])
