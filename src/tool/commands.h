@@ -42,6 +42,7 @@ struct ExperimentArguments {
   int trials = 5;
   std::uint64_t first_seed = 0;
   bool print_scene = false;
+  std::filesystem::path recordings;  ///< the folder that holds them
   std::filesystem::path out;
   bool quiet = false;
 };

@@ -15,6 +15,7 @@
 namespace palpation::tool {
 
 void table1(const ExperimentArguments& arguments);
+void recordings(const ExperimentArguments& arguments);
 void figure4(const ExperimentArguments& arguments);
 void table2(const ExperimentArguments& arguments);
 void coverage(const ExperimentArguments& arguments);

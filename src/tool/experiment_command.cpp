@@ -19,6 +19,7 @@ constexpr Experiment kExperiments[] = {
     {"table2", table2},
     {"coverage", coverage},
     {"detection", detection},
+    {"recordings", recordings},
 };
 
 }  // namespace

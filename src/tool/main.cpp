@@ -122,6 +122,7 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
+  command->add_option("--recordings", arguments.experiment.recordings, "of experiment recordings: the folder with the physical recordings");
   command->add_flag("--print-scene", arguments.experiment.print_scene, "print the scene of every cell instead of running it");
   command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");
   command->add_option("--threads", arguments.threads, "trials run at once; the results do not depend on it")->check(whole(1, 1024));
