@@ -162,7 +162,8 @@ void Exploration::estimate_boundary() {
 
 Contour Exploration::contour() const {
   require(level_.has_value(), "Exploration::contour", "no level", "draws no boundary");
-  return edge_ ? Contour{edge_->depth().mean, 0.0} : Contour{component_.mean, level_->value};
+  if (edge_) return {eroded(surface_, edge_->depth().mean, field_.indenter_radius_m).field, 0.0};
+  return {component_.mean, level_->value};
 }
 
 bool Exploration::trend_is_missing() const { return field_.linear_trend && !belief_.prior().has_slope(); }

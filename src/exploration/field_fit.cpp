@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "palpation/base/error.h"
+
 namespace palpation {
 namespace {
 
@@ -14,6 +16,25 @@ constexpr std::size_t kPlacesForSlope = 15;
 constexpr double kSlopeToHalfContrast = 1.5;
 /// What half the contrast is taken for where it is not known: half of the readings' range.
 constexpr double kHalf = 0.5;
+
+/// All stops, and every so many of the readings on the way, so that there are no more than `most` in all if the stops allow.
+std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
+  const auto on_the_way = [](const Palpation& palpation) { return palpation.kind == TouchKind::Way && palpation.set_aside.empty(); };
+  const auto ways = static_cast<std::size_t>(std::ranges::count_if(palpations, on_the_way));
+  const std::size_t stops = palpations.size() - ways;
+  if (ways == 0 || palpations.size() <= most) return {palpations.begin(), palpations.end()};
+  const std::size_t kept = most > stops ? most - stops : 0;
+  std::vector<Palpation> chosen;
+  std::size_t passed = 0;
+  for (const Palpation& palpation : palpations) {
+    if (on_the_way(palpation)) {
+      ++passed;
+      if (passed * kept / ways == (passed - 1) * kept / ways) continue;
+    }
+    chosen.push_back(palpation);
+  }
+  return chosen;
+}
 
 /// Mean and standard deviation of the readings, as BeliefOptions::standardize takes them.
 struct Spread {
@@ -73,11 +94,17 @@ bool all_equal(const std::vector<double>& readings) {
   return std::adjacent_find(readings.begin(), readings.end(), std::not_equal_to<>()) == readings.end();
 }
 
-FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start) {
+Hyperparameters LearnedField::in_force() const {
+  if (taught) return learned;
+  return {blank.prior().kernel().length_m, blank.prior().kernel().signal_sd, blank.options().noise_sd};
+}
+
+LearnedField learn_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations,
+                         const Hyperparameters& start, std::size_t most_places) {
   const Belief fresh = unlearned(surface, field);
   const std::vector<double> readings = used_readings(palpations);
   const std::size_t places = gather_sites(fresh.prior(), palpations).size();
-  if (places < 2 || all_equal(readings)) return {fresh.condition_on(palpations), start};
+  if (places < 2 || all_equal(readings)) return {fresh, start};
   LearnOptions options;
   options.length_median_m = field.length_median_m;
   if (!field.learn_length) options.length_m = field.kernel.length_m;
@@ -86,7 +113,7 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<co
   // A field of zero mean around the readings' mean, if they are standardized: what is learned is in reading units all the same.
   const bool centred = field.belief.standardize && field.constant.sd == 0.0;
   const Spread spread = centred ? spread_of(readings) : Spread{};
-  std::vector<Palpation> shifted(palpations.begin(), palpations.end());
+  std::vector<Palpation> shifted = to_learn_from(palpations, most_places);
   for (Palpation& palpation : shifted) palpation.reading -= spread.mean;
   const auto [least, greatest] = std::minmax_element(readings.begin(), readings.end());
   Slope slope = slope_of(surface, field, places, kHalf * (*greatest - *least));
@@ -97,8 +124,23 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<co
   kernel.signal_sd = learned.values.signal_sd / spread.sd;
   slope.sd /= spread.sd;
   const Prior prior(surface, field.metric, kernel, field.constant, slope);
-  return {Belief(prior, {.noise_sd = learned.values.noise_sd, .standardize = centred}).condition_on(palpations), learned.values,
-          learned.signal_evidence};
+  return {Belief(prior, {.noise_sd = learned.values.noise_sd, .standardize = centred}), learned.values, learned.signal_evidence, true,
+          shifted.size() < palpations.size()};
+}
+
+FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start) {
+  return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
+}
+
+FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught) {
+  try {
+    return {taught.blank.condition_on(palpations), taught.learned, taught.signal_evidence};
+  } catch (const NumericalError&) {
+    // Less noise than parts the readings that were left out: all of them together say so.
+    if (!taught.from_some) throw;
+    const LearnedField by_all = learn_field(surface, field, palpations, taught.learned, palpations.size());
+    return {by_all.blank.condition_on(palpations), by_all.learned, by_all.signal_evidence};
+  }
 }
 
 }  // namespace palpation

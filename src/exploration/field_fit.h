@@ -18,14 +18,36 @@ std::vector<double> used_readings(std::span<const Palpation> palpations);
 
 bool all_equal(const std::vector<double>& readings);
 
+/// Most readings that hyperparameters are learned from where some were made on the way: stops number a few hundred, readings on the way
+/// thousands, and the cost grows with the third power. All of them count in the belief.
+inline constexpr std::size_t kMostToLearnFrom = 150;
+
+/// What readings teach: the belief before them.
+struct LearnedField {
+  Belief blank;
+  Hyperparameters learned;       ///< reading units; where to start from where nothing is taught
+  double signal_evidence = 0.0;  ///< log likelihood ratio of this field to noise alone around a constant, or around a plane
+  bool taught = false;
+  bool from_some = false;  ///< not from all readings
+
+  Hyperparameters in_force() const;
+};
+
+/// The hyperparameters that the readings teach, searched from `start`; from fewer than two places, or readings that are all alike, nothing
+/// is learned. Of readings on the way only every so many counts where there are more than `most_places` in all.
+LearnedField learn_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations,
+                         const Hyperparameters& start, std::size_t most_places = kMostToLearnFrom);
+
 struct FieldFit {
   Belief belief;
   Hyperparameters learned;
-  double signal_evidence = 0.0;  ///< log likelihood ratio of this field to noise alone around a constant, or around a plane
+  double signal_evidence = 0.0;
 };
 
-/// A new belief with the hyperparameters that the readings teach, searched from `start`; from fewer than two places, or readings that are
-/// all alike, nothing is learned.
+/// The belief that knows them too. Where readings that did not teach are too close together for the noise that was learned, all teach.
+FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught);
+
+/// Both.
 FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start);
 
 }  // namespace palpation

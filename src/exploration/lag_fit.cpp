@@ -1,6 +1,7 @@
 #include "exploration/lag_fit.h"
 
 #include <cmath>
+#include <utility>
 
 namespace palpation {
 namespace {
@@ -8,38 +9,44 @@ namespace {
 constexpr int kMostRounds = 5;
 constexpr double kAtRest_m = 0.00002;  // a fifth of what two lags can be told apart by
 
-FieldFit fit_at(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
-                double lag_m) {
-  const std::vector<Palpation> moved = displaced(surface, palpations, lag_m);
-  if (field.learns()) return fit_field(surface, field, moved, start);
-  return {fixed_field(surface, field, moved), start};
-}
-
-Hyperparameters in_force(const Belief& belief) {
-  return {belief.prior().kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())};
-}
-
 /// The field's prior about a constant that is not known: where readings belong does not depend on what they have in common.
-Prior for_lag(const Belief& belief) {
-  const Prior& prior = belief.prior();
+Prior for_lag(const Prior& prior) {
   if (std::isinf(prior.constant().sd)) return prior;
   return Prior(prior.surface(), prior.metric(), prior.kernel(), {}, prior.slope());
+}
+
+/// The field of fixed hyperparameters; those in force are in reading units.
+LearnedField as_given(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations) {
+  const Belief belief = fixed_field(surface, field, palpations);
+  return {Belief(belief.prior(), belief.options()),
+          {belief.prior().kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())},
+          0.0,
+          true};
+}
+
+LearnedField learned_at(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations,
+                        const Hyperparameters& start, double lag_m) {
+  const std::vector<Palpation> moved = displaced(surface, palpations, lag_m);
+  return field.learns() ? learn_field(surface, field, moved, start) : as_given(surface, field, moved);
 }
 
 }  // namespace
 
 LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
                   const std::optional<Lag>& before) {
-  if (!field.lag.learn) return {fit_at(surface, field, palpations, start, field.lag.known_m), Lag{field.lag.known_m, 0.0}};
-  double lag_m = before ? before->value_m : LagPrior{}.mean_m;
-  LagFit fit{fit_at(surface, field, palpations, start, lag_m)};
-  for (int round = 0; round < kMostRounds; ++round) {
-    fit.lag = learn_lag(for_lag(fit.field.belief), palpations, in_force(fit.field.belief));
-    if (!fit.lag || std::abs(fit.lag->value_m - lag_m) <= kAtRest_m) break;
-    lag_m = fit.lag->value_m;
-    fit.field = fit_at(surface, field, palpations, fit.field.learned, lag_m);
+  std::optional<Lag> lag = Lag{field.lag.known_m, 0.0};
+  double lag_m = field.lag.known_m;
+  if (field.lag.learn) lag_m = before ? before->value_m : LagPrior{}.mean_m;
+  LearnedField taught = learned_at(surface, field, palpations, start, lag_m);
+  for (int round = 0; field.lag.learn && round < kMostRounds; ++round) {
+    lag = learn_lag(for_lag(taught.blank.prior()), palpations, taught.in_force());
+    if (!lag || std::abs(lag->value_m - lag_m) <= kAtRest_m) break;
+    lag_m = lag->value_m;
+    taught = learned_at(surface, field, palpations, taught.learned, lag_m);
   }
-  return fit;
+  FieldFit fit = believe(surface, field, displaced(surface, palpations, lag_m), taught);
+  if (!field.learns()) fit.learned = start;
+  return {std::move(fit), lag};
 }
 
 }  // namespace palpation
