@@ -1,11 +1,14 @@
 #include "certainty/boundary_nodes.h"
 
+#include <cmath>
+
 #include "palpation/boundary/level_set.h"
 
 namespace palpation {
 namespace {
 
 constexpr double kSpacing_m = 0.0008;
+constexpr double kFarOff = 20.0;  // squared, in spacings: a weight of e^-10
 
 }  // namespace
 
@@ -30,6 +33,27 @@ BoundaryNodes boundary_nodes(const Surface& surface, const Field& depth) {
     }
   }
   return nodes;
+}
+
+Field spread_from_nodes(const Surface& surface, const BoundaryNodes& nodes, const Eigen::VectorXd& values) {
+  const auto count = static_cast<Eigen::Index>(nodes.points.size());
+  if (count == 0) return Field::Zero(surface.vertex_count());
+  Eigen::Matrix3Xd places(3, count);
+  for (Eigen::Index node = 0; node < count; ++node) places.col(node) = surface.position(nodes.points[static_cast<std::size_t>(node)]);
+  Field spread(surface.vertex_count());
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const Eigen::ArrayXd squared = (places.colwise() - surface.vertex(vertex)).colwise().squaredNorm().transpose();
+    const double nearest = squared.minCoeff();
+    double weights = 0.0, sum = 0.0;
+    for (Eigen::Index node = 0; node < count; ++node) {
+      if (squared[node] - nearest > kFarOff * kSpacing_m * kSpacing_m) continue;
+      const double weight = std::exp(-0.5 * (squared[node] - nearest) / (kSpacing_m * kSpacing_m));
+      weights += weight;
+      sum += weight * values[node];
+    }
+    spread[vertex] = sum / weights;
+  }
+  return spread;
 }
 
 }  // namespace palpation

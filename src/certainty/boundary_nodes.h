@@ -17,4 +17,7 @@ struct BoundaryNodes {
 /// boundary.
 BoundaryNodes boundary_nodes(const Surface& surface, const Field& depth);
 
+/// The nodes' values at all vertices: at each, the mean over the nearest nodes, their weight falling over one spacing.
+Field spread_from_nodes(const Surface& surface, const BoundaryNodes& nodes, const Eigen::VectorXd& values);
+
 }  // namespace palpation

@@ -53,8 +53,7 @@ Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& m
 
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability) {
   check_probability(probability);
-  Certainty certainty{
-      .score = edge.depth().mean.array() / edge.depth().variance.array().sqrt(), .probability = probability, .expected = {}};
+  Certainty certainty{.score = edge.depth().mean.array() / edge.offset_sd().array().max(1e-12), .probability = probability, .expected = {}};
   certainty.band_score = edge.band_score(probability);
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   certainty.expected.missed_m2 = certainty.expected.extra_m2 = 0.5 * edge.expected_error_m2();

@@ -1,7 +1,10 @@
 #include "palpation/certainty/detection.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "certainty/normal.h"
@@ -11,6 +14,27 @@ namespace palpation {
 namespace {
 
 constexpr double kResolution_m = 1e-5;
+constexpr int kMostCentres = 2000;
+/// Each a quarter wider than the one before: a disk between two of them loses a twentieth of its excess at most.
+constexpr std::array kWidths_m = {0.004, 0.005, 0.00625, 0.0078, 0.0098, 0.0122, 0.0153, 0.0191};
+constexpr double kLikeness = 0.95;
+constexpr double kSlope_per_m = 1200.0;  // as Sought's
+
+double rise(double depth_m, double slope_per_m) { return depth_m < 0.0 ? 0.0 : 1.0 / (1.0 + std::exp(-slope_per_m * depth_m)); }
+
+/// Of a correlation: how rare it is among readings without any, as a normal deviate.
+double excess_of(double correlation, double freedom) {
+  return std::sqrt(-freedom * std::log1p(-std::min(correlation * correlation, 1.0 - 1e-15))) * (8.0 * freedom + 1.0) /
+         (8.0 * freedom + 3.0);
+}
+
+/// What must stand out so that the excess is as needed, though the disk itself adds to the readings' scatter.
+double needed_signal(std::size_t readings) {
+  if (readings < 4) return std::numeric_limits<double>::infinity();
+  const double freedom = static_cast<double>(readings) - 2.0;
+  const double needed = kNeededToFind * (8.0 * freedom + 3.0) / (8.0 * freedom + 1.0);
+  return std::sqrt(freedom * std::expm1(needed * needed / freedom)) / kLikeness;
+}
 
 class Power {
  public:
@@ -18,7 +42,7 @@ class Power {
       : surface_(surface),
         places_(places),
         slope_per_m_(sought.slope_per_m),
-        needed_(std::pow((kNeededToFind + normal_quantile(sought.probability)) / sought.contrast_to_noise, 2)) {}
+        needed_(std::pow((needed_signal(places.size()) + normal_quantile(sought.probability)) / sought.contrast_to_noise, 2)) {}
 
   /// Whether a disk around a vertex is found surely enough. It grows with the radius.
   bool suffices(int vertex, double radius_m) const {
@@ -29,8 +53,7 @@ class Power {
       const double depth = radius_m - (place - centre).norm();
       if (depth < 0.0) continue;
       touched = true;
-      const double rise = 1.0 / (1.0 + std::exp(-slope_per_m_ * depth));
-      sum += rise * rise;
+      sum += std::pow(rise(depth, slope_per_m_), 2);
       if (sum >= needed_) return true;
     }
     return touched && sum >= needed_;
@@ -44,6 +67,28 @@ class Power {
 };
 
 }  // namespace
+
+double greatest_excess(const Surface& surface, std::span<const Vec3> places, std::span<const double> readings) {
+  require(places.size() == readings.size(), "greatest_excess", "places and readings", "must be as many");
+  const auto count = static_cast<Eigen::Index>(readings.size());
+  if (count < 4) return 0.0;
+  Eigen::VectorXd deviation = Eigen::Map<const Eigen::VectorXd>(readings.data(), count);
+  deviation.array() -= deviation.mean();
+  const double scatter = deviation.norm();
+  if (!(scatter > 0.0)) return 0.0;
+  double greatest = 0.0;
+  Eigen::VectorXd rises(count);
+  const int step = 1 + (surface.vertex_count() - 1) / kMostCentres;
+  for (int vertex = 0; vertex < surface.vertex_count(); vertex += step) {
+    for (const double width_m : kWidths_m) {
+      for (Eigen::Index i = 0; i < count; ++i)
+        rises[i] = rise(0.5 * width_m - (places[static_cast<std::size_t>(i)] - surface.vertex(vertex)).norm(), kSlope_per_m);
+      const double spread = std::sqrt(std::max(0.0, rises.squaredNorm() - count * std::pow(rises.mean(), 2)));
+      if (spread > 0.0) greatest = std::max(greatest, rises.dot(deviation) / (spread * scatter));
+    }
+  }
+  return excess_of(greatest, static_cast<double>(count) - 2.0);
+}
 
 std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought) {
   require(sought.contrast_to_noise > 0.0, "diameter_ruled_out_m", "contrast_to_noise = " + text_of(sought.contrast_to_noise),

@@ -94,33 +94,27 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   EdgeBelief made(surface, std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance, data.places, std::move(edge)}));
   made.profile_ = made.fit_->edge_profile();
   made.depth_ = made.fit_->depth_at_vertices(distance);
+  made.survey_boundary();
   return made;
 }
 
-double EdgeBelief::expected_error_m2() const {
+/// Offsets at nodes along the boundary: how sure they are, and how they go together.
+void EdgeBelief::survey_boundary() {
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
   const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
-  double sum = 0.0;
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
-    const auto node = static_cast<Eigen::Index>(i);
-    sum += nodes.length_m[i] * std::sqrt(std::max(covariance(node, node), 0.0));
+    const auto here = static_cast<Eigen::Index>(i), before = here - 1;
+    expected_error_m2_ += std::sqrt(2.0 / std::numbers::pi) * nodes.length_m[i] * sd[here];
+    if (!nodes.follows_last[i] || sd[here] * sd[before] == 0.0) continue;
+    turn_ += std::acos(std::clamp(covariance(here, before) / (sd[here] * sd[before]), -1.0, 1.0));
   }
-  return std::sqrt(2.0 / std::numbers::pi) * sum;
+  offset_sd_ = spread_from_nodes(surface_, nodes, sd);
 }
 
 double EdgeBelief::band_score(double probability) const {
-  const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
-  const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
-  // The path of the standardized depth on the unit sphere: upcrossings of q are its length / 2 pi exp(-q^2 / 2).
-  double turn = 0.0;
-  for (std::size_t i = 1; i < nodes.points.size(); ++i) {
-    if (!nodes.follows_last[i]) continue;
-    const auto here = static_cast<Eigen::Index>(i), before = here - 1;
-    const double scale = std::sqrt(covariance(here, here) * covariance(before, before));
-    if (scale > 0.0) turn += std::acos(std::clamp(covariance(here, before) / scale, -1.0, 1.0));
-  }
   const auto misses = [&](double q) {
-    return 2.0 * (1.0 - normal_probability(q)) + 2.0 * turn / (2.0 * std::numbers::pi) * std::exp(-0.5 * q * q);
+    return 2.0 * (1.0 - normal_probability(q)) + 2.0 * turn_ / (2.0 * std::numbers::pi) * std::exp(-0.5 * q * q);
   };
   double below = 0.0, above = 40.0;
   for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {

@@ -31,7 +31,7 @@ struct Certainty {
 Certainty certainty_of(const Surface& surface, const Belief& belief, const Marginals& marginals, const Level& level,
                        double probability = 0.95);
 
-/// The same of a boundary that is believed in depths: the score is the depth over its standard deviation.
+/// The same of a boundary that is believed in depths: the score is the depth over the standard deviation of the boundary's offset.
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability = 0.95);
 
 }  // namespace palpation

@@ -44,11 +44,12 @@ class EdgeBelief {
   /// Between low and high, with its standard deviation.
   const Level& level() const { return profile_.level; }
 
-  /// Expected area between the boundary and the true one: the integral along it of the depth's mean absolute error, sqrt(2 / pi) sd.
-  double expected_error_m2() const;
-
+  /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where the boundary comes nearest.
+  const Field& offset_sd() const { return offset_sd_; }
+  /// Expected area between the boundary and the true one: the integral along it of the offset's mean absolute value, sqrt(2 / pi) sd.
+  double expected_error_m2() const { return expected_error_m2_; }
   /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
-  /// upcrossings of a Gaussian process, from the depths' correlation along the boundary.
+  /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary.
   double band_score(double probability) const;
 
   /// Where touches would tell the most: one after the other, the candidate whose reading lowers the depth's expected error along the
@@ -60,11 +61,15 @@ class EdgeBelief {
  private:
   struct Fit;
   EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit);
+  void survey_boundary();
 
   Surface surface_;
   std::shared_ptr<const Fit> fit_;
   EdgeProfile profile_;
   Marginals depth_;
+  Field offset_sd_;
+  double expected_error_m2_ = 0.0;
+  double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
 };
 
 }  // namespace palpation
