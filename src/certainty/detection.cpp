@@ -42,7 +42,9 @@ class Power {
       : surface_(surface),
         places_(places),
         slope_per_m_(sought.slope_per_m),
-        needed_(std::pow((needed_signal(places.size()) + normal_quantile(sought.probability)) / sought.contrast_to_noise, 2)) {}
+        needed_(std::isinf(sought.contrast_to_noise)
+                    ? 0.0
+                    : std::pow((needed_signal(places.size()) + normal_quantile(sought.probability)) / sought.contrast_to_noise, 2)) {}
 
   /// Whether a disk around a vertex is found surely enough. It grows with the radius.
   bool suffices(int vertex, double radius_m) const {
@@ -77,13 +79,13 @@ double greatest_excess(const Surface& surface, std::span<const Vec3> places, std
   const double scatter = deviation.norm();
   if (!(scatter > 0.0)) return 0.0;
   double greatest = 0.0;
-  Eigen::VectorXd rises(count);
+  Eigen::VectorXd distances(count), rises(count);
   const int step = 1 + (surface.vertex_count() - 1) / kMostCentres;
   for (int vertex = 0; vertex < surface.vertex_count(); vertex += step) {
+    for (Eigen::Index i = 0; i < count; ++i) distances[i] = (places[static_cast<std::size_t>(i)] - surface.vertex(vertex)).norm();
     for (const double width_m : kWidths_m) {
-      for (Eigen::Index i = 0; i < count; ++i)
-        rises[i] = rise(0.5 * width_m - (places[static_cast<std::size_t>(i)] - surface.vertex(vertex)).norm(), kSlope_per_m);
-      const double spread = std::sqrt(std::max(0.0, rises.squaredNorm() - count * std::pow(rises.mean(), 2)));
+      for (Eigen::Index i = 0; i < count; ++i) rises[i] = rise(0.5 * width_m - distances[i], kSlope_per_m);
+      const double spread = (rises.array() - rises.mean()).matrix().norm();
       if (spread > 0.0) greatest = std::max(greatest, rises.dot(deviation) / (spread * scatter));
     }
   }

@@ -130,6 +130,7 @@ Summary read_summary(const fs::path& path) {
   if (!json.is_object()) fail(path, "not a JSON object");
   Summary summary{.band = band_in(json),
                   .cut_risk = cut_risk_in(json),
+                  .nothing_wider_than_mm = number_in(json, "nothing_wider_than_mm"),
                   .level = number_in(json, "level"),
                   .area_mm2 = number_in(json, "area_mm2"),
                   .expected_error_mm2 = number_in(json, "expected_error_mm2"),

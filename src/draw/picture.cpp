@@ -193,7 +193,7 @@ void draw_mean(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box
   if (with_touches) scene.draw_touches(outcome.touches, plan.touch_radius_px);
   draw_boundaries(scene, outcome, /*with_truth=*/true);
   scene.finish();
-  draw_title(sheet, map, letter, with_touches ? "Believed stiffness" : "Boundary");
+  draw_title(sheet, map, letter, with_touches ? "Believed stiffness" : plan.level ? "Boundary" : "Nothing found");
   draw_ruler(sheet, plan.view, map);
   draw_bar(sheet, map, scale, unit_of(outcome), plan.level);
 }
@@ -318,6 +318,9 @@ std::string caption_of(const Outcome& outcome) {
   constexpr const char* kBetween = "   \u00b7   ";
   const Summary& summary = outcome.summary;
   std::string caption = touches_text(outcome);
+  if (summary.nothing_wider_than_mm)
+    return caption + kBetween + "nothing found" + kBetween + "no tumour wider than " + short_number(*summary.nothing_wider_than_mm, 3) +
+           " mm";
   if (summary.error) {
     const std::string error = error_text(*summary.error);
     if (!error.empty()) caption += kBetween + error;

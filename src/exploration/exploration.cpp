@@ -11,6 +11,7 @@
 #include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/erosion.h"
+#include "palpation/certainty/detection.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
@@ -36,6 +37,17 @@ bool has_range(const Marginals& marginals) {
   const double least = marginals.mean.minCoeff(), greatest = marginals.mean.maxCoeff();
   const double scale = std::max({std::abs(least), std::abs(greatest), std::sqrt(marginals.variance.maxCoeff())});
   return greatest - least > kRounding * scale;
+}
+
+/// A smooth field is slow to believe in a few readings of many; a disk is not.
+bool a_disk_stands_out(const Surface& surface, std::span<const Palpation> palpations) {
+  const std::vector<double> readings = used_readings(palpations);
+  if (readings.size() < kFewReadings) return false;
+  std::vector<Vec3> places;
+  for (const Palpation& palpation : palpations) {
+    if (palpation.set_aside.empty()) places.push_back(surface.position(palpation.where));
+  }
+  return greatest_excess(surface, places, readings) > kNeededToFind;
 }
 
 /// The vertex that a palpation touched, or -1.
@@ -116,8 +128,10 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;
     // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
-    if (plan_.safe_start && field_.learns() && !trend_is_missing())
-      contrast_seen_ = shows_contrast(used_readings(field_.linear_trend ? belief_.detrended_palpations() : all), fit.field.signal_evidence);
+    if (plan_.safe_start && field_.learns() && !trend_is_missing()) {
+      const std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : all;
+      contrast_seen_ = shows_contrast(used_readings(flat), fit.field.signal_evidence) || a_disk_stands_out(surface_, flat);
+    }
   } else if (trend_is_missing()) {
     belief_ = fixed_field(surface_, field_, all);
   } else {
