@@ -18,6 +18,8 @@ namespace {
 constexpr int kGroup = 8;  // vertices that are evaluated together: what Belief stores together
 /// With fewer readings the field is so unknown that lazy evaluation would come to every vertex anyway.
 constexpr int kFewSites = 25;
+/// Supposed readings on the way are this far apart: half the length over which stiffness changes; closer ones tell the same.
+constexpr double kWayStep_m = 0.002;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// The variance at every vertex given the picks so far, brought up to date group by group when it is asked for.
@@ -56,8 +58,11 @@ class LookAhead {
     }
   }
 
-  void pick(int vertex) {
-    const double total = variance(vertex) + belief_.noise_variance();
+  void pick(int vertex) { read({vertex, belief_.noise_variance()}); }
+
+  void read(const Supposed& reading) {
+    const int vertex = reading.vertex;
+    const double total = variance(vertex) + reading.noise_variance;
     Pick next{std::make_unique<CovarianceWith>(belief_, vertex), {}, total > 0.0 ? 1.0 / std::sqrt(total) : 0.0};
     for (const auto& row : groups_[static_cast<std::size_t>(vertex) / kGroup]) next.earlier.push_back(row[vertex % kGroup]);
     picks_.push_back(std::move(next));
@@ -106,6 +111,26 @@ class Candidates {
   std::vector<bool> allowed_;
 };
 
+/// Where the probe has been when it comes to the next pick.
+class Trail {
+ public:
+  Trail(const Belief& belief, const BatchOptions& options) : belief_(belief), way_reading_m_(options.way_reading_m) {
+    if (options.from) places_.push_back(belief.prior().surface().position(*options.from));
+  }
+
+  /// The readings on the way to a pick, which is then a place of its own.
+  std::vector<Supposed> on_the_way_to(int vertex) {
+    const std::vector<Supposed> readings = supposed_on_the_way(belief_, places_, vertex, way_reading_m_);
+    places_.push_back(belief_.prior().surface().vertex(vertex));
+    return readings;
+  }
+
+ private:
+  const Belief& belief_;
+  double way_reading_m_;
+  std::vector<Vec3> places_;
+};
+
 struct Best {
   double score = kNever;
   int vertex = -1;
@@ -116,6 +141,7 @@ struct Search {
   const Field& mean;
   LookAhead ahead;
   Candidates candidates;
+  Trail trail;
   long evaluations = 0;
 
   Best best_of_group(std::size_t group) {
@@ -135,6 +161,7 @@ struct Search {
   void pick(const Best& best, Batch& batch) {
     batch.vertices.push_back(best.vertex);
     batch.scores.push_back(best.score);
+    for (const Supposed& reading : trail.on_the_way_to(best.vertex)) ahead.read(reading);
     ahead.pick(best.vertex);
     candidates.pick(best.vertex);
   }
@@ -179,7 +206,15 @@ void choose_lazily(Search& search, int size, Batch& batch) {
   }
 }
 
-Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& level, Candidates candidates, int size) {
+/// A palpation that says what is believed already: it lowers the variance alone.
+Palpation supposition(const Belief& belief, int vertex) {
+  Palpation palpation;
+  palpation.where = belief.prior().surface().at_vertex(vertex);
+  palpation.reading = belief.at(std::span(&palpation.where, 1)).mean[0];
+  return palpation;
+}
+
+Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& level, Candidates candidates, Trail trail, int size) {
   const Surface& surface = belief.prior().surface();
   Batch batch;
   Belief supposed = belief;
@@ -198,31 +233,51 @@ Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& 
     batch.vertices.push_back(best.vertex);
     batch.scores.push_back(best.score);
     candidates.pick(best.vertex);
-    const SurfacePoint where = surface.at_vertex(best.vertex);
-    Palpation supposition;
-    supposition.where = where;
-    supposition.reading = supposed.at(std::span(&where, 1)).mean[0];
-    supposed = supposed.condition_on(std::span(&supposition, 1));
+    std::vector<Palpation> suppositions;
+    for (const Supposed& reading : trail.on_the_way_to(best.vertex)) {
+      suppositions.push_back(supposition(supposed, reading.vertex));
+      suppositions.back().noise_variance = reading.noise_variance;
+    }
+    suppositions.push_back(supposition(supposed, best.vertex));
+    supposed = supposed.condition_on(suppositions);
   }
   return batch;
 }
 
 }  // namespace
 
+std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const Vec3> places, int vertex, double way_reading_m) {
+  std::vector<Supposed> readings;
+  if (way_reading_m == 0.0 || places.empty()) return readings;
+  const Surface& surface = belief.prior().surface();
+  const Vec3 end = surface.vertex(vertex);
+  const Vec3 start = *std::ranges::min_element(places, {}, [&](const Vec3& place) { return (place - end).squaredNorm(); });
+  const double length = (end - start).norm();
+  // As many readings as will be made on so long a piece of the way.
+  const double variance = belief.noise_variance() * way_reading_m / kWayStep_m;
+  for (double done = kWayStep_m; done < length; done += kWayStep_m) {
+    readings.push_back({surface.nearest_vertex(start + done / length * (end - start)), variance});
+  }
+  return readings;
+}
+
 Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const Level& level, std::span<const int> candidates,
                    const BatchOptions& options) {
   require(options.size >= 0, "choose_batch", "size = " + std::to_string(options.size), "must not be negative");
   require(std::isfinite(options.least_spacing_m) && options.least_spacing_m >= 0.0, "choose_batch",
           "least_spacing_m = " + text_of(options.least_spacing_m), "must be finite and not negative");
+  require(std::isfinite(options.way_reading_m) && options.way_reading_m >= 0.0, "choose_batch",
+          "way_reading_m = " + text_of(options.way_reading_m), "must be finite and not negative");
   Candidates allowed(belief.prior().surface(), candidates, options.least_spacing_m);
-  if (const auto* whole = std::get_if<Whole>(&acquisition)) return choose_whole(belief, *whole, level, std::move(allowed), options.size);
+  if (const auto* whole = std::get_if<Whole>(&acquisition))
+    return choose_whole(belief, *whole, level, std::move(allowed), Trail(belief, options), options.size);
 
   const auto& pointwise = std::get<Pointwise>(acquisition);
   require(options.evaluation != Evaluation::Lazy || pointwise.grows_with_stddev, "choose_batch", "lazy evaluation",
           "needs an acquisition that grows with stddev");
   const Marginals marginals = planning_marginals(belief);
   const PointwiseScorer scorer(pointwise, level, marginals, candidates);
-  Search search{scorer, marginals.mean, LookAhead(belief, marginals.variance), std::move(allowed)};
+  Search search{scorer, marginals.mean, LookAhead(belief, marginals.variance), std::move(allowed), Trail(belief, options)};
   const bool lazy = options.evaluation == Evaluation::Lazy ||
                     (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev && belief.site_count() >= kFewSites);
   Batch batch;

@@ -162,5 +162,60 @@ TEST(ChooseBatch, RefusesScoresThatAreNotNumbers) {
   EXPECT_THROW(choose_batch(belief, wrong, kLevel, all_vertices(tissue), {.evaluation = Evaluation::Lazy}), InvalidInput);
 }
 
+/// batch_by_conditioning with readings on the way: each a palpation of its own, twice as precise where they are 1 mm apart, since they
+/// stand 2 mm apart.
+std::vector<int> batch_on_the_way(Belief belief, const Pointwise& acquisition, const Vec3& from, int size) {
+  const Surface surface = belief.prior().surface();
+  const Field mean = belief.at_vertices().mean;
+  const double noise_variance = belief.noise_variance();
+  std::vector<Vec3> places{from};
+  std::vector<int> picks;
+  for (int i = 0; i < size; ++i) {
+    const Field variance = belief.at_vertices().variance;
+    int best = 0;
+    for (int vertex = 1; vertex < mean.size(); ++vertex) {
+      const auto score = [&](int v) { return acquisition.score(mean[v], std::sqrt(variance[v]), kLevel); };
+      if (score(vertex) > score(best)) best = vertex;
+    }
+    const Vec3 end = surface.vertex(best);
+    Vec3 start = places.front();
+    for (const Vec3& place : places) {
+      if ((place - end).norm() < (start - end).norm()) start = place;
+    }
+    std::vector<Palpation> supposed;
+    for (int step = 1; 0.002 * step < (end - start).norm(); ++step) {
+      const Vec3 place = start + 0.002 * step * (end - start).normalized();
+      const int nearest = surface.nearest_vertex(place);
+      supposed.push_back(touch(surface, nearest, mean[nearest]));
+      supposed.back().noise_variance = 0.5 * noise_variance;
+    }
+    supposed.push_back(touch(surface, best, mean[best]));
+    belief = belief.condition_on(supposed);
+    places.push_back(end);
+    picks.push_back(best);
+  }
+  return picks;
+}
+
+TEST(ChooseBatch, CountsTheReadingsOnTheWayBeforeTheyAreMade) {
+  const Surface tissue = plane(20, 40, 0.3);
+  for (int readings : {6, 40}) {
+    const Belief belief = believed(tissue, readings, 2);
+    const Vec3 from = tissue.vertex(7);
+    for (const Pointwise& acquisition : {evr(), ils_ucb(0.5), straddle()}) {
+      BatchOptions options{.size = 8, .way_reading_m = 0.001, .from = tissue.at_vertex(7)};
+      const Batch batch = choose_batch(belief, acquisition, kLevel, all_vertices(tissue), options);
+      EXPECT_EQ(batch.vertices, batch_on_the_way(belief, acquisition, from, 8));
+      options.way_reading_m = 0.0;  // a place alone changes nothing
+      EXPECT_EQ(choose_batch(belief, acquisition, kLevel, all_vertices(tissue), options).vertices,
+                choose_batch(belief, acquisition, kLevel, all_vertices(tissue), {.size = 8}).vertices);
+    }
+    const Whole whole{.scores = [](const Belief& now, const Level&) { return Field(now.at_vertices().variance.cwiseSqrt()); }};
+    EXPECT_EQ(choose_batch(belief, whole, kLevel, all_vertices(tissue), {.size = 6, .way_reading_m = 0.001, .from = tissue.at_vertex(7)})
+                  .vertices,
+              batch_on_the_way(belief, evr(), from, 6));
+  }
+}
+
 }  // namespace
 }  // namespace palpation

@@ -4,6 +4,7 @@
 /// the mean stays as it is: Garg et al. 2016 after Gotovos et al. 2013). Ties go to the lowest vertex.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct BatchOptions {
   double least_spacing_m =
       0.0;  ///< no two picks closer than this in a straight line; 0: a vertex may even be picked again, as the paper allows
   Evaluation evaluation = Evaluation::Automatic;
+  double way_reading_m = 0.0;          ///< the probe also reads on its way, once per this length, and the picks count that; 0: it does not
+  std::optional<SurfacePoint> from{};  ///< where the probe is
 };
 
 struct Batch {
@@ -33,7 +36,20 @@ struct Batch {
 /// `candidates`: rising vertex indices. A touch's noise is the field's. Throws InvalidInput if size is negative, the spacing negative or
 /// not finite, a candidate is no vertex or out of order, a score is NaN, or Lazy is asked of an acquisition that does not promise to grow
 /// with stddev.
+///
+/// With readings on the way, a pick also removes the variance that those will: on the straight line to it from the nearest of the probe's
+/// place and the picks before. The tour is not known before the batch is; this is what it comes to but for detours.
 Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const Level& level, std::span<const int> candidates,
                    const BatchOptions& options);
+
+/// A reading that is only supposed: at a vertex, as precise as those that it stands for.
+struct Supposed {
+  int vertex = 0;
+  double noise_variance = 0.0;
+};
+
+/// The readings on the straight line to a vertex from the nearest of `places`: one every two millimetres, at the nearest vertex, ends left
+/// out. None where there is no place, or `way_reading_m` is 0.
+std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const Vec3> places, int vertex, double way_reading_m);
 
 }  // namespace palpation
