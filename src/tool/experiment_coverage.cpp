@@ -21,7 +21,6 @@ using nlohmann::json;
 
 constexpr std::uint64_t kShapeStream = 0x7368617065u;
 constexpr double kLeastSlope_per_m = 500.0, kMostSlope_per_m = 2000.0;
-constexpr double kProbability = 0.95;
 constexpr std::array kNoises = {0.01, 0.05, 0.10, 0.25};
 
 /// What one run is held against.
@@ -90,13 +89,13 @@ Run run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
                                                 .readings = static_cast<int>(exploration.belief().palpations().size()),
                                                 .fraction = scene.number("level.fraction")});
   run.bound_m2 = bound.expected_error_m2;
-  run.bound_half_width_m = bound.band_half_width_m(kProbability);
+  run.bound_half_width_m = bound.band_half_width_m(scene.number("band.probability"));
   run.error_m2 = episode.error ? episode.error->symmetric_difference_m2 : run.area_m2;
   run.lost = run.error_m2 > 0.5 * run.area_m2;
   run.warnings = boundary_remarks(episode).size();
   run.found = !episode.estimate.empty() && exploration.level().has_value();
   if (!run.found) return run;
-  const Certainty certainty = certainty_of(surface, exploration.belief(), exploration.component(), *exploration.level(), kProbability);
+  const Certainty& certainty = *exploration.certainty();
   run.covered = covers(surface, certainty, world);
   run.half_width_m = certainty.half_width_m;
   run.expected_m2 = certainty.expected.symmetric_difference_m2();
@@ -147,12 +146,12 @@ void report_row(const std::string& name, const std::vector<Run>& runs) {
               share * covered, width / bound_width, median(true_over_expected), share * unforeseen);
 }
 
-void report(const std::vector<Run>& runs, const ExperimentArguments& arguments) {
+void report(const std::vector<Run>& runs, double probability, const ExperimentArguments& arguments) {
   std::printf(
       "\nTumours of random shape, area and slope, unknown to the method; %d per noise\n"
       "            runs  error / bound    above 5  lost  covered %%  width /   true / expected error\n"
-      "                   mean   worst  unsaid               (95)  bound's     median  above 2 %%\n",
-      arguments.trials);
+      "                   mean   worst  unsaid              (%3.0f)  bound's     median  above 2 %%\n",
+      arguments.trials, 100.0 * probability);
   for (const double noise : kNoises) {
     std::vector<Run> some;
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(some), [&](const Run& run) { return run.noise == noise; });
@@ -179,7 +178,7 @@ void coverage(const ExperimentArguments& arguments) {
   for_trials(cells.size(), arguments, [&](std::size_t cell, std::size_t trial, std::uint64_t seed) {
     runs[cell * static_cast<std::size_t>(arguments.trials) + trial] = run_of(cells[cell].scene, tissue.surface, seed);
   });
-  report(runs, arguments);
+  report(runs, base.number("band.probability"), arguments);
   write_table(arguments, "coverage", csv_of(runs));
 }
 

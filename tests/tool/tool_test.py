@@ -139,6 +139,14 @@ class Tool(unittest.TestCase):
         kinds = [row.split(",")[0] for row in (self.folder / "detection.csv").read_text().splitlines()[1:]]
         self.assertEqual((kinds.count("healthy"), kinds.count("two")), (4, 3))
 
+    def test_a_hole_is_listed_with_its_part(self):
+        ring = '[{"shape": "horseshoe", "centre_mm": [12, 25, 0], "arc_radius_mm": 8, "half_width_mm": 2.5, "arc_deg": 360}]'
+        summary = json.loads(self.summary_of("simulate", "--set", f"probe.tumours={ring}", "--set", "probe.noise=0.01", "--set", "plan.batches=9"))
+        holes = [hole for part in summary["parts"] for hole in part["holes"]]
+        self.assertEqual(len(holes), 1)
+        self.assertAlmostEqual(holes[0]["area_mm2"], 95.0, delta=15.0)  # pi 5.5^2
+        self.assertAlmostEqual(holes[0]["centroid_mm"][1], 25.0, delta=0.5)
+
     def test_a_stop_has_its_reason_in_words(self):
         words = self.done("simulate", self.scene, "--set", "plan.stop.band_mm=3", "--set", "plan.batches=12", "--set", "level.estimate=edge")
         self.assertIn("Stopped because the band is narrow enough.", words)
