@@ -108,7 +108,7 @@ void add_types(Cases& cases) {
   add("a broken number for a whole one", plan(R"("batch": 1.5)"), ": plan.batch: is 1.5, but must be a whole number");
   add("a number for a truth", plan(R"("safe_start": 1)"), ": plan.safe_start: is 1, but must be true or false");
   add("a text for a truth", plan(R"("safe_start": "yes")"), ": plan.safe_start: is \"yes\", but must be true or false");
-  add("a number for a word", plan(R"("acquisition": 3)"), ": plan.acquisition: is 3, but must be one of ils-ucb, ucb, evr");
+  add("a number for a word", plan(R"("acquisition": 3)"), ": plan.acquisition: is 3, but must be one of auto, ils-ucb, ucb, evr");
   add("an unknown word", field(R"("metric": "straight")"), ": field.metric: is \"straight\", but must be one of chart, ambient");
   add("a word of another case", field(R"("trend": "Zero")"), ": field.trend: is \"Zero\", but must be one of zero, constant");
   add("an unknown word for a number", field(R"("length_mm": "guess")"), ": field.length_mm: is \"guess\", but must be a number or learn");

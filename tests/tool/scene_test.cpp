@@ -17,7 +17,7 @@ using nlohmann::json;
 
 TEST(Scene, FillsInTheDefaults) {
   const Scene scene(json::object(), "test", ".");
-  EXPECT_EQ(scene.word("plan.acquisition"), "ils-ucb");
+  EXPECT_EQ(scene.word("plan.acquisition"), "auto");
   EXPECT_EQ(scene.integer("plan.batch"), 10);
   EXPECT_EQ(scene.metres("robot.standoff_mm"), 0.005);
   EXPECT_EQ(scene.word("field.length_mm"), "learn");
