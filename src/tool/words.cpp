@@ -13,6 +13,9 @@ namespace {
 /// Below this probability a part is told as one that may not exist.
 constexpr double kSure = 0.95;
 
+/// Expected wrong area beyond this part of the area found is told: the boundary is then hardly better than a guess.
+constexpr double kLargeShare = 0.25;
+
 std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
 /// Readings have any unit: three digits behind the point where that says something.
@@ -114,6 +117,10 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const std::optional<Certainty>& certainty = exploration.certainty();
   if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is tumour as good as surely: the band has no inner curve.");
+  if (!parts.empty() && certainty && certainty->expected.symmetric_difference_m2() > kLargeShare * episode.estimate.area())
+    remarks.push_back("The area expected to be wrong is " +
+                      percent(certainty->expected.symmetric_difference_m2() / episode.estimate.area()) +
+                      " of the area found: more readings are needed.");
   return remarks;
 }
 
