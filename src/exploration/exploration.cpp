@@ -188,6 +188,23 @@ Acquisition Exploration::acquisition_in_force() const {
   return contrast_seen_ && level_ && !trend_is_missing() ? plan_.acquisition : Acquisition(evr());
 }
 
+/// What will be felt at these stops, and on the way to them, if all is as it is believed to be.
+std::vector<Palpation> Exploration::suppositions(const Belief& belief, std::span<const int> stops, const BatchOptions& options) const {
+  std::vector<Palpation> supposed;
+  std::vector<Vec3> places;
+  if (options.from) places.push_back(surface_.position(*options.from));
+  for (int stop : stops) {
+    for (const Supposed& reading : supposed_on_the_way(belief, places, stop, options.way_reading_m)) {
+      supposed.push_back({.where = surface_.at_vertex(reading.vertex),
+                          .reading = marginals_.mean[reading.vertex],
+                          .noise_variance = reading.noise_variance});
+    }
+    supposed.push_back({.where = surface_.at_vertex(stop), .reading = marginals_.mean[stop]});
+    places.push_back(surface_.vertex(stop));
+  }
+  return supposed;
+}
+
 std::vector<int> Exploration::candidates() const {
   std::vector<int> vertices;
   for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) {
@@ -236,21 +253,20 @@ void Exploration::plan_next() {
 
 /// First what tells the most about the boundary, then what the acquisition finds best once those are touched.
 std::vector<int> Exploration::chosen_stops() const {
+  BatchOptions options = plan_.batch;
+  options.from = probe_;
   if (!contrast_seen_) {
     const Belief believed = unlearned(surface_, field_).condition_on(belief_.palpations());
-    return choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), plan_.batch).vertices;
+    return choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), options).vertices;
   }
   Belief believed = belief_;
-  BatchOptions options = plan_.batch;
   std::vector<int> stops;
   if (edge_) {
     const int count = static_cast<int>(std::floor(plan_.edge_share * options.size));
     stops = edge_->most_telling(candidates(), count, options.least_spacing_m, marginals_.variance);
   }
   if (!stops.empty()) {
-    std::vector<Palpation> supposed;
-    for (int stop : stops) supposed.push_back({.where = surface_.at_vertex(stop), .reading = marginals_.mean[stop]});
-    believed = believed.condition_on(supposed);
+    believed = believed.condition_on(suppositions(belief_, stops, options));
     options.size -= static_cast<int>(stops.size());
   }
   std::vector<int> others = candidates();

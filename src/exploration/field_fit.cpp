@@ -17,6 +17,11 @@ constexpr double kSlopeToHalfContrast = 1.5;
 /// What half the contrast is taken for where it is not known: half of the readings' range.
 constexpr double kHalf = 0.5;
 
+/// Readings on the way this close together, over the length of the field, are one: two of a field of 3.5 mm read once per mm. A sigmoid
+/// of 1,400 per metre, the steepest edge there is, is flattened by it by 4 %.
+constexpr double kMergeWithin = 0.3;
+constexpr double kSameDirection = 0.999;  // cosine
+
 /// All stops, and every so many of the readings on the way, so that there are no more than `most` in all if the stops allow.
 std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
   const auto on_the_way = [](const Palpation& palpation) { return palpation.kind == TouchKind::Way && palpation.set_aside.empty(); };
@@ -36,22 +41,6 @@ std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std:
   return chosen;
 }
 
-/// Mean and standard deviation of the readings, as BeliefOptions::standardize takes them.
-struct Spread {
-  double mean = 0.0;
-  double sd = 1.0;
-};
-
-Spread spread_of(const std::vector<double>& readings) {
-  Spread spread;
-  double square = 0.0;
-  for (double reading : readings) spread.mean += (reading - readings.front()) / static_cast<double>(readings.size());
-  spread.mean += readings.front();
-  for (double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / static_cast<double>(readings.size());
-  if (square > 0.0) spread.sd = std::sqrt(square);
-  return spread;
-}
-
 /// The slope where it is modelled and enough places are touched, else none. `half_contrast` in the units of the prior's signal.
 Slope slope_of(const Surface& surface, const FieldModel& field, std::size_t places, double half_contrast) {
   if (!field.linear_trend || places < kPlacesForSlope) return {};
@@ -63,6 +52,16 @@ Prior with_slope(const Prior& prior, const Slope& slope) {
 }
 
 }  // namespace
+
+Spread spread_of(const std::vector<double>& readings) {
+  Spread spread;
+  double square = 0.0;
+  for (double reading : readings) spread.mean += (reading - readings.front()) / static_cast<double>(readings.size());
+  spread.mean += readings.front();
+  for (double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / static_cast<double>(readings.size());
+  if (square > 0.0) spread.sd = std::sqrt(square);
+  return spread;
+}
 
 Belief unlearned(const Surface& surface, const FieldModel& field) {
   Kernel kernel = field.kernel;
@@ -132,14 +131,56 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<co
   return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
 }
 
+std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const Palpation> palpations, double within_m,
+                                         double noise_variance) {
+  std::vector<Palpation> merged;
+  const auto variance_of = [&](const Palpation& palpation) {
+    return std::isnan(palpation.noise_variance) ? noise_variance : palpation.noise_variance;
+  };
+  const auto may_merge = [&](const Palpation& palpation) {
+    return palpation.kind == TouchKind::Way && palpation.set_aside.empty() && variance_of(palpation) > 0.0;
+  };
+  for (std::size_t first = 0, end = 0; first < palpations.size(); first = end) {
+    const Palpation& one = palpations[first];
+    const Vec3 start = surface.position(one.where);
+    const auto joins = [&](const Palpation& next) {
+      return may_merge(one) && may_merge(next) && next.batch == one.batch && next.travel.dot(one.travel) > kSameDirection &&
+             (surface.position(next.where) - start).norm() <= within_m;
+    };
+    end = first + 1;
+    while (end < palpations.size() && joins(palpations[end])) ++end;
+    merged.push_back(one);
+    if (end == first + 1) continue;
+    double precision = 0.0, offset = 0.0;
+    Vec3 shift = Vec3::Zero();
+    for (const Palpation& palpation : palpations.subspan(first, end - first)) {
+      const double weight = 1.0 / variance_of(palpation);
+      precision += weight;
+      offset += weight * (palpation.reading - one.reading);
+      shift += weight * (surface.position(palpation.where) - start);
+    }
+    merged.back().where = surface.project(start + shift / precision);
+    merged.back().reading = one.reading + offset / precision;
+    merged.back().noise_variance = 1.0 / precision;
+  }
+  return merged;
+}
+
 FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught) {
+  const auto belief_of = [&](const LearnedField& by) {
+    if (!field.learns() || std::ranges::none_of(palpations, [](const Palpation& one) { return one.kind == TouchKind::Way; }))
+      return by.blank.condition_on(palpations);
+    const double length_m = field.learn_length ? field.length_median_m : field.kernel.length_m;
+    const double noise_sd = by.in_force().noise_sd;
+    return by.blank.condition_on(merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));
+  };
   try {
-    return {taught.blank.condition_on(palpations), taught.learned, taught.signal_evidence};
+    return {belief_of(taught), taught.learned, taught.signal_evidence};
   } catch (const NumericalError&) {
     // Less noise than parts the readings that were left out: all of them together say so.
     if (!taught.from_some) throw;
     const LearnedField by_all = learn_field(surface, field, palpations, taught.learned, palpations.size());
-    return {by_all.blank.condition_on(palpations), by_all.learned, by_all.signal_evidence};
+    return {belief_of(by_all), by_all.learned, by_all.signal_evidence};
   }
 }
 

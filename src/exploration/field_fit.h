@@ -18,6 +18,13 @@ std::vector<double> used_readings(std::span<const Palpation> palpations);
 
 bool all_equal(const std::vector<double>& readings);
 
+/// Mean and standard deviation of the readings, as BeliefOptions::standardize takes them.
+struct Spread {
+  double mean = 0.0;
+  double sd = 1.0;
+};
+Spread spread_of(const std::vector<double>& readings);
+
 /// Most readings that hyperparameters are learned from where some were made on the way: stops number a few hundred, readings on the way
 /// thousands, and the cost grows with the third power. All of them count in the belief.
 inline constexpr std::size_t kMostToLearnFrom = 150;
@@ -44,7 +51,14 @@ struct FieldFit {
   double signal_evidence = 0.0;
 };
 
-/// The belief that knows them too. Where readings that did not teach are too close together for the noise that was learned, all teach.
+/// Readings on the way that follow each other in one direction within `within_m` as one, in their middle, with their precisions added up.
+/// The field is all but linear over so short a piece, so nothing is lost but their number, whose third power all else costs. A noise of
+/// zero is not for averaging: then nothing changes. `noise_variance`: of readings whose own is not given.
+std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const Palpation> palpations, double within_m,
+                                         double noise_variance);
+
+/// The belief that knows them too, those on the way merged within three tenths of the length that a field is likely to have. Where readings
+/// that did not teach are too close together for the noise that was learned, all teach.
 FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught);
 
 /// Both.

@@ -13,8 +13,6 @@
 namespace palpation::tool {
 namespace {
 
-constexpr double kWayStep_m = 0.001;
-
 /// The estimate and its error as they follow from the exploration's state, and a row of the trace.
 void restate(Episode& episode) {
   const Exploration& exploration = episode.exploration;

@@ -209,6 +209,7 @@ Plan plan_of(const Scene& scene) {
   plan.initial = design == "random" ? Design::Random : design == "grid" ? Design::Grid : Design::LowDiscrepancy;
   plan.initial_count = scene.integer("plan.initial.count");
   plan.batch.size = scene.integer("plan.batch");
+  if (scene.truth("plan.readings_along_path")) plan.batch.way_reading_m = kWayStep_m;
   plan.batch.least_spacing_m = scene.metres("plan.least_spacing_mm");
   plan.batches = scene.integer("plan.batches");
   plan.stop = {.error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6,

@@ -12,6 +12,9 @@
 
 namespace palpation::tool {
 
+/// The probe's readings on its way are this far apart, as the robot's are (Garg et al. 2016, section VII).
+inline constexpr double kWayStep_m = 0.001;
+
 struct Tissue {
   Surface surface;
   std::vector<std::string> warnings;  ///< of the reader

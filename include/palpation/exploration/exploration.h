@@ -112,7 +112,8 @@ class Exploration {
   const Surface& surface() const { return surface_; }
   /// What was recorded, as it was made; with the reason where it was set aside.
   const std::vector<Palpation>& palpations() const { return palpations_; }
-  /// Knows the same readings, where a lag is modelled at the places where they belong.
+  /// Knows the same readings, where a lag is modelled at the places where they belong, and those on the way that are next to each other as
+  /// one.
   const Belief& belief() const { return belief_; }
   /// The whole field: its variance is what touches are planned by.
   const Marginals& marginals() const { return marginals_; }
@@ -147,6 +148,7 @@ class Exploration {
   Acquisition acquisition_in_force() const;
   std::vector<int> in_tour_order(std::vector<int> stops) const;
   std::vector<int> candidates() const;
+  std::vector<Palpation> suppositions(const Belief& belief, std::span<const int> stops, const BatchOptions& options) const;
 
   Surface surface_;
   FieldModel field_;
