@@ -70,8 +70,8 @@ bool measure_depths(const Surface& surface, const Field& field, double level, Ei
 
 EdgeBelief::EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit) : surface_(std::move(surface)), fit_(std::move(fit)) {}
 
-std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Marginals& component, double first_level, double fraction,
-                                             const ShapePrior& shape) {
+std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
+                                             double fraction, const ShapePrior& shape) {
   require(fraction > 0.0 && fraction < 1.0, "EdgeBelief", "fraction = " + text_of(fraction), "must lie in (0, 1)");
   const Surface& surface = belief.prior().surface();
   EdgeData data = gathered(belief);
@@ -81,17 +81,24 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   const double touch_variance = std::max(belief.noise_variance(), model_variance);
   data.variance = data.variance.cwiseMax(model_variance);
 
-  Eigen::VectorXd distance;
-  if (!measure_depths(surface, component.mean, first_level, distance, data)) return std::nullopt;
-
   const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
                              {range * range, range * range, shape.slope_log_sd * shape.slope_log_sd}};
   const Kernel kernel{
       .family = KernelFamily::SquaredExponential, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
   const Prior correction(surface, belief.prior().metric(), kernel, Constant{.sd = 0.0});
-  EdgeFit edge = fit_edge_belief(data, correction.covariance(data.places, data.places), profile);
-
-  EdgeBelief made(surface, std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance, data.places, std::move(edge)}));
+  const Eigen::MatrixXd prior_covariance = correction.covariance(data.places, data.places);
+  std::optional<EdgeFit> best;
+  Eigen::VectorXd distance;
+  for (const double first_level : first_levels) {
+    Eigen::VectorXd from_here;
+    if (!measure_depths(surface, component.mean, first_level, from_here, data)) continue;
+    EdgeFit edge = fit_edge_belief(data, prior_covariance, profile);
+    if (best && !(edge.log_evidence > best->log_evidence)) continue;
+    best = std::move(edge);
+    distance = std::move(from_here);
+  }
+  if (!best) return std::nullopt;
+  EdgeBelief made(surface, std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance, data.places, std::move(*best)}));
   made.profile_ = made.fit_->edge_profile();
   made.depth_ = made.fit_->depth_at_vertices(distance);
   made.survey_boundary();

@@ -46,7 +46,8 @@ EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covar
               .by_depth = Eigen::VectorXd(count),
               .by_profile = ProfileSlopes(count, 3),
               .pull = {},
-              .covariance = {}};
+              .covariance = {},
+              .log_evidence = 0.0};
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(count);
   double here = misfit(data, prior, fit.profile, fit.correction_m, weight);
   for (int step = 0;; ++step) {
@@ -66,6 +67,7 @@ EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covar
     if (fit.covariance.info() != Eigen::Success || !covariance.allFinite())
       throw NumericalError("EdgeBelief: the covariance of " + std::to_string(count) + " readings is not positive definite");
     fit.pull = fit.covariance.solve(linearized);
+    fit.log_evidence = -0.5 * linearized.dot(fit.pull) - fit.covariance.matrixLLT().diagonal().array().log().sum();
     if (step == kMostSteps) return fit;
 
     const Eigen::VectorXd to_weight = fit.by_depth.cwiseProduct(fit.pull) - weight;

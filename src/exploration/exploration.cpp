@@ -11,6 +11,7 @@
 #include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/erosion.h"
+#include "palpation/certainty/contrast.h"
 #include "palpation/certainty/detection.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
@@ -19,18 +20,14 @@
 namespace palpation {
 namespace {
 
-constexpr double kOutlierSd = 4.0;
 constexpr int kFewReadings = 10;
-constexpr double kEnoughEvidence = 3.0;
+/// While no contrast is seen: the part of a batch that looks again where readings were high, and how noisy they are taken to be then, as a
+/// part of their standard deviation. Half of the variance noise is what tells a tumour's few readings from a fluke least hastily.
+constexpr double kSecondLooks = 0.3;
+constexpr double kDoubt = 0.7;
 /// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
 constexpr double kDistinct_m = 1e-12;
 constexpr double kRounding = 1e-13;
-
-double median(std::vector<double> values) {
-  const std::size_t middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(middle), values.end());
-  return values[middle];
-}
 
 /// Whether the mean has a range: that of rounding is none, and to cut it would make tumours of noise.
 bool has_range(const Marginals& marginals) {
@@ -59,16 +56,6 @@ int touched_vertex(const Surface& surface, const Palpation& palpation) {
 }
 
 }  // namespace
-
-bool shows_contrast(std::span<const double> readings, double signal_evidence) {
-  if (signal_evidence > kEnoughEvidence) return true;
-  if (readings.size() < kFewReadings) return false;
-  const double middle = median({readings.begin(), readings.end()});
-  std::vector<double> deviations;
-  for (double reading : readings) deviations.push_back(std::abs(reading - middle));
-  const double robust_sd = 1.4826 * median(deviations);
-  return *std::max_element(readings.begin(), readings.end()) - middle > kOutlierSd * robust_sd;
-}
 
 Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed, Reach reach)
     : surface_(std::move(surface)),
@@ -142,13 +129,11 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   marginals_ = belief_.at_vertices();
   component_ = marginals_;
   if (field_.linear_trend) component_.mean = belief_.at_vertices(Part::Detrended).mean;
+  edge_.reset();
+  if (!level_rule_.known) level_.reset();
   if (belief_.site_count() > 0 && contrast_seen_ && !trend_is_missing() && !level_rule_.known) {
     const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(component_);
-    level_.reset();
-    edge_.reset();
     if (!is_flat) estimate_boundary();
-  } else if (!level_rule_.known) {
-    level_.reset();
   }
   certainty_.reset();
   if (level_ && belief_.site_count() > 0) {
@@ -170,7 +155,12 @@ void Exploration::estimate_boundary() {
     return;
   }
   level_ = level_from_edge(surface_, belief_, component_, level_rule_.fraction);
-  edge_ = EdgeBelief::around(belief_, component_, level_->value, level_rule_.fraction);
+  // The profile may have settled on noise: the middle of the readings' own two plateaus is a second start.
+  std::vector<double> first_levels = {level_->value};
+  if (const auto plateaus = two_plateaus(used_readings(belief_.detrended_palpations()))) {
+    first_levels.push_back(plateaus->low + level_rule_.fraction * (plateaus->high - plateaus->low));
+  }
+  edge_ = EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction);
   if (edge_) level_ = edge_->level();
 }
 
@@ -251,22 +241,41 @@ void Exploration::plan_next() {
   }
 }
 
+/// No contrast is seen yet: spread over the tissue, and a second look where readings were high.
+std::vector<int> Exploration::searching_stops() const {
+  BatchOptions options = plan_.batch;
+  options.from = probe_;
+  const std::vector<double> readings = used_readings(belief_.palpations());
+  std::vector<int> stops;
+  if (plan_.safe_start && field_.learns() && readings.size() > 1 && !all_equal(readings)) {
+    Kernel kernel = field_.kernel;
+    if (field_.learn_length) kernel.length_m = field_.length_median_m;
+    kernel.signal_sd = spread_of(readings).sd;
+    const Belief doubting(Prior(surface_, field_.metric, kernel, field_.constant), {.noise_sd = kDoubt * kernel.signal_sd});
+    options.size = static_cast<int>(std::floor(kSecondLooks * plan_.batch.size));
+    stops = choose_batch(doubting.condition_on(belief_.palpations()), ucb(0.5), Level{}, candidates(), options).vertices;
+    options.size = plan_.batch.size;
+  }
+  return with_others(std::move(stops), unlearned(surface_, field_).condition_on(belief_.palpations()), options);
+}
+
 /// First what tells the most about the boundary, then what the acquisition finds best once those are touched.
 std::vector<int> Exploration::chosen_stops() const {
   BatchOptions options = plan_.batch;
   options.from = probe_;
-  if (!contrast_seen_) {
-    const Belief believed = unlearned(surface_, field_).condition_on(belief_.palpations());
-    return choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), candidates(), options).vertices;
-  }
-  Belief believed = belief_;
+  if (!contrast_seen_) return searching_stops();
   std::vector<int> stops;
   if (edge_) {
     const int count = static_cast<int>(std::floor(plan_.edge_share * options.size));
     stops = edge_->most_telling(candidates(), count, options.least_spacing_m, marginals_.variance);
   }
+  return with_others(std::move(stops), belief_, options);
+}
+
+/// These stops, and as many others as the batch still takes by the acquisition, of a belief that supposes the stops touched.
+std::vector<int> Exploration::with_others(std::vector<int> stops, Belief believed, BatchOptions options) const {
   if (!stops.empty()) {
-    believed = believed.condition_on(suppositions(belief_, stops, options));
+    believed = believed.condition_on(suppositions(believed, stops, options));
     options.size -= static_cast<int>(stops.size());
   }
   std::vector<int> others = candidates();

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "palpation/base/error.h"
+#include "palpation/belief/way.h"
 
 namespace palpation {
 namespace {
@@ -20,7 +21,6 @@ constexpr double kHalf = 0.5;
 /// Readings on the way this close together, over the length of the field, are one: two of a field of 3.5 mm read once per mm. A sigmoid
 /// of 1,400 per metre, the steepest edge there is, is flattened by it by 4 %.
 constexpr double kMergeWithin = 0.3;
-constexpr double kSameDirection = 0.999;  // cosine
 
 /// All stops, and every so many of the readings on the way, so that there are no more than `most` in all if the stops allow.
 std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
@@ -129,41 +129,6 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
 
 FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start) {
   return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
-}
-
-std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const Palpation> palpations, double within_m,
-                                         double noise_variance) {
-  std::vector<Palpation> merged;
-  const auto variance_of = [&](const Palpation& palpation) {
-    return std::isnan(palpation.noise_variance) ? noise_variance : palpation.noise_variance;
-  };
-  const auto may_merge = [&](const Palpation& palpation) {
-    return palpation.kind == TouchKind::Way && palpation.set_aside.empty() && variance_of(palpation) > 0.0;
-  };
-  for (std::size_t first = 0, end = 0; first < palpations.size(); first = end) {
-    const Palpation& one = palpations[first];
-    const Vec3 start = surface.position(one.where);
-    const auto joins = [&](const Palpation& next) {
-      return may_merge(one) && may_merge(next) && next.batch == one.batch && next.travel.dot(one.travel) > kSameDirection &&
-             (surface.position(next.where) - start).norm() <= within_m;
-    };
-    end = first + 1;
-    while (end < palpations.size() && joins(palpations[end])) ++end;
-    merged.push_back(one);
-    if (end == first + 1) continue;
-    double precision = 0.0, offset = 0.0;
-    Vec3 shift = Vec3::Zero();
-    for (const Palpation& palpation : palpations.subspan(first, end - first)) {
-      const double weight = 1.0 / variance_of(palpation);
-      precision += weight;
-      offset += weight * (palpation.reading - one.reading);
-      shift += weight * (surface.position(palpation.where) - start);
-    }
-    merged.back().where = surface.project(start + shift / precision);
-    merged.back().reading = one.reading + offset / precision;
-    merged.back().noise_variance = 1.0 / precision;
-  }
-  return merged;
 }
 
 FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught) {

@@ -51,12 +51,6 @@ struct FieldFit {
   double signal_evidence = 0.0;
 };
 
-/// Readings on the way that follow each other in one direction within `within_m` as one, in their middle, with their precisions added up.
-/// The field is all but linear over so short a piece, so nothing is lost but their number, whose third power all else costs. A noise of
-/// zero is not for averaging: then nothing changes. `noise_variance`: of readings whose own is not given.
-std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const Palpation> palpations, double within_m,
-                                         double noise_variance);
-
 /// The belief that knows them too, those on the way merged within three tenths of the length that a field is likely to have. Where readings
 /// that did not teach are too close together for the noise that was learned, all teach.
 FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught);

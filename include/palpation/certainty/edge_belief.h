@@ -31,11 +31,12 @@ struct ShapePrior {
 
 class EdgeBelief {
  public:
-  /// Around the boundary { mean = first_level } of the belief's field. `component`: what the level cuts, at the vertices (the field, or the
-  /// detrended one). Nothing where no boundary can be drawn there, or no reading is left to place it. Throws InvalidInput for a fraction
-  /// outside (0, 1), NumericalError if the readings' covariance is not positive definite.
-  static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, double first_level, double fraction,
-                                          const ShapePrior& shape = {});
+  /// Around the boundary { mean = first_level } of the belief's field, for the first level that makes the readings most probable.
+  /// `component`: what the level cuts, at the vertices (the field, or the detrended one). Nothing where no boundary can be drawn at any of
+  /// them, or no reading is left to place it. Throws InvalidInput for a fraction outside (0, 1), NumericalError if the readings' covariance
+  /// is not positive definite.
+  static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
+                                          double fraction, const ShapePrior& shape = {});
 
   /// Depth at the vertices: mean in metres, zero at the boundary; variance in m2. Farther from the first boundary than any correction
   /// reaches, the mean is the distance and the variance the prior's.

@@ -74,8 +74,8 @@ struct Plan {
   /// inferred from its edge; the rest follows the acquisition, and finds what the boundary does not know of.
   double edge_share = 0.0;
   StopRule stop{};
-  /// Explore by variance alone until the readings show contrast: for learned fields, which five readings of healthy tissue would teach that
-  /// noise is all.
+  /// Until the readings show contrast (contrast.h), explore by the variance of a field of the prior's length, and look again where readings
+  /// were high: for learned fields, which five readings of healthy tissue would teach that noise is all.
   bool safe_start = true;
 };
 
@@ -143,6 +143,8 @@ class Exploration {
   void learn_from(std::span<const Palpation> palpations);
   void estimate_boundary();
   std::vector<int> chosen_stops() const;
+  std::vector<int> searching_stops() const;
+  std::vector<int> with_others(std::vector<int> stops, Belief believed, BatchOptions options) const;
   void plan_next();
   std::string reason_to_stop() const;
   Acquisition acquisition_in_force() const;
@@ -175,10 +177,6 @@ class Exploration {
   std::vector<int> next_;
   std::string stop_reason_;
 };
-
-/// Whether readings show more than noise: the greatest stands more than four robust standard deviations (1.4826 x the median absolute
-/// deviation) above the median of at least ten, or a smooth field explains them better than noise alone by three nats.
-bool shows_contrast(std::span<const double> readings, double signal_evidence);
 
 /// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit direction of travel, or zero; a reading that
 /// was made in another direction says so.

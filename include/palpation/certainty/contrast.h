@@ -1,0 +1,25 @@
+/// Whether readings show more than noise.
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace palpation {
+
+/// Readings as two plateaus with normal noise about them.
+struct TwoPlateaus {
+  double low = 0.0;
+  double high = 0.0;
+  double evidence = 0.0;  ///< log likelihood ratio, in nats, to one plateau
+};
+
+/// The best of several splits, improved by expectation and maximization. At most half the readings, and at least one, lie on the high
+/// plateau. Nothing for fewer than ten readings, or none that differ.
+std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings);
+
+/// Whether a smooth field explains the readings better than noise alone by three nats (`signal_evidence`), or two plateaus do by five: a
+/// tumour that few touches hit shows in their values before it shows in where they are. Noise alone passes in fewer than one run in a
+/// hundred.
+bool shows_contrast(std::span<const double> readings, double signal_evidence);
+
+}  // namespace palpation
