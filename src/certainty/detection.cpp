@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "certainty/normal.h"
@@ -93,6 +94,13 @@ double greatest_excess(const Surface& surface, std::span<const Vec3> places, std
 }
 
 std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought) {
+  std::vector<int> all(static_cast<std::size_t>(surface.vertex_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return diameter_ruled_out_m(surface, places, sought, all);
+}
+
+std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought,
+                                           std::span<const int> centres) {
   require(sought.contrast_to_noise > 0.0, "diameter_ruled_out_m", "contrast_to_noise = " + text_of(sought.contrast_to_noise),
           "must be positive");
   require(std::isfinite(sought.slope_per_m) && sought.slope_per_m > 0.0, "diameter_ruled_out_m",
@@ -101,7 +109,7 @@ std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<con
           "must lie in (0, 1)");
   const Power power(surface, places, sought);
   double radius_m = 0.0;
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+  for (const int vertex : centres) {
     if (power.suffices(vertex, radius_m)) continue;
     double too_small = radius_m, enough = surface.diameter();
     if (!power.suffices(vertex, enough)) return std::nullopt;

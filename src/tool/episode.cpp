@@ -44,11 +44,32 @@ double scatter(const std::vector<double>& readings) {
   return std::sqrt(square);
 }
 
+/// The tissue outside of what was found.
+struct Healthy {
+  std::vector<int> vertices;
+  double mean = 0.0;  ///< of the field over it
+};
+
+Healthy healthy_part(const Exploration& exploration) {
+  Healthy healthy;
+  double area = 0.0;
+  for (int vertex = 0; vertex < exploration.surface().vertex_count(); ++vertex) {
+    if (exploration.certainty()->score[vertex] >= 0.0) continue;
+    healthy.vertices.push_back(vertex);
+    const double share = exploration.surface().vertex_areas()[vertex];
+    healthy.mean += share * exploration.component().mean[vertex];
+    area += share;
+  }
+  if (area > 0.0) healthy.mean /= area;
+  return healthy;
+}
+
 Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach reach) {
   return Episode{
       .exploration = Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach)),
       .cut_risk = scene.number("band.cut_risk"),
       .band_probability = scene.number("band.probability"),
+      .level_fraction = scene.number("level.fraction"),
       .assumed_contrast = scene.has("plan.assumed_contrast") ? std::optional(scene.number("plan.assumed_contrast")) : std::nullopt};
 }
 
@@ -213,17 +234,26 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
 
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
-  if (exploration.level() || exploration.belief().site_count() == 0) return std::nullopt;
+  const Surface& surface = exploration.surface();
+  if (exploration.belief().site_count() == 0) return std::nullopt;
   std::vector<Vec3> places;
   std::vector<double> readings;
   for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
     if (!palpation.set_aside.empty()) continue;
-    places.push_back(exploration.surface().position(palpation.where));
+    places.push_back(surface.position(palpation.where));
     readings.push_back(palpation.reading);
   }
   Sought sought{.probability = episode.band_probability};
-  if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
-  return palpation::diameter_ruled_out_m(exploration.surface(), places, sought);
+  if (!exploration.level()) {
+    if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
+    return palpation::diameter_ruled_out_m(surface, places, sought);
+  }
+  const Healthy healthy = healthy_part(exploration);
+  if (healthy.vertices.empty() || episode.estimate.empty()) return std::nullopt;
+  const double contrast = episode.assumed_contrast.value_or((exploration.level()->value - healthy.mean) / episode.level_fraction);
+  sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
+  if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;
+  return palpation::diameter_ruled_out_m(surface, places, sought, healthy.vertices);
 }
 
 Snapshot snapshot(const Episode& episode) {

@@ -44,6 +44,7 @@ struct Episode {
   double path_m = 0.0;
   double cut_risk = 0.05;  ///< of the cut line
   double band_probability = 0.95;
+  double level_fraction = 0.5;
   std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
   std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
 };
@@ -61,8 +62,9 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
 
 Snapshot snapshot(const Episode& episode);
 
-/// Where readings show no contrast: the least diameter of a tumour that would have been found, with the band's probability. Its contrast is
-/// the assumed one, else four times the scatter of the readings. Nothing where something was found, or where no size can be ruled out.
+/// The least diameter of a tumour that would have been found, with the band's probability: wherever on the tissue where nothing was found,
+/// else outside of what was found. Its contrast is the assumed one, else four times the scatter of the readings, or that of what was found.
+/// Nothing without readings, where no size can be ruled out, or where a known level is not reached.
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
 
 }  // namespace palpation::tool

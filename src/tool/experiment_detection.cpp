@@ -61,7 +61,7 @@ std::array<Run, 2> healthy_and_planted(const Scene& base, const Surface& surface
   std::array<Run, 2> runs = {Run{.row = "healthy", .seed = seed, .noise = base.number("probe.noise")},
                              Run{.row = "planted", .seed = seed, .noise = base.number("probe.noise")}};
   runs[0].good = healthy.estimate.empty();
-  runs[0].ruled_out_m = runs[1].ruled_out_m = diameter_ruled_out_m(healthy);
+  if (runs[0].good) runs[0].ruled_out_m = runs[1].ruled_out_m = diameter_ruled_out_m(healthy);
   if (!runs[0].ruled_out_m) return runs;
   Random random(seed ^ kPlaceStream);
   const json disks = json::array({disk_mm(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});

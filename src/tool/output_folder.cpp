@@ -195,7 +195,10 @@ json OutputFolder::summary(const Episode& episode) const {
     result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
     result["lag_sd_mm"] = exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
   }
-  result["nothing_wider_than_mm"] = maybe(diameter_ruled_out_m(episode), kMm);
+  const bool found = exploration.level().has_value();
+  const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
+  result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;
+  result["no_other_wider_than_mm"] = found ? ruled_out : json(nullptr);
   add_certainty(result, episode, scene_.number("band.cut_risk"));
   if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
   return result;

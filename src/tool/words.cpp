@@ -78,7 +78,12 @@ std::string found_words(const Episode& episode) {
   std::string words =
       "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
   for (const TumourPart& part : parts) words += part_words(part);
-  return words + band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
+  words += band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
+  if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
+    words += "No other tumour that stands out " +
+             (episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more" : std::string("as much")) +
+             " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " + percent(episode.band_probability) + ".\n";
+  return words;
 }
 
 std::string stop_words(const std::string& reason) {

@@ -105,6 +105,9 @@ class Tool(unittest.TestCase):
         self.assertLess(summary["area_mm2"], cut["area_mm2"])
         self.assertLess(cut["area_mm2"], band["outer_area_mm2"])
         self.assertGreater(band["half_width_mm"], 0.0)
+        self.assertIn("No other tumour", words)
+        self.assertIsNone(summary["nothing_wider_than_mm"])
+        self.assertTrue(3.0 < summary["no_other_wider_than_mm"] < 30.0)
         self.assertAlmostEqual(summary["expected_missed_mm2"] + summary["expected_extra_mm2"], summary["expected_error_mm2"], delta=1e-9)
         (part,) = summary["parts"]
         self.assertGreater(part["probability"], 0.99)

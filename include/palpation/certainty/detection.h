@@ -22,11 +22,14 @@ struct Sought {
   double probability = 0.95;       ///< with which it would have been found
 };
 
-/// The least diameter of a disk that would have been found with that probability wherever on the tissue its centre is. Of the readings, at
-/// `places`, those within the disk count. They are summed up with weights as large as their rise s, so the disk stands out by
+/// The least diameter of a disk that would have been found with that probability at whichever of the vertices its centre is. Of the
+/// readings, at `places`, those within the disk count. They are summed up with weights as large as their rise s, so the disk stands out by
 /// contrast / noise sqrt(sum of s^2) standard deviations with a scatter of one; it is found where the excess is kNeededToFind. Distances
 /// are straight. Nothing where no disk up to twice the diameter of the tissue is found so surely. Throws InvalidInput unless contrast and
 /// slope are positive and the probability lies in (0, 1).
+std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought,
+                                           std::span<const int> centres);
+/// Wherever on the tissue its centre is.
 std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought);
 
 /// Standard deviations: what is needed for three nats of evidence after the choice among all places and widths, which costs about seven:
