@@ -7,6 +7,7 @@
 
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
+#include "palpation/certainty/contrast.h"
 #include "palpation/world/phantom.h"
 
 namespace palpation {
