@@ -1,5 +1,6 @@
 #include "palpation/belief/lag.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,11 @@ namespace {
 constexpr double kBeside_m = 0.0005;  // a displaced reading may lie this far beyond the border: as far as a touch is smaller than a probe
 constexpr double kGridStep_m = 0.00025;  // a field's likelihood has one peak within a fraction of its length
 constexpr double kPrecision_m = 1e-5;
+constexpr double kOneLine = 0.95;  // cosine: within 18 degrees
+constexpr double kEdgeStep_m = 0.001;
+constexpr double kEdgeShare = 0.5;
+constexpr double kEdgeNoise = 0.1;  // of the signal: so that drift is no edge
+constexpr std::size_t kLeastAtEdges = 20;
 constexpr std::size_t kMostReadings = 400;  // for one number; the likelihood costs their third power
 
 bool is_on_border(const Surface& surface, const SurfacePoint& point) {
@@ -47,6 +53,42 @@ std::vector<Palpation> telling(const Surface& surface, std::span<const Palpation
   std::vector<Palpation> thinned;
   for (std::size_t i = 0; i < kept.size(); i += stride) thinned.push_back(kept[i]);
   return thinned;
+}
+
+/// Whether all readings were made to and fro along one line, as a raster's are.
+bool run_along_a_line(const std::vector<Palpation>& readings) {
+  const auto first = std::find_if(readings.begin(), readings.end(), travels);
+  return std::all_of(readings.begin(), readings.end(),
+                     [&](const Palpation& one) { return !travels(one) || std::abs(one.travel.dot(first->travel)) > kOneLine; });
+}
+
+/// Of the readings those at the edges, where the field, believed without a lag, changes along the travel by half of the most it does
+/// anywhere; all where these are few.
+std::vector<Palpation> at_edges(const Prior& prior, const std::vector<Palpation>& readings, const Hyperparameters& at) {
+  const Surface& surface = prior.surface();
+  Kernel kernel = prior.kernel();
+  kernel.length_m = at.length_m;
+  kernel.signal_sd = at.signal_sd;
+  const Prior field = prior.with(kernel);
+  std::vector<SurfacePoint> places, ahead, behind;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(readings.size()));
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const Vec3 here = surface.position(readings[i].where), step = kEdgeStep_m * readings[i].travel;
+    places.push_back(readings[i].where);
+    ahead.push_back(surface.project(here + step));
+    behind.push_back(surface.project(here - step));
+    values[static_cast<Eigen::Index>(i)] = readings[i].reading;
+  }
+  Eigen::MatrixXd covariance = field.covariance(places, places);
+  const double least_noise = kEdgeNoise * at.signal_sd;
+  covariance.diagonal().array() += std::max(at.noise_sd * at.noise_sd, least_noise * least_noise);
+  const Eigen::VectorXd weights = covariance.llt().solve(Eigen::VectorXd(values.array() - values.mean()));
+  const Eigen::VectorXd change = ((field.covariance(ahead, places) - field.covariance(behind, places)) * weights).cwiseAbs();
+  std::vector<Palpation> kept;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (change[static_cast<Eigen::Index>(i)] >= kEdgeShare * change.maxCoeff()) kept.push_back(readings[i]);
+  }
+  return kept.size() < kLeastAtEdges ? readings : kept;
 }
 
 /// The greatest value of a function with one peak between two places (golden section).
@@ -91,8 +133,10 @@ std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpati
 std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palpations, const Hyperparameters& at,
                              const LagPrior& lag_prior) {
   const Surface& surface = prior.surface();
-  const std::vector<Palpation> readings = telling(surface, palpations, lag_prior);
+  std::vector<Palpation> readings = telling(surface, palpations, lag_prior);
   if (readings.size() < 2 || std::none_of(readings.begin(), readings.end(), travels)) return std::nullopt;
+  // A base that drifts along a raster's rows looks like a lag, but for the edges; touches from everywhere average it out.
+  if (run_along_a_line(readings)) readings = at_edges(prior, readings, at);
   const auto log_posterior = [&](double lag_m) {
     const double z = (lag_m - lag_prior.mean_m) / lag_prior.sd_m;
     try {

@@ -324,7 +324,8 @@ void pokes(const ExperimentArguments& arguments, const Scene& scene, std::vector
     double sum = 0.0;
     int count = 0;
     if (episode.exploration.level()) {
-      for (const Vec3& point : points_of(tissue, episode.exploration.component().mean, episode.exploration.level()->value)) {
+      const Contour contour = episode.exploration.contour();
+      for (const Vec3& point : points_of(tissue, contour.field, contour.level)) {
         if (std::abs(point.y() - edge_m) > 0.008) continue;
         sum += point.y() - edge_m;
         ++count;

@@ -90,6 +90,25 @@ TEST(LearnLag, NoLagOnAFineGridIsMoreProbable) {
   for (double lag_m = -0.0005; lag_m <= 0.003; lag_m += 0.00005) EXPECT_LE(log_posterior(lag_m), found + 1e-3) << lag_m;
 }
 
+// A raster to and fro whose base falls along every row: alone that looks like a lag of its own.
+TEST(LearnLag, OnARasterDriftOfTheBaseIsNoLag) {
+  const Surface tissue = plane(26, 51);
+  Random random(6);
+  std::vector<Palpation> rows;
+  for (int column = 0; column < 26; column += 2) {
+    const double way = column % 4 == 0 ? 1.0 : -1.0;
+    for (int row = 0; row < 51; row += 2) {
+      Palpation palpation = touch(tissue, row * 26 + column, 0.0);
+      palpation.travel = way * Vec3::UnitY();
+      const Vec3 p = tissue.position(palpation.where);
+      const double along = 0.5 + way * (p.y() / 0.050 - 0.5);
+      palpation.reading = stiffness(p - 0.0015 * palpation.travel) - 0.1 * along + 0.02 * random.normal();
+      rows.push_back(palpation);
+    }
+  }
+  EXPECT_NEAR(learn_lag(field_on(tissue), rows, kField)->value_m, 0.0015, 0.0003);
+}
+
 TEST(LearnLag, OfReadingsThatTellNothingIsThePriors) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> alike = late_readings(tissue, 30, 0.0, 0.0, 2);

@@ -35,7 +35,8 @@ struct Lag {
 
 /// The most probable lag of the readings, raw as they were made, under a field of the given hyperparameters: the marginal likelihood of the
 /// displaced readings times the prior, on a grid of a quarter of a millimetre, then refined. Readings that some lag would displace beyond
-/// the border do not count; of more than 400 every so many does. Nothing where no reading that counts has a direction of travel, or there
+/// the border do not count; of more than 400 every so many does; where all travel runs along one line, only those at the
+/// edges do, because there drift looks like a lag elsewhere. Nothing where no reading that counts has a direction of travel, or there
 /// are fewer than two.
 std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palpations, const Hyperparameters& at,
                              const LagPrior& lag_prior = {});
