@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kAround = 20;
 constexpr std::size_t kListed = 40;        // neighbours, of whom some may be set aside
 constexpr double kSure = 5.0;              // standard deviations
-constexpr double kSameWay = 0.9;            // cosine: within 25 degrees, where a lag moves both alike
+constexpr double kSameWay = 0.9;           // cosine: within 25 degrees, where a lag moves both alike
 constexpr double kLeastNoise = 0.03;       // of the field's standard deviation: no model of an edge is better
 constexpr double kMostShare = 0.1;         // of the readings
 constexpr std::size_t kLeastReadings = 5;  // fewer cannot say which of them is wrong
