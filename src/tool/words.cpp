@@ -1,9 +1,12 @@
 #include "tool/words.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
+#include "palpation/belief/contact.h"
+#include "palpation/belief/screening.h"
 #include "palpation/boundary/level_remarks.h"
 #include "tool/parts.h"
 
@@ -95,6 +98,22 @@ std::string stop_words(const std::string& reason) {
   return "";
 }
 
+/// What a screen found, and whether the probe kept its contact.
+std::vector<std::string> screening_remarks(const Exploration& exploration) {
+  if (!exploration.is_screened()) return {};
+  std::vector<std::string> remarks;
+  for (const std::string& reason : {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier}) {
+    const std::vector<Palpation>& all = exploration.palpations();
+    const auto count = std::count_if(all.begin(), all.end(), [&](const Palpation& one) { return one.set_aside == reason; });
+    if (count > 0) remarks.push_back(counted(static_cast<std::size_t>(count), "reading") + " set aside (" + reason + ").");
+  }
+  if (const std::optional<FadingContact> fading = fading_contact(exploration.surface(), exploration.palpations()))
+    remarks.push_back("Contact fades towards (" + fixed(fading->towards.x(), 2) + ", " + fixed(fading->towards.y(), 2) + ", " +
+                      fixed(fading->towards.z(), 2) + "): healthy tissue reads " + percent(fading->base_fall) +
+                      " of the contrast less at that end, where stiff tissue may be missed.");
+  return remarks;
+}
+
 }  // namespace
 
 std::string fixed(double value, int digits) {
@@ -106,10 +125,14 @@ std::string fixed(double value, int digits) {
 std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   if (exploration.belief().site_count() == 0) return {};
-  if (!exploration.level()) return {no_level_words(exploration)};
+  std::vector<std::string> remarks = screening_remarks(exploration);
+  if (!exploration.level()) {
+    remarks.push_back(no_level_words(exploration));
+    return remarks;
+  }
   const Contour contour = exploration.contour();
-  std::vector<std::string> remarks = remarks_on_level_set(exploration.surface(), contour.field, contour.level).words();
-  for (std::string& remark : remarks) remark += '.';
+  for (const std::string& remark : remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
+    remarks.push_back(remark + '.');
   const std::vector<TumourPart> parts = parts_of(episode);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].probability < kSure)

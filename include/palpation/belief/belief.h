@@ -43,7 +43,7 @@ struct BeliefOptions {
   double noise_sd = 0.0;           ///< of a reading whose own variance is not given
   bool noise_is_relative = false;  ///< noise_sd is a fraction of the kernel's signal_sd
   bool standardize = false;        ///< the kernel's signal_sd, the constant's sd and the slope's are multiples of the readings' standard
-                             ///< deviation, and the constant's mean is the readings' mean: outputs z-scored, as GPy does
+                                   ///< deviation, and the constant's mean is the readings' mean: outputs z-scored, as GPy does
 };
 
 class Belief {

@@ -134,6 +134,7 @@ class Exploration {
   Field acquisition_field() const;
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
+  bool is_screened() const { return field_.screening; }
   /// Whether a trend is modelled, but too few places are touched yet to tell a tumour from a tilt.
   bool trend_is_missing() const;
   /// The lag in use; nothing where none is modelled, or it is to be learned and no reading tells.
