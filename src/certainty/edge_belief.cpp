@@ -15,6 +15,12 @@ namespace {
 
 /// Readings without noise still scatter about the profile, as much as the model of the edge is wrong: a thousandth of the range.
 constexpr double kModelError = 1e-3;
+/// Laplace's approximation takes the profile as straight. Where the boundary may be off by a good part of the edge's width, readings tell
+/// less than that: the offset's variance grows by this much for a standard deviation of 1 / slope (found on simulated tumours).
+constexpr double kCurved = 3.0;
+/// And its tails are heavier than a normal's, the more so the less sure the edge is: a missed arm of a horseshoe lies far out. The band
+/// grows by this part for a mean standard deviation of 1 / slope (found in the same way).
+constexpr double kHeavyTail = 0.65;
 
 /// One reading per place, of those that are used.
 EdgeData gathered(const Belief& belief) {
@@ -83,8 +89,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
 
   const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
                              {range * range, range * range, shape.slope_log_sd * shape.slope_log_sd}};
-  const Kernel kernel{
-      .family = KernelFamily::SquaredExponential, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
+  const Kernel kernel{.family = KernelFamily::Matern52, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
   const Prior correction(surface, belief.prior().metric(), kernel, Constant{.sd = 0.0});
   const Eigen::MatrixXd prior_covariance = correction.covariance(data.places, data.places);
   std::optional<EdgeFit> best;
@@ -109,13 +114,16 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
 void EdgeBelief::survey_boundary() {
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
   const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::ArrayXd part_of_edge = sd.array() * profile_.slope_per_m;
+  sd.array() *= (1.0 + kCurved * part_of_edge.square()).sqrt();
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
     const auto here = static_cast<Eigen::Index>(i), before = here - 1;
     expected_error_m2_ += std::sqrt(2.0 / std::numbers::pi) * nodes.length_m[i] * sd[here];
     if (!nodes.follows_last[i] || sd[here] * sd[before] == 0.0) continue;
     turn_ += std::acos(std::clamp(covariance(here, before) / (sd[here] * sd[before]), -1.0, 1.0));
   }
+  if (sd.size() > 0) mean_part_of_edge_ = sd.mean() * profile_.slope_per_m;
   offset_sd_ = spread_from_nodes(surface_, nodes, sd);
 }
 
@@ -127,7 +135,7 @@ double EdgeBelief::band_score(double probability) const {
   for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {
     (misses(middle) > 1.0 - probability ? below : above) = middle;
   }
-  return above;
+  return (1.0 + kHeavyTail * mean_part_of_edge_) * above;
 }
 
 }  // namespace palpation

@@ -266,10 +266,21 @@ std::vector<int> Exploration::chosen_stops() const {
   if (!contrast_seen_) return searching_stops();
   std::vector<int> stops;
   if (edge_) {
-    const int count = static_cast<int>(std::floor(plan_.edge_share * options.size));
+    // Search first, then refine: from half the share to half as much again over the plan's batches.
+    const double progress = static_cast<double>(batch_) / std::max(plan_.batches, 1);
+    const int count = static_cast<int>(std::lround(std::min(plan_.edge_share * (0.5 + progress), 1.0) * options.size));
     stops = edge_->most_telling(candidates(), count, options.least_spacing_m, marginals_.variance);
   }
-  return with_others(std::move(stops), belief_, options);
+  return with_others(std::move(stops), edge_ ? searching_belief() : belief_, options);
+}
+
+/// The field of one large tumour is smooth; a second, small one would hide between touches that are spread by its length. Look for it with
+/// the length that was likely beforehand, where that is shorter.
+Belief Exploration::searching_belief() const {
+  Kernel kernel = belief_.prior().kernel();
+  if (!field_.learn_length || kernel.length_m <= field_.length_median_m) return belief_;
+  kernel.length_m = field_.length_median_m;
+  return Belief(belief_.prior().with(kernel), belief_.options()).condition_on(belief_.palpations());
 }
 
 /// These stops, and as many others as the batch still takes by the acquisition, of a belief that supposes the stops touched.

@@ -33,6 +33,7 @@ struct Run {
   bool found = false;
   bool lost = false;  ///< more than half of the tumour's area is wrong
   bool covered = false;
+  double needed_width = 0.0;  // of the band's own
   double half_width_m = 0.0, bound_half_width_m = 0.0;
   double expected_m2 = 0.0;
   std::size_t warnings = 0;
@@ -54,15 +55,14 @@ RandomShapeOptions shape_options(const Scene& scene, const Surface& surface) {
   return {.size_m = extent.head<2>()};
 }
 
-/// Whether the whole true outline lies where |score| <= band_score. Between two points of a level line both it and the score are linear, so
-/// its points are enough.
-bool covers(const Surface& surface, const Certainty& certainty, const World& world) {
+/// How many times as wide the band would have to be to hold the whole true outline. Between two points of a level line both it and the
+/// score are linear, so its points are enough.
+double needed_width(const Surface& surface, const Certainty& certainty, const World& world) {
+  double greatest = 0.0;
   for (const LevelLoop& loop : level_loops(surface, world.truth, world.true_level)) {
-    for (const SurfacePoint& point : loop.points) {
-      if (std::abs(surface.interpolate(certainty.score, point)) > certainty.band_score) return false;
-    }
+    for (const SurfacePoint& point : loop.points) greatest = std::max(greatest, std::abs(surface.interpolate(certainty.score, point)));
   }
-  return true;
+  return greatest / certainty.band_score;
 }
 
 double uniform(Random& random, double least, double most) { return least + (most - least) * random.uniform(); }
@@ -96,7 +96,8 @@ Run run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
   run.found = !episode.estimate.empty() && exploration.level().has_value();
   if (!run.found) return run;
   const Certainty& certainty = *exploration.certainty();
-  run.covered = covers(surface, certainty, world);
+  run.needed_width = needed_width(surface, certainty, world);
+  run.covered = run.needed_width <= 1.0;
   run.half_width_m = certainty.half_width_m;
   run.expected_m2 = certainty.expected.symmetric_difference_m2();
   return run;
@@ -105,13 +106,13 @@ Run run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
 std::string csv_of(const std::vector<Run>& runs) {
   std::string csv =
       "seed,noise,family,area_mm2,slope_per_m,error_mm2,bound_mm2,found,lost,covered,half_width_mm,bound_half_width_mm,expected_error_mm2,"
-      "warnings\n";
+      "needed_width,warnings\n";
   const auto flag = [](bool value) { return std::string(value ? "1" : "0"); };
   for (const Run& run : runs) {
     csv += std::to_string(run.seed) + "," + text_of(run.noise) + "," + run.family + "," + text_of(run.area_m2 * 1e6) + "," +
            text_of(run.slope_per_m) + "," + text_of(run.error_m2 * 1e6) + "," + text_of(run.bound_m2 * 1e6) + "," + flag(run.found) + "," +
            flag(run.lost) + "," + flag(run.covered) + "," + text_of(run.half_width_m * 1e3) + "," + text_of(run.bound_half_width_m * 1e3) +
-           "," + text_of(run.expected_m2 * 1e6) + "," + std::to_string(run.warnings) + "\n";
+           "," + text_of(run.expected_m2 * 1e6) + "," + text_of(run.needed_width) + "," + std::to_string(run.warnings) + "\n";
   }
   return csv;
 }

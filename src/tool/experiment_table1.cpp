@@ -1,10 +1,15 @@
 // experiment table1: the simulations of Garg et al. 2016, rerun.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 
 #include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
+#include "palpation/certainty/reference_bound.h"
 #include "tool/experiment.h"
 #include "tool/paper_scene.h"
+#include "tool/setup.h"
+#include "tool/worlds.h"
 
 namespace palpation::tool {
 namespace {
@@ -75,11 +80,63 @@ void report(const std::vector<Entry>& entries, const Errors& errors, const Exper
   write_table(arguments, "table1", csv);
 }
 
+/// The tool's defaults on the same phantoms, with the level unknown; a trend where there is a bias.
+Table default_table(const Scene& base) {
+  Table table;
+  const auto add = [&](const std::string& row, double noise, double bias, const std::string& trend) {
+    for (const std::string& shape : kPaperShapes) {
+      const Scene scene =
+          base.with("probe.noise", noise).with("probe.bias", bias).with("probe.tumours", paper_tumour(shape)).with("field.trend", trend);
+      table.entries.push_back({shape, row, "auto", scene.word("level.estimate"), printed_value(shape, row, "ils-ucb")});
+      table.cells.push_back({row + ", " + shape + ", the defaults", scene});
+    }
+  };
+  for (const int percent : {1, 5, 10, 25}) add("noise " + std::to_string(percent) + " %", percent / 100.0, 0.0, "constant");
+  for (const int percent : {1, 5, 50, 100}) add("bias " + std::to_string(percent) + " %", 0.01, percent / 100.0, "linear");
+  return table;
+}
+
+/// The bound knows the shape's number of modes, and where its outline runs: a reference for every method.
+double bound_percent(const Entry& entry, const Scene& scene, double area_m2) {
+  const int readings = scene.integer("plan.initial.count") + scene.integer("plan.batch") * scene.integer("plan.batches");
+  const ReferenceBound bound = reference_bound({.perimeter_m = paper_perimeter_m(entry.shape),
+                                                .slope_per_m = scene.number("probe.slope_per_m"),
+                                                .noise = scene.number("probe.noise"),
+                                                .readings = readings,
+                                                .fraction = scene.number("level.fraction")});
+  return 100.0 * bound.expected_error_m2 / area_m2;
+}
+
+void report_defaults(const Table& table, const Errors& errors, const ExperimentArguments& arguments) {
+  std::printf("\nLevel unknown, the tool's defaults (trend on in the rows with bias); over half the tumour wrong: lost\n");
+  std::printf("%-12s%-12s  error, %%              (ILS-UCB as printed)  lost   reference bound   error / bound\n", "", "");
+  std::string csv = "row,shape,trials,error_percent,standard_error,printed,lost,bound_percent\n";
+  for (std::size_t i = 0; i < table.entries.size(); ++i) {
+    const Entry& entry = table.entries[i];
+    const Surface tissue = tissue_of(table.cells[i].scene).surface;
+    const World world = simulated_world(table.cells[i].scene, tissue);
+    const double half = 50.0 * superlevel_area(tissue, world.truth, world.true_level) / tissue.area();
+    const std::vector<double> last = finals(errors[i]);
+    const Statistics result = statistics(last);
+    const auto lost = std::count_if(last.begin(), last.end(), [&](double error) { return error > half; });
+    const double bound = bound_percent(entry, table.cells[i].scene, tissue.area());
+    std::printf("%-12s%-12s  %s (%s)  %12ld  %16.3f  %14.2f\n", entry.row.c_str(), entry.shape.c_str(), in_words(result).c_str(),
+                or_dash(entry.printed).c_str(), static_cast<long>(lost), bound, result.mean / bound);
+    csv += entry.row + "," + entry.shape + "," + std::to_string(arguments.trials) + "," + text_of(result.mean) + "," +
+           or_empty(result.standard_error) + "," + or_empty(entry.printed) + "," + std::to_string(lost) + "," + text_of(bound) + "\n";
+  }
+  write_table(arguments, "table1_defaults", csv);
+}
+
 }  // namespace
 
 void table1(const ExperimentArguments& arguments) {
   const Table table = table_of(base_scene(arguments, paper_scene()), !arguments.scene.empty());
   if (printed_scenes(table.cells, arguments)) return;
+  if (arguments.scene.empty()) {
+    const Table defaults = default_table(base_scene(arguments, default_scene()));
+    report_defaults(defaults, run_trials(defaults.cells, arguments), arguments);
+  }
   report(table.entries, run_trials(table.cells, arguments), arguments);
 }
 

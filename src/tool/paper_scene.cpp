@@ -1,5 +1,7 @@
 #include "tool/paper_scene.h"
 
+#include <numbers>
+
 namespace palpation::tool {
 
 using nlohmann::json;
@@ -35,6 +37,19 @@ json paper_scene() {
             {"bias_axis", {0, 1, 0}},
             {"tumours", json::array()}}},
           {"seed", 0}};
+}
+
+json default_scene() {
+  json scene = paper_scene();
+  scene.erase("field");
+  scene["level"] = {{"fraction", 0.5}};
+  for (const char* key : {"acquisition", "gamma", "scaling", "least_spacing_mm"}) scene["plan"].erase(key);
+  return scene;
+}
+
+/// The disk's circle; the horseshoe's two half circles and its two round caps.
+double paper_perimeter_m(const std::string& shape) {
+  return std::numbers::pi * (shape == "disk" ? 2.0 * 0.00625 : 2.0 * 0.007 + 2.0 * 0.0025);
 }
 
 json paper_tumour(const std::string& shape) {

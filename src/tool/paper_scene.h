@@ -11,6 +11,12 @@ namespace palpation::tool {
 /// 52; the level known. Without tumours.
 nlohmann::json paper_scene();
 
+/// The same phantom and number of touches; model, level and choice of touches are the tool's own defaults, and know nothing of it.
+nlohmann::json default_scene();
+
+/// The length of the outline, metres.
+double paper_perimeter_m(const std::string& shape);
+
 /// "disk" or "horseshoe", as probe.tumours.
 nlohmann::json paper_tumour(const std::string& shape);
 

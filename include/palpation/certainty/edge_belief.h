@@ -3,7 +3,7 @@
 /// A stationary field knows nothing of plateaus, so it is unsure everywhere and smooths the edge. What readings tell of the edge is clearer
 /// in depths. With d(x) the signed distance from a first boundary (positive inside), across the edge
 ///
-///     depth(x) = d(x) + c(x),      c ~ GP(0, correction_sd^2 exp(-r^2 / 2 length^2)),
+///     depth(x) = d(x) + c(x),      c ~ GP(0, correction_sd^2 Matern-5/2 of the correction length),
 ///     reading  = low + (high - low) / (1 + exp(-slope depth)) + noise                        (equation 4 of Garg et al. 2016)
 ///
 /// and c, low, high and log slope are found together, with their covariance: Laplace's approximation at the most probable values, by Gauss
@@ -24,7 +24,7 @@ namespace palpation {
 /// What is known of a boundary's shape beforehand.
 struct ShapePrior {
   double correction_sd_m = 0.001;      ///< how far off the first boundary may be: a millimetre is most of an edge's width
-  double correction_length_m = 0.006;  ///< over which it is off the same way: the least radius of curvature of tumours of a few cm2
+  double correction_length_m = 0.009;  ///< over which it is off the same way: the least radius of curvature of tumours of a few cm2
   double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
 };
@@ -50,7 +50,7 @@ class EdgeBelief {
   /// Expected area between the boundary and the true one: the integral along it of the offset's mean absolute value, sqrt(2 / pi) sd.
   double expected_error_m2() const { return expected_error_m2_; }
   /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
-  /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary.
+  /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary, widened for the tails of an unsure edge.
   double band_score(double probability) const;
 
   /// Where touches would tell the most: one after the other, the candidate whose reading lowers the depth's expected error along the
@@ -70,7 +70,8 @@ class EdgeBelief {
   Marginals depth_;
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
-  double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
+  double mean_part_of_edge_ = 0.0;  // the offset's standard deviation over the edge's width, 1 / slope
+  double turn_ = 0.0;               // of the standardized offset along the boundary, on the unit sphere
 };
 
 }  // namespace palpation

@@ -145,6 +145,7 @@ class Exploration {
   void estimate_boundary();
   std::vector<int> chosen_stops() const;
   std::vector<int> searching_stops() const;
+  Belief searching_belief() const;
   std::vector<int> with_others(std::vector<int> stops, Belief believed, BatchOptions options) const;
   void plan_next();
   std::string reason_to_stop() const;

@@ -1,0 +1,62 @@
+#include "palpation/certainty/contrast.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "palpation/base/random.h"
+
+namespace palpation {
+namespace {
+
+std::vector<double> noise(int count, double sd, Random& random) {
+  std::vector<double> readings;
+  for (int i = 0; i < count; ++i) readings.push_back(7.0 + sd * random.normal());
+  return readings;
+}
+
+TEST(ShowsContrast, NeedsTwoPlateausOrASmoothField) {
+  Random random(1);
+  std::vector<double> readings = noise(25, 0.1, random);
+  EXPECT_FALSE(shows_contrast(readings, 0.0));
+  EXPECT_TRUE(shows_contrast(readings, 5.0));
+  readings.push_back(9.0);
+  EXPECT_TRUE(shows_contrast(readings, 0.0));
+  EXPECT_FALSE(shows_contrast(std::vector<double>{7.0, 7.01, 9.0}, 0.0));  // three readings say nothing
+}
+
+TEST(ShowsContrast, IsSeldomFooledByNoise) {
+  Random random(2);
+  int fooled = 0;
+  for (int trial = 0; trial < 500; ++trial) fooled += shows_contrast(noise(100, 0.5, random), 0.0);
+  EXPECT_LE(fooled, 5);
+}
+
+TEST(TwoPlateaus, FindsThemWhereNoiseIsAQuarterOfTheirDistance) {
+  Random random(3);
+  std::vector<double> readings = noise(80, 0.5, random);
+  for (int i = 0; i < 25; ++i) readings.push_back(9.0 + 0.5 * random.normal());
+  const auto plateaus = two_plateaus(readings);
+  ASSERT_TRUE(plateaus);
+  EXPECT_NEAR(plateaus->low, 7.0, 0.2);
+  EXPECT_NEAR(plateaus->high, 9.0, 0.4);
+  EXPECT_GT(plateaus->evidence, 5.0);
+}
+
+TEST(TwoPlateaus, AreNotThereWhereReadingsAreFewOrAlike) {
+  EXPECT_FALSE(two_plateaus(std::vector<double>{}));
+  EXPECT_FALSE(two_plateaus(std::vector<double>(9, 7.0)));
+  EXPECT_FALSE(two_plateaus(std::vector<double>(30, 7.0)));
+}
+
+TEST(TwoPlateaus, FollowScaleAndOrigin) {
+  Random random(4);
+  std::vector<double> readings = noise(40, 0.3, random), moved;
+  for (int i = 0; i < 10; ++i) readings.push_back(8.5 + 0.3 * random.normal());
+  for (const double reading : readings) moved.push_back(1e-6 * reading - 3.0);
+  EXPECT_NEAR(two_plateaus(moved)->high, 1e-6 * two_plateaus(readings)->high - 3.0, 1e-12);
+  EXPECT_NEAR(two_plateaus(moved)->evidence, two_plateaus(readings)->evidence, 1e-5);
+}
+
+}  // namespace
+}  // namespace palpation
