@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "palpation/geometry/path.h"
+
 namespace palpation {
 namespace {
 
@@ -37,7 +39,11 @@ std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const
       offset += weight * (palpation.reading - one.reading);
       shift += weight * (surface.position(palpation.where) - start);
     }
-    merged.back().where = surface.project(start + shift / precision);
+    const double step = (shift / precision).norm();
+    if (step > 0.0) {
+      const std::vector<SurfacePoint> middle = way_between(surface, one.where, palpations[end - 1].where, step);
+      if (!middle.empty()) merged.back().where = middle.front();
+    }
     merged.back().reading = one.reading + offset / precision;
     merged.back().noise_variance = 1.0 / precision;
   }

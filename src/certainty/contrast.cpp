@@ -8,7 +8,7 @@
 namespace palpation {
 namespace {
 
-constexpr double kEnoughSignal = 3.0;
+constexpr double kEnoughSignal = 5.0;
 constexpr double kEnoughContrast = 5.0;
 constexpr std::size_t kFewReadings = 10;
 constexpr int kRounds = 60;

@@ -15,6 +15,12 @@ namespace {
 
 /// Readings without noise still scatter about the profile, as much as the model of the edge is wrong: a thousandth of the range.
 constexpr double kModelError = 1e-3;
+/// Mean squared residual over noise variance: what chance makes of a hundred readings is less.
+constexpr double kMuchScatter = 1.3;
+constexpr int kMostRounds = 4;
+/// The field's mean shows the plateaus to within a quarter of its range: a ridge of the slope's own width reaches four fifths of its
+/// height.
+constexpr double kPlateauError = 0.25;
 /// Laplace's approximation takes the profile as straight. Where the boundary may be off by a good part of the edge's width, readings tell
 /// less than that: the offset's variance grows by this much for a standard deviation of 1 / slope (found on simulated tumours).
 constexpr double kCurved = 3.0;
@@ -72,6 +78,24 @@ bool measure_depths(const Surface& surface, const Field& field, double level, Ei
   return true;
 }
 
+/// Readings that scatter about the profile more than their noise says are believed that much less: edges of real tissue are no perfect
+/// sigmoids.
+EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    double scatter = 0.0;
+    for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
+      const double residual = data.reading[i] - profile_reading(fit.profile, data.depth_m[i] + fit.correction_m[i]);
+      scatter += residual * residual / data.variance[i] / static_cast<double>(data.reading.size());
+    }
+    if (scatter < kMuchScatter) break;
+    data.variance *= scatter;
+    const double all_scatter = fit.scatter * scatter;
+    fit = fit_edge_belief(data, prior_covariance, prior);
+    fit.scatter = all_scatter;
+  }
+  return fit;
+}
+
 }  // namespace
 
 EdgeBelief::EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit) : surface_(std::move(surface)), fit_(std::move(fit)) {}
@@ -87,13 +111,14 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   const double touch_variance = std::max(belief.noise_variance(), model_variance);
   data.variance = data.variance.cwiseMax(model_variance);
 
+  const double plateau_variance = kPlateauError * kPlateauError * range * range;
   const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
-                             {range * range, range * range, shape.slope_log_sd * shape.slope_log_sd}};
+                             {plateau_variance, plateau_variance, shape.slope_log_sd * shape.slope_log_sd}};
   const Kernel kernel{.family = KernelFamily::Matern52, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
   const Prior correction(surface, belief.prior().metric(), kernel, Constant{.sd = 0.0});
   const Eigen::MatrixXd prior_covariance = correction.covariance(data.places, data.places);
   std::optional<EdgeFit> best;
-  Eigen::VectorXd distance;
+  Eigen::VectorXd distance, depths_of_best;
   for (const double first_level : first_levels) {
     Eigen::VectorXd from_here;
     if (!measure_depths(surface, component.mean, first_level, from_here, data)) continue;
@@ -101,9 +126,13 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     if (best && !(edge.log_evidence > best->log_evidence)) continue;
     best = std::move(edge);
     distance = std::move(from_here);
+    depths_of_best = data.depth_m;
   }
   if (!best) return std::nullopt;
-  EdgeBelief made(surface, std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance, data.places, std::move(*best)}));
+  data.depth_m = depths_of_best;
+  const EdgeFit edge = with_scatter(std::move(*best), data, prior_covariance, profile);
+  EdgeBelief made(surface,
+                  std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance * edge.scatter, data.places, edge}));
   made.profile_ = made.fit_->edge_profile();
   made.depth_ = made.fit_->depth_at_vertices(distance);
   made.survey_boundary();

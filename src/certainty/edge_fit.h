@@ -45,6 +45,7 @@ struct EdgeFit {
   ProfileSlopes by_profile;      ///< G
   Eigen::VectorXd pull;          ///< C^-1 (linearized readings - their prior mean)
   Eigen::LLT<Eigen::MatrixXd> covariance;
+  double scatter = 1.0;       ///< what the noise variances were multiplied by
   double log_evidence = 0.0;  ///< of the linearized readings, without what depends on their number alone
 };
 

@@ -162,6 +162,11 @@ void Exploration::estimate_boundary() {
   }
   edge_ = EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction);
   if (edge_) level_ = edge_->level();
+  // Where contact fades no profile fits: its plateau may run away, and with it the level.
+  if (level_->value <= component_.mean.minCoeff() || level_->value >= component_.mean.maxCoeff()) {
+    edge_.reset();
+    level_ = level_from_range(component_, level_rule_.fraction);
+  }
 }
 
 Contour Exploration::contour() const {

@@ -258,7 +258,7 @@ class Robustness(unittest.TestCase):
         for command in ("boundary", "plan"):
             words = self.ends(0, command, self.scene, "--set", "level.value=8", "--measurements", measured, "--out", out, "--quiet")
             told = json.loads((out / "summary.json").read_text())["warnings"]
-            self.assertEqual(len(told), 3, told)
+            self.assertGreaterEqual(len(told), 3, told)
             for part, warning in zip(("level.value: has no effect", "1 of 41 positions lay off the surface", "1 reading stands more than 1000 times"), told):
                 self.assertIn(part, warning)
                 self.assertIn(warning, words)

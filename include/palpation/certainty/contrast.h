@@ -17,7 +17,7 @@ struct TwoPlateaus {
 /// plateau. Nothing for fewer than ten readings, or none that differ.
 std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings);
 
-/// Whether a smooth field explains the readings better than noise alone by three nats (`signal_evidence`), or two plateaus do by five: a
+/// Whether a smooth field explains the readings better than noise alone by five nats (`signal_evidence`), or two plateaus do: a
 /// tumour that few touches hit shows in their values before it shows in where they are. Noise alone passes in fewer than one run in a
 /// hundred.
 bool shows_contrast(std::span<const double> readings, double signal_evidence);
