@@ -15,6 +15,9 @@ namespace {
 
 /// Readings without noise still scatter about the profile, as much as the model of the edge is wrong: a thousandth of the range.
 constexpr double kModelError = 1e-3;
+/// More places than this are many; beyond so deep an edge of any slope in the prior is over (98 % at 500 per metre).
+constexpr Eigen::Index kMany = 300;
+constexpr double kDeep_m = 0.008;
 /// Mean squared residual over noise variance: what chance makes of a hundred readings is less.
 constexpr double kMuchScatter = 1.3;
 constexpr int kMostRounds = 4;
@@ -26,7 +29,7 @@ constexpr double kPlateauError = 0.25;
 constexpr double kCurved = 3.0;
 /// And its tails are heavier than a normal's, the more so the less sure the edge is: a missed arm of a horseshoe lies far out. The band
 /// grows by this part for a mean standard deviation of 1 / slope (found in the same way).
-constexpr double kHeavyTail = 0.65;
+constexpr double kHeavyTail = 1.0;
 
 /// One reading per place, of those that are used.
 EdgeData gathered(const Belief& belief) {
@@ -78,6 +81,49 @@ bool measure_depths(const Surface& surface, const Field& field, double level, Ei
   return true;
 }
 
+/// Where there are many, the readings deep on one plateau as one, at their mean depth: they tell of the plateau alone, and the fit costs
+/// the third power of their number.
+EdgeData with_plateaus_merged(const EdgeData& data) {
+  if (data.reading.size() <= kMany) return data;
+  struct Plateau {
+    std::optional<SurfacePoint> place;
+    double precision = 0.0, reading = 0.0, depth_m = 0.0;
+  };
+  Plateau plateaus[2];
+  EdgeData merged;
+  std::vector<double> reading, variance, depth_m;
+  for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
+    const SurfacePoint& place = data.places[static_cast<std::size_t>(i)];
+    if (std::abs(data.depth_m[i]) < kDeep_m) {
+      merged.places.push_back(place);
+      reading.push_back(data.reading[i]);
+      variance.push_back(data.variance[i]);
+      depth_m.push_back(data.depth_m[i]);
+      continue;
+    }
+    Plateau& plateau = plateaus[data.depth_m[i] > 0.0];
+    const double precision = 1.0 / data.variance[i];
+    if (!plateau.place) plateau.place = place;
+    plateau.precision += precision;
+    plateau.reading += precision * data.reading[i];
+    plateau.depth_m += precision * data.depth_m[i];
+  }
+  for (const Plateau& plateau : plateaus) {
+    if (!plateau.place) continue;
+    merged.places.push_back(*plateau.place);
+    reading.push_back(plateau.reading / plateau.precision);
+    variance.push_back(1.0 / plateau.precision);
+    depth_m.push_back(plateau.depth_m / plateau.precision);
+  }
+  const auto vector_of = [](const std::vector<double>& values) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+  };
+  merged.reading = vector_of(reading);
+  merged.variance = vector_of(variance);
+  merged.depth_m = vector_of(depth_m);
+  return merged;
+}
+
 /// Readings that scatter about the profile more than their noise says are believed that much less: edges of real tissue are no perfect
 /// sigmoids.
 EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior) {
@@ -104,37 +150,41 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
                                              double fraction, const ShapePrior& shape) {
   require(fraction > 0.0 && fraction < 1.0, "EdgeBelief", "fraction = " + text_of(fraction), "must lie in (0, 1)");
   const Surface& surface = belief.prior().surface();
-  EdgeData data = gathered(belief);
+  EdgeData all = gathered(belief);
   const double least = component.mean.minCoeff(), range = component.mean.maxCoeff() - least;
-  if (data.places.empty() || !(range > 0.0)) return std::nullopt;
+  if (all.places.empty() || !(range > 0.0)) return std::nullopt;
   const double model_variance = kModelError * kModelError * range * range;
   const double touch_variance = std::max(belief.noise_variance(), model_variance);
-  data.variance = data.variance.cwiseMax(model_variance);
+  all.variance = all.variance.cwiseMax(model_variance);
 
   const double plateau_variance = kPlateauError * kPlateauError * range * range;
   const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
                              {plateau_variance, plateau_variance, shape.slope_log_sd * shape.slope_log_sd}};
   const Kernel kernel{.family = KernelFamily::Matern52, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
   const Prior correction(surface, belief.prior().metric(), kernel, Constant{.sd = 0.0});
-  const Eigen::MatrixXd prior_covariance = correction.covariance(data.places, data.places);
-  std::optional<EdgeFit> best;
-  Eigen::VectorXd distance, depths_of_best;
+  struct Start {
+    EdgeData data;
+    Eigen::MatrixXd prior_covariance;
+    EdgeFit edge;
+    Eigen::VectorXd distance;
+  };
+  std::optional<Start> best;
   for (const double first_level : first_levels) {
-    Eigen::VectorXd from_here;
-    if (!measure_depths(surface, component.mean, first_level, from_here, data)) continue;
+    Eigen::VectorXd distance;
+    if (!measure_depths(surface, component.mean, first_level, distance, all)) continue;
+    EdgeData data = with_plateaus_merged(all);
+    Eigen::MatrixXd prior_covariance = correction.covariance(data.places, data.places);
     EdgeFit edge = fit_edge_belief(data, prior_covariance, profile);
-    if (best && !(edge.log_evidence > best->log_evidence)) continue;
-    best = std::move(edge);
-    distance = std::move(from_here);
-    depths_of_best = data.depth_m;
+    if (best && !(edge.log_evidence > best->edge.log_evidence)) continue;
+    best = Start{std::move(data), std::move(prior_covariance), std::move(edge), std::move(distance)};
+    if (all.reading.size() > kMany) break;  // what is merged differs from start to start, and so does the evidence
   }
   if (!best) return std::nullopt;
-  data.depth_m = depths_of_best;
-  const EdgeFit edge = with_scatter(std::move(*best), data, prior_covariance, profile);
+  const EdgeFit edge = with_scatter(std::move(best->edge), best->data, best->prior_covariance, profile);
   EdgeBelief made(surface,
-                  std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance * edge.scatter, data.places, edge}));
+                  std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance * edge.scatter, best->data.places, edge}));
   made.profile_ = made.fit_->edge_profile();
-  made.depth_ = made.fit_->depth_at_vertices(distance);
+  made.depth_ = made.fit_->depth_at_vertices(best->distance);
   made.survey_boundary();
   return made;
 }
@@ -143,14 +193,15 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
 void EdgeBelief::survey_boundary() {
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
   const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
-  Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::ArrayXd part_of_edge = sd.array() * profile_.slope_per_m;
-  sd.array() *= (1.0 + kCurved * part_of_edge.square()).sqrt();
+  const Eigen::VectorXd as_if_straight = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::ArrayXd part_of_edge = as_if_straight.array() * profile_.slope_per_m;
+  const Eigen::VectorXd sd = as_if_straight.array() * (1.0 + kCurved * part_of_edge.square()).sqrt();
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
     const auto here = static_cast<Eigen::Index>(i), before = here - 1;
     expected_error_m2_ += std::sqrt(2.0 / std::numbers::pi) * nodes.length_m[i] * sd[here];
-    if (!nodes.follows_last[i] || sd[here] * sd[before] == 0.0) continue;
-    turn_ += std::acos(std::clamp(covariance(here, before) / (sd[here] * sd[before]), -1.0, 1.0));
+    if (!nodes.follows_last[i]) continue;
+    const double scale = as_if_straight[here] * as_if_straight[before];
+    if (scale > 0.0) turn_ += std::acos(std::clamp(covariance(here, before) / scale, -1.0, 1.0));
   }
   if (sd.size() > 0) mean_part_of_edge_ = sd.mean() * profile_.slope_per_m;
   offset_sd_ = spread_from_nodes(surface_, nodes, sd);

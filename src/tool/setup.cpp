@@ -216,7 +216,7 @@ Plan plan_of(const Scene& scene) {
                .band_m = scene.metres("plan.stop.band_mm"),
                .least_gain = scene.number("plan.stop.least_gain"),
                .band_probability = scene.number("band.probability")};
-  if (scene.word("plan.acquisition") == "auto") plan.edge_share = scene.number("plan.edge_share");
+  plan.edge_share = scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
   plan.safe_start = scene.truth("plan.safe_start");
   return plan;
 }

@@ -61,18 +61,19 @@ enum class LevelEstimate { Range, Edge };
 struct LevelRule {
   std::optional<double> known{};  ///< in reading units
   double fraction = 0.5;          ///< of the way from the low plateau to the high one
-  LevelEstimate estimate = LevelEstimate::Range;
+  LevelEstimate estimate = LevelEstimate::Edge;
 };
 
 struct Plan {
-  Acquisition acquisition = ils_ucb();
+  Acquisition acquisition = straddle();
   Design initial = Design::Grid;
   int initial_count = 16;
   BatchOptions batch{.least_spacing_m = 0.0005};
   int batches = 9;  ///< after the initial one
-  /// The part of every batch that goes where it tells the most about the boundary (edge_belief.h), once one is seen and the level is
-  /// inferred from its edge; the rest follows the acquisition, and finds what the boundary does not know of.
-  double edge_share = 0.0;
+  /// The part of the batches that goes where it tells the most about the boundary (edge_belief.h), once one is seen and the level is
+  /// inferred from its edge: half of it in the first batch, half as much again in the last. The rest follows the acquisition, and finds
+  /// what the boundary does not know of: with more than this a second, small tumour is missed.
+  double edge_share = 0.65;
   StopRule stop{};
   /// Until the readings show contrast (contrast.h), explore by the variance of a field of the prior's length, and look again where readings
   /// were high: for learned fields, which five readings of healthy tissue would teach that noise is all.
