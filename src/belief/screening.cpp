@@ -28,8 +28,11 @@ constexpr double kStartUp_m = 0.003;   // after rest until the probe reads true
 constexpr double kSliding_m = 0.0011;  // between readings made in motion; farther apart they are pokes, each from rest
 constexpr double kDense_m = 0.0005;    // between readings: several to a millimetre, where tissue turns slowly ...
 constexpr double kTurnShare = 0.05;    // ... by less than this part of a step at one reading
-constexpr double kSure = 4.0;          // robust standard deviations
-constexpr double kBaseShare = 0.5;     // of the contrast: a row's base that steps as far as half a tumour
+constexpr std::size_t kLeastToBeGross = 20;
+constexpr double kGrossBelow = 10.0;    // ranges of nine tenths of the readings
+constexpr double kGrossAbove = 1000.0;  // the same: a tumour stands out of noise of 0.1 % by three hundred
+constexpr double kSure = 4.0;           // robust standard deviations
+constexpr double kBaseShare = 0.5;      // of the contrast: a row's base that steps as far as half a tumour
 
 struct Screen {
   const Surface& surface;
@@ -342,6 +345,21 @@ std::vector<Pass> rows_among(const std::vector<Pass>& passes, const std::vector<
   return is_scan ? rows : std::vector<Pass>{};
 }
 
+/// What no tissue reads: far below all others, for tumours stand out upwards; or so far above them that no stiffness would.
+void find_gross(Screen& screen) {
+  std::vector<double> readings;
+  for (const Palpation& palpation : screen.palpations) {
+    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
+  }
+  if (readings.size() < kLeastToBeGross) return;
+  const double low = quantile(readings, 0.05), high = quantile(readings, 0.95);
+  if (!(high > low)) return;
+  for (std::size_t i = 0; i < screen.palpations.size(); ++i) {
+    const double reading = screen.palpations[i].reading;
+    if (reading < low - kGrossBelow * (high - low) || reading > high + kGrossAbove * (high - low)) screen.set_aside(i, kOutlier);
+  }
+}
+
 }  // namespace
 
 std::vector<Palpation> screened(const Surface& surface, std::span<const Palpation> palpations) {
@@ -358,6 +376,7 @@ std::vector<Palpation> screened(const Surface& surface, std::span<const Palpatio
     find_transitions(screen, rows);
     find_base_steps(screen, rows);
   }
+  find_gross(screen);
   for (std::size_t i : outliers(result, screen.places)) screen.set_aside(i, kOutlier);
   return result;
 }

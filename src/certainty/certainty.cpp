@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
@@ -9,6 +10,8 @@
 
 namespace palpation {
 namespace {
+
+constexpr double kFar_m = 0.008;
 
 /// Area between the score's level sets at -q and q, over twice the boundary's length.
 double mean_half_width(const Surface& surface, const Field& score, double band_score) {
@@ -49,6 +52,29 @@ Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& m
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   certainty.expected = expected_error(surface, marginals, level);
   return certainty;
+}
+
+double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level) {
+  const Surface& surface = belief.prior().surface();
+  std::vector<Vec3> touched;
+  for (const Palpation& palpation : belief.palpations()) {
+    if (palpation.set_aside.empty()) touched.push_back(surface.position(palpation.where));
+  }
+  const double level_sd = level.stddev.value_or(0.0);
+  double area = 0.0;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const Vec3 place = surface.vertex(vertex);
+    const auto is_near = [&](const Vec3& other) { return (other - place).squaredNorm() < kFar_m * kFar_m; };
+    if (std::any_of(touched.begin(), touched.end(), is_near)) continue;
+    const double sd = std::sqrt(marginals.variance[vertex] + level_sd * level_sd);
+    const double sureness = std::min(std::abs(certainty.score[vertex]), std::abs(marginals.mean[vertex] - level.value) / sd);
+    const bool inside = certainty.score[vertex] >= 0.0;
+    certainty.score[vertex] = inside ? sureness : -sureness;
+    const double here = surface.vertex_areas()[vertex];
+    (inside ? certainty.expected.extra_m2 : certainty.expected.missed_m2) += here * normal_probability(-sureness);
+    area += here;
+  }
+  return area;
 }
 
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability) {

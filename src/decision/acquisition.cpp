@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "decision/scoring.h"
 #include "palpation/base/error.h"
+#include "palpation/base/owens_t.h"
 #include "palpation/base/random.h"
 
 namespace palpation {
 namespace {
+
+constexpr std::size_t kLookedAt = 200;
+constexpr double kTellsNothing = 1e-6;  // of the variance
 
 void check_gamma(const char* function, double gamma) {
   require(gamma >= 0.0 && gamma <= 1.0, function, "gamma = " + text_of(gamma), "must lie in [0, 1]");
@@ -53,6 +58,42 @@ Pointwise lse_ambiguity(double width) {
       .score = [width](double mean, double stddev,
                        const Level& level) { return std::min(mean + width * stddev - level.value, level.value - (mean - width * stddev)); },
       .grows_with_stddev = true};
+}
+
+Whole randomized_straddle(std::uint64_t seed) {
+  return {.scores = [seed](const Belief& belief, const Level& level) {
+    Random random(seed ^ (0x9e3779b97f4a7c15u * (belief.palpations().size() + 1)));
+    return score(straddle(std::sqrt(-2.0 * std::log1p(-random.uniform()))), belief, level);
+  }};
+}
+
+Whole expected_symmetric_difference() {
+  return {.scores = [](const Belief& belief, const Level& level) {
+    const Surface& surface = belief.prior().surface();
+    const Marginals now = belief.at_vertices();
+    const Field liked = score(straddle(), belief, level);
+    std::vector<int> order(static_cast<std::size_t>(liked.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return liked[a] > liked[b]; });
+    order.resize(std::min(order.size(), kLookedAt));
+
+    Field gains = Field::Zero(liked.size());
+    Field covariance(liked.size());
+    for (const int candidate : order) {
+      CovarianceWith(belief, candidate)(0, static_cast<int>(covariance.size()), covariance.data());
+      const double reading_variance = now.variance[candidate] + belief.noise_variance();
+      if (!(reading_variance > 0.0)) continue;
+      for (int vertex = 0; vertex < covariance.size(); ++vertex) {
+        const double before = now.variance[vertex];
+        const double known = std::min(covariance[vertex] * covariance[vertex] / reading_variance, before);
+        if (!(known > kTellsNothing * before)) continue;
+        const double z = std::abs(now.mean[vertex] - level.value) / std::sqrt(before);
+        const double misjudged = owens_t(z, std::numeric_limits<double>::infinity()) - owens_t(z, std::sqrt((before - known) / known));
+        gains[candidate] += surface.vertex_areas()[vertex] * 2.0 * misjudged;
+      }
+    }
+    return gains;
+  }};
 }
 
 Whole random_scores(std::uint64_t seed) {

@@ -136,9 +136,11 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     if (!is_flat) estimate_boundary();
   }
   certainty_.reset();
+  untouched_m2_ = 0.0;
   if (level_ && belief_.site_count() > 0) {
     certainty_ = edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
                        : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
+    if (edge_) untouched_m2_ = doubt_untouched(*certainty_, belief_, component_, *level_);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
   }
   if (field_.indenter_radius_m > 0.0 && level_) {
@@ -307,9 +309,10 @@ std::vector<int> Exploration::with_others(std::vector<int> stops, Belief believe
 
 /// By how sure the boundary is; the rest of the reasons show when the next batch is planned.
 std::string Exploration::reason_to_stop() const {
-  if (!contrast_seen_ || !certainty_) return "";
+  // Without a boundary nothing is known of how wrong it is: a level that no reading crosses is no reason to stop.
+  if (!contrast_seen_ || !certainty_ || certainty_->half_width_m == 0.0) return "";
   if (certainty_->expected.symmetric_difference_m2() <= plan_.stop.error_m2 && plan_.stop.error_m2 > 0.0) return "expected error";
-  if (certainty_->half_width_m > 0.0 && certainty_->half_width_m <= plan_.stop.band_m) return "band";
+  if (certainty_->half_width_m <= plan_.stop.band_m) return "band";
   return "";
 }
 

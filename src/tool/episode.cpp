@@ -232,6 +232,15 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
   });
 }
 
+namespace {
+
+/// A tumour wider than the tissue is none to rule out.
+std::optional<double> within(const Surface& surface, const std::optional<double>& diameter_m) {
+  return diameter_m && *diameter_m < surface.diameter() ? diameter_m : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Surface& surface = exploration.surface();
@@ -246,14 +255,14 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   Sought sought{.probability = episode.band_probability};
   if (!exploration.level()) {
     if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
-    return palpation::diameter_ruled_out_m(surface, places, sought);
+    return within(surface, palpation::diameter_ruled_out_m(surface, places, sought));
   }
   const Healthy healthy = healthy_part(exploration);
   if (healthy.vertices.empty() || episode.estimate.empty()) return std::nullopt;
   const double contrast = episode.assumed_contrast.value_or((exploration.level()->value - healthy.mean) / episode.level_fraction);
   sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
   if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;
-  return palpation::diameter_ruled_out_m(surface, places, sought, healthy.vertices);
+  return within(surface, palpation::diameter_ruled_out_m(surface, places, sought, healthy.vertices));
 }
 
 Snapshot snapshot(const Episode& episode) {

@@ -151,7 +151,9 @@ std::vector<SceneKey> make_scene_keys() {
       number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5, "of that way; it also defines the true outline of a simulated tumour"),
       number("level.value", "reading", -kMostReading, kMostReading, nullptr,
              "the level, needed where level.estimate is known; kept, but without effect, where it is not"),
-      word("plan.acquisition", {"auto", "ils-ucb", "ucb", "evr", "straddle", "lse", "random", "raster", "refinement"}, "auto",
+      word("plan.acquisition",
+           {"auto", "ils-ucb", "ucb", "evr", "straddle", "randomized-straddle", "expected-error", "lse", "random", "raster", "refinement"},
+           "auto",
            "what makes a touch worth while: auto sends most of a batch where it tells the most about the boundary, and the rest where the "
            "straddle criterion looks for more; raster and refinement are the classical scans instead"),
       number("plan.edge_share", "", 0.0, 1.0, 0.65, "that most, where plan.acquisition is auto and level.estimate edge"),

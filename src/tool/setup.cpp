@@ -139,6 +139,8 @@ Acquisition acquisition_of(const Scene& scene) {
   if (name == "ucb") return ucb(gamma, scaling);
   if (name == "evr") return evr();
   if (name == "straddle" || name == "auto") return straddle();
+  if (name == "randomized-straddle") return randomized_straddle(scene.seed());
+  if (name == "expected-error") return expected_symmetric_difference();
   if (name == "lse") return lse_ambiguity();
   if (name == "random") return random_scores(scene.seed());
   return ils_ucb(gamma, scaling);

@@ -15,6 +15,7 @@ namespace {
 
 /// Below this probability a part is told as one that may not exist.
 constexpr double kSure = 0.95;
+constexpr double kMuchUntouched = 0.05;  // of the tissue
 
 /// Expected wrong area beyond this part of the area found is told: the boundary is then hardly better than a guess.
 constexpr double kLargeShare = 0.25;
@@ -129,6 +130,9 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   if (!exploration.level()) {
     remarks.push_back(no_level_words(exploration));
     return remarks;
+  }
+  if (const double share = exploration.untouched_m2() / exploration.surface().area(); share > kMuchUntouched) {
+    remarks.push_back(percent(share) + " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
   }
   const Contour contour = exploration.contour();
   for (const std::string& remark : remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())

@@ -57,6 +57,15 @@ Pointwise straddle(double width = 1.96);
 /// (ambiguity below 0) ranks by how nearly it is not (Gotovos et al. 2013, without its intersection of intervals over time).
 Pointwise lse_ambiguity(double width = 3.0);
 
+/// Straddle of a width drawn anew for every pick, its square from the chi-squared distribution of two degrees of freedom: no width to tune
+/// (Inatsu, Takeno, Kutsukake and Takeuchi 2024). The same seed and number of touches draw the same widths.
+Whole randomized_straddle(std::uint64_t seed);
+
+/// How much a touch lowers the expected symmetric difference, m2: a vertex stays misjudged with probability 2 T(|score|, b / sqrt(1 -
+/// b^2)), T Owen's function, b the ratio of the standard deviations after and before. Looked at for the 200 vertices that straddle likes
+/// best; the others score 0.
+Whole expected_symmetric_difference();
+
 /// Scores drawn anew for every pick: touches at random. The same seed and number of touches draw the same scores.
 Whole random_scores(std::uint64_t seed);
 

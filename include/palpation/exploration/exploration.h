@@ -131,6 +131,8 @@ class Exploration {
   /// How sure the boundary is, its band with the probability that the plan's stop rule names; nothing where there is no level or no
   /// reading.
   const std::optional<Certainty>& certainty() const { return certainty_; }
+  /// Area too far from any reading for the boundary's depth to tell (certainty.h), m2; 0 where edge() is nothing.
+  double untouched_m2() const { return untouched_m2_; }
   /// What the next batch maximizes, at the vertices.
   Field acquisition_field() const;
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
@@ -171,6 +173,7 @@ class Exploration {
   std::optional<Level> level_;
   std::optional<EdgeBelief> edge_;
   std::optional<Certainty> certainty_;
+  double untouched_m2_ = 0.0;
   std::vector<double> expected_errors_m2_;  // after each batch with a level
   Hyperparameters learned_;
   std::optional<Lag> lag_;

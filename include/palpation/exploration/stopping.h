@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "palpation/base/owens_t.h"
 #include "palpation/certainty/certainty.h"
 
 namespace palpation {
@@ -23,9 +24,6 @@ void check(const StopRule& rule);
 /// and before. Never more than now.
 double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now, const Level& level,
                             std::span<const int> vertices);
-
-/// Owen's T(h, a), the probability that one normal exceeds h while another, independent one lies between 0 and a times it; to 1e-12.
-double owens_t(double h, double a);
 
 /// Whether the rule's least gain is missed. `errors_m2`: expected after each batch so far, the last one now.
 bool gains_too_little(const StopRule& rule, std::span<const double> errors_m2, const Certainty& now, const Surface& surface,
