@@ -79,7 +79,7 @@ double doubt_untouched(Certainty& certainty, const Belief& belief, const Margina
 
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability) {
   check_probability(probability);
-  Certainty certainty{.score = edge.depth().mean.array() / edge.offset_sd().array().max(1e-12), .probability = probability, .expected = {}};
+  Certainty certainty{.score = edge.depth().array() / edge.offset_sd().array().max(1e-12), .probability = probability, .expected = {}};
   certainty.band_score = edge.band_score(probability);
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   certainty.expected.missed_m2 = certainty.expected.extra_m2 = 0.5 * edge.expected_error_m2();

@@ -191,7 +191,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
 
 /// Offsets at nodes along the boundary: how sure they are, and how they go together.
 void EdgeBelief::survey_boundary() {
-  const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
+  const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
   const Eigen::MatrixXd covariance = fit_->depth_covariance(nodes.points);
   const Eigen::VectorXd as_if_straight = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::ArrayXd part_of_edge = as_if_straight.array() * profile_.slope_per_m;

@@ -46,29 +46,19 @@ Eigen::MatrixXd EdgeBelief::Fit::depth_covariance(std::span<const SurfacePoint> 
   return covariance;
 }
 
-Marginals EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const {
+Field EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const {
   const Surface& surface = correction.surface();
-  const double shift = shift_m(), sd = correction.kernel().signal_sd;
-  const double prior_variance = sd * sd + shift * shift * prior.variance[2];
-  Marginals depth{distance.array() - shift, Eigen::VectorXd::Constant(distance.size(), prior_variance)};
+  Field depth = distance.array() - shift_m();
   std::vector<SurfacePoint> near;
   std::vector<int> vertices;
   for (int vertex = 0; vertex < distance.size(); ++vertex) {
-    if (std::abs(distance[vertex]) > kReach * sd) continue;
+    if (std::abs(distance[vertex]) > kReach * correction.kernel().signal_sd) continue;
     vertices.push_back(vertex);
     near.push_back(surface.at_vertex(vertex));
   }
-  // Corrections alone move the mean: the shift is that of the most probable slope already.
-  Eigen::MatrixXd shared = edge.by_depth.asDiagonal() * correction.covariance(places, near);
-  const Eigen::VectorXd moved = shared.transpose() * edge.pull;
-  shared.colwise() += edge.by_profile.col(2) * (prior.variance[2] * shift);
-  edge.covariance.matrixL().solveInPlace(shared);
-  const Eigen::VectorXd known = shared.colwise().squaredNorm();
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    depth.mean[vertices[i]] += moved[column];
-    depth.variance[vertices[i]] = std::max(prior_variance - known[column], 1e-12 * prior_variance);
-  }
+  // Corrections alone move it: the shift is that of the most probable slope already.
+  const Eigen::VectorXd moved = correction.covariance(near, places) * edge.by_depth.cwiseProduct(edge.pull);
+  for (std::size_t i = 0; i < vertices.size(); ++i) depth[vertices[i]] += moved[static_cast<Eigen::Index>(i)];
   return depth;
 }
 

@@ -22,7 +22,7 @@ struct EdgeBelief::Fit {
   Eigen::Matrix3d profile_covariance() const;
   EdgeProfile edge_profile() const;
   /// `distance`: of each vertex from the first boundary, signed.
-  Marginals depth_at_vertices(const Eigen::VectorXd& distance) const;
+  Field depth_at_vertices(const Eigen::VectorXd& distance) const;
 
   /// Prior covariance of the readings (rows) with depths at points (columns): what both share is the correction, and the slope by the
   /// shift.

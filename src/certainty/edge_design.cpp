@@ -69,7 +69,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   require(field_variance.size() == surface_.vertex_count(), "most_telling", std::to_string(field_variance.size()) + " variances",
           "must be one for each vertex");
   const Fit& fit = *fit_;
-  const BoundaryNodes nodes = boundary_nodes(surface_, depth_.mean);
+  const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
   const std::vector<int> candidates = one_per_cell(surface_, all_candidates);
   std::vector<int> picks;
   if (nodes.points.empty() || candidates.empty()) return picks;
@@ -81,7 +81,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   for (Eigen::Index i = 0; i < size; ++i) {
     const int vertex = candidates[static_cast<std::size_t>(i)];
     points.push_back(surface_.at_vertex(vertex));
-    const ReadingSlopes slopes = profile_slopes(fit.edge.profile, depth_.mean[vertex] + fit.shift_m());
+    const ReadingSlopes slopes = profile_slopes(fit.edge.profile, depth_[vertex] + fit.shift_m());
     by_depth[i] = slopes.by_depth;
     by_profile.row(i) = slopes.by_profile;
   }

@@ -173,7 +173,7 @@ void Exploration::estimate_boundary() {
 
 Contour Exploration::contour() const {
   require(level_.has_value(), "Exploration::contour", "no level", "draws no boundary");
-  if (edge_) return {eroded(surface_, edge_->depth().mean, field_.indenter_radius_m).field, 0.0};
+  if (edge_) return {eroded(surface_, edge_->depth(), field_.indenter_radius_m).field, 0.0};
   return {component_.mean, level_->value};
 }
 

@@ -47,15 +47,7 @@ json physical_scene() {
 }
 
 /// Areas of 1.84 and 3.84 cm2, as the silicone phantoms' tumours.
-json tumour_of(const std::string& shape) {
-  if (shape == "disk") return json::array({{{"shape", "disk"}, {"centre_mm", {27, 24.5, 0}}, {"radius_mm", 7.653}}});
-  return json::array({{{"shape", "horseshoe"},
-                       {"centre_mm", {22.78, 24.5, 0}},
-                       {"arc_radius_mm", 12.05},
-                       {"half_width_mm", 4.30},
-                       {"arc_deg", 180},
-                       {"facing", {1, 0, 0}}}});
-}
+json tumour_of(const std::string& shape) { return shape == "disk" ? disk_mm(27, 24.5, 7.653) : horseshoe_mm(22.78, 24.5, 12.05, 4.30); }
 
 /// The model of the paper (see paper_scene) and its level, as changes.
 json papers_model() {

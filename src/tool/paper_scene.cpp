@@ -52,14 +52,19 @@ double paper_perimeter_m(const std::string& shape) {
   return std::numbers::pi * (shape == "disk" ? 2.0 * 0.00625 : 2.0 * 0.007 + 2.0 * 0.0025);
 }
 
-json paper_tumour(const std::string& shape) {
-  if (shape == "disk") return json::array({{{"shape", "disk"}, {"centre_mm", {11.492, 30, 0}}, {"radius_mm", 6.25}}});
+json disk_mm(double x, double y, double radius) {
+  return json::array({{{"shape", "disk"}, {"centre_mm", {x, y, 0}}, {"radius_mm", radius}}});
+}
+
+json horseshoe_mm(double x, double y, double arc_radius, double half_width) {
   return json::array({{{"shape", "horseshoe"},
-                       {"centre_mm", {9.492, 20, 0}},
-                       {"arc_radius_mm", 7},
-                       {"half_width_mm", 2.5},
+                       {"centre_mm", {x, y, 0}},
+                       {"arc_radius_mm", arc_radius},
+                       {"half_width_mm", half_width},
                        {"arc_deg", 180},
                        {"facing", {1, 0, 0}}}});
 }
+
+json paper_tumour(const std::string& shape) { return shape == "disk" ? disk_mm(11.492, 30, 6.25) : horseshoe_mm(9.492, 20, 7, 2.5); }
 
 }  // namespace palpation::tool

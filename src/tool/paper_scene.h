@@ -17,6 +17,10 @@ nlohmann::json default_scene();
 /// The length of the outline, metres.
 double paper_perimeter_m(const std::string& shape);
 
+/// One disk, or one horseshoe open to -x with a solid half, in millimetres, as probe.tumours.
+nlohmann::json disk_mm(double x, double y, double radius);
+nlohmann::json horseshoe_mm(double x, double y, double arc_radius, double half_width);
+
 /// "disk" or "horseshoe", as probe.tumours.
 nlohmann::json paper_tumour(const std::string& shape);
 

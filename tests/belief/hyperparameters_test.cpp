@@ -12,6 +12,14 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
+/// One place touched twice, and one reading whose noise is known.
+std::vector<Palpation> odd_readings(const Surface& tissue, Random& random) {
+  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
+  readings.push_back(readings[5]);
+  readings[7].noise_variance = 0.3;
+  return readings;
+}
+
 TEST(Likelihood, IsTheBeliefsOwn) {
   const Surface tissue = plane(20, 40);
   Random random(1);
@@ -63,9 +71,7 @@ Slope some_slope() { return {.sd = {40.0, 25.0, 0.0}, .origin = {0.0125, 0.025, 
 TEST(Likelihood, IsTheBeliefsOwnWithASlopeToo) {
   const Surface tissue = plane(20, 40);
   Random random(1);
-  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
-  readings.push_back(readings[5]);
-  readings[7].noise_variance = 0.3;
+  const std::vector<Palpation> readings = odd_readings(tissue, random);
   for (const double constant_sd : {0.0, 4.0, kUnknown}) {
     const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3}, {.sd = constant_sd}, some_slope());
     const double ours = likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
@@ -95,9 +101,7 @@ TEST(Likelihood, HasTheGradientOfItsDifferencesWithASlopeToo) {
 TEST(Likelihood, IsTheSameWithoutItsGradient) {
   const Surface tissue = plane(20, 40);
   Random random(5);
-  std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
-  readings.push_back(readings[5]);
-  readings[7].noise_variance = 0.3;
+  const std::vector<Palpation> readings = odd_readings(tissue, random);
   for (const double constant_sd : {0.0, 4.0, kUnknown}) {
     for (const Slope& slope : {Slope{}, some_slope()}) {
       const Prior prior(tissue, Metric::Chart, {.family = KernelFamily::Matern52}, {.sd = constant_sd}, slope);

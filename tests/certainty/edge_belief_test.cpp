@@ -60,7 +60,7 @@ TEST(EdgeBelief, KnowsHowWrongItIs) {
   double wrong = 0.0, expected = 0.0;
   for (int trial = 0; trial < 20; ++trial) {
     const EdgeBelief edge = edge_of(belief_of_disk(surface, 0.1, 80, random));
-    wrong += wrong_area_m2(surface, edge.depth().mean);
+    wrong += wrong_area_m2(surface, edge.depth());
     expected += edge.expected_error_m2();
   }
   EXPECT_GT(wrong / expected, 0.6);
@@ -92,7 +92,7 @@ TEST(EdgeBelief, LearnsMoreFromItsOwnPicksThanFromTouchesAtRandom) {
   const auto left_with = [&](const std::vector<int>& vertices) {
     std::vector<Palpation> supposed;
     for (const int vertex : vertices) {
-      const double share = 1.0 / (1.0 + std::exp(-edge.profile().slope_per_m * edge.depth().mean[vertex]));
+      const double share = 1.0 / (1.0 + std::exp(-edge.profile().slope_per_m * edge.depth()[vertex]));
       supposed.push_back(
           {.where = surface.at_vertex(vertex), .reading = edge.profile().low + share * (edge.profile().high - edge.profile().low)});
     }
@@ -106,7 +106,7 @@ TEST(EdgeBelief, LearnsMoreFromItsOwnPicksThanFromTouchesAtRandom) {
     std::vector<int> others;
     while (others.size() < picks.size()) {
       const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
-      if (std::abs(edge.depth().mean[vertex]) < 0.003) others.push_back(vertex);
+      if (std::abs(edge.depth()[vertex]) < 0.003) others.push_back(vertex);
     }
     EXPECT_LT(left, left_with(others));
   }

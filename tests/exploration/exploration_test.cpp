@@ -142,18 +142,9 @@ TEST(Exploration, TakesUpReadingsMadeElsewhere) {
   EXPECT_EQ(exploration.next().size(), 10u);
 }
 
-/// A probe whose readings come late by a lag along its travel.
-Probe late_probe(const Surface& tissue, const Phantom& phantom, Random& random, double lag_m) {
-  return [&tissue, &phantom, &random, lag_m](const SurfacePoint& where, const Vec3& heading) {
-    Palpation felt = phantom.touch(tissue.project(tissue.position(where) - lag_m * heading), random);
-    felt.where = where;
-    return std::optional(felt);
-  };
-}
-
 TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   const Surface tissue = plane(51, 101);
-  const Phantom phantom = disk_phantom(tissue, 0.05);
+  const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05, .lag_m = 0.0015});
   const auto wrong_mm2 = [&](const Exploration& exploration) {
     double wrong = 0.0;
     for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
@@ -165,7 +156,7 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   const auto explored = [&](const LagModel& lag) {
     Exploration exploration(tissue, {.lag = lag}, {.known = 8.0}, {.acquisition = straddle(), .batches = 9}, 2);
     Random random(2);
-    run(exploration, late_probe(tissue, phantom, random, 0.0015));
+    run(exploration, [&](const SurfacePoint& where, const Vec3& travel) { return std::optional(phantom.touch(where, travel, random)); });
     return exploration;
   };
   const Exploration ignored = explored({}), learned = explored({.learn = true}), known = explored({.known_m = 0.0015});

@@ -22,14 +22,6 @@ FieldModel screened_field() {
   return field;
 }
 
-Probe late_probe(const Surface& tissue, const Phantom& phantom, Random& random, double lag_m) {
-  return [&tissue, &phantom, &random, lag_m](const SurfacePoint& where, const Vec3& heading) {
-    Palpation felt = phantom.touch(tissue.project(tissue.position(where) - lag_m * heading), random);
-    felt.where = where;
-    return std::optional(felt);
-  };
-}
-
 // Tumours down to 2.5 mm, little and much noise, with a lag that is not known of, none, and one that is: next to nothing is set aside, and
 // never in the first touches, where one of them may be all that was felt of a tumour.
 TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
@@ -38,14 +30,15 @@ TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
   for (const double noise : {0.01, 0.05, 0.25}) {
     for (const double lag_m : {0.0, 0.0015}) {
       for (const bool known : {false, true}) {
-        const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), noise > 0.1 ? 0.006 : 0.0025}}, {.noise = noise});
+        const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), noise > 0.1 ? 0.006 : 0.0025}}, {.noise = noise, .lag_m = lag_m});
         FieldModel field = screened_field();
         if (known) field.lag.known_m = lag_m;
         Exploration exploration(tissue, field, {.known = 8.0},
                                 {.acquisition = straddle(), .initial = Design::Random, .initial_count = 10, .batches = 6}, 5);
         Random random(5);
         int first = -1;
-        run(exploration, late_probe(tissue, phantom, random, lag_m),
+        run(
+            exploration, [&](const SurfacePoint& where, const Vec3& travel) { return std::optional(phantom.touch(where, travel, random)); },
             [&](const Tour&) { first = first < 0 ? set_aside_in(exploration) : first; });
         EXPECT_EQ(first, 0) << noise << " " << lag_m;
         readings += static_cast<int>(exploration.palpations().size());

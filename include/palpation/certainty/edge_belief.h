@@ -38,9 +38,8 @@ class EdgeBelief {
   static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
                                           double fraction, const ShapePrior& shape = {});
 
-  /// Depth at the vertices: mean in metres, zero at the boundary; variance in m2. Farther from the first boundary than any correction
-  /// reaches, the mean is the distance and the variance the prior's.
-  const Marginals& depth() const { return depth_; }
+  /// Depth at the vertices in metres, zero at the boundary. Farther from the first boundary than any correction reaches it is the distance.
+  const Field& depth() const { return depth_; }
   const EdgeProfile& profile() const { return profile_; }
   /// Between low and high, with its standard deviation.
   const Level& level() const { return profile_.level; }
@@ -67,7 +66,7 @@ class EdgeBelief {
   Surface surface_;
   std::shared_ptr<const Fit> fit_;
   EdgeProfile profile_;
-  Marginals depth_;
+  Field depth_;
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
   double mean_part_of_edge_ = 0.0;  // the offset's standard deviation over the edge's width, 1 / slope
