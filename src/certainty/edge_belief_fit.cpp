@@ -38,6 +38,7 @@ Eigen::MatrixXd EdgeBelief::Fit::readings_with_depths(std::span<const SurfacePoi
 }
 
 Eigen::MatrixXd EdgeBelief::Fit::depth_covariance(std::span<const SurfacePoint> points) const {
+  if (points.empty()) return {};
   Eigen::MatrixXd shared = readings_with_depths(points);
   edge.covariance.matrixL().solveInPlace(shared);
   Eigen::MatrixXd covariance = correction.covariance(points, points);

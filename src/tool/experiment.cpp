@@ -8,7 +8,6 @@
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "palpation/io/atomic_file.h"
-#include "tool/output_folder.h"
 #include "tool/progress.h"
 #include "tool/setup.h"
 #include "tool/words.h"
@@ -32,7 +31,6 @@ bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& argu
 }
 
 void for_trials(std::size_t cells, const ExperimentArguments& arguments, const Trial& run) {
-  if (!arguments.out.empty()) make_folder(arguments.out);
   const int runs = static_cast<int>(cells) * arguments.trials;
   Progress progress("Runs", runs, arguments.quiet);
   std::mutex progress_guard;

@@ -4,6 +4,7 @@
 #include "palpation/base/error.h"
 #include "tool/commands.h"
 #include "tool/experiment.h"
+#include "tool/output_folder.h"
 
 namespace palpation::tool {
 namespace {
@@ -29,6 +30,7 @@ std::vector<std::string> experiment_names() {
 void experiment(const ExperimentArguments& arguments) {
   const auto* found = std::ranges::find(kExperiments, arguments.name, &Experiment::name);
   require(found != std::end(kExperiments), "experiment", arguments.name, "is none");
+  if (!arguments.out.empty() && !arguments.print_scene) make_folder(arguments.out);  // before hours of work, not after them
   found->run(arguments);
 }
 
