@@ -156,7 +156,8 @@ std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palp
     }
   }
   const double least = std::max(lag_prior.least_m, best - kGridStep_m), most = std::min(lag_prior.most_m, best + kGridStep_m);
-  Lag lag{peak_between(least, most, log_posterior), lag_prior.sd_m};
+  Lag lag{.value_m = peak_between(least, most, log_posterior), .stddev_m = lag_prior.sd_m};
+  lag.at_bound = std::min(lag.value_m - lag_prior.least_m, lag_prior.most_m - lag.value_m) < 2.0 * kPrecision_m;
   const double step = 0.5 * kGridStep_m;
   const double fall = 2.0 * log_posterior(lag.value_m) - log_posterior(lag.value_m - step) - log_posterior(lag.value_m + step);
   if (fall > 0.0 && std::isfinite(fall)) lag.stddev_m = std::min(lag.stddev_m, step / std::sqrt(fall));

@@ -6,6 +6,7 @@
 
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
+#include "palpation/boundary/erosion.h"
 #include "palpation/boundary/level_set.h"
 
 namespace palpation {
@@ -13,8 +14,7 @@ namespace {
 
 constexpr double kFar_m = 0.008;
 
-/// Area between the score's level sets at -q and q, over twice the boundary's length.
-double mean_half_width(const Surface& surface, const Field& score, double band_score) {
+double boundary_length(const Surface& surface, const Field& score) {
   double length = 0.0;
   for (const LevelLoop& loop : level_loops(surface, score, 0.0)) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
@@ -22,6 +22,12 @@ double mean_half_width(const Surface& surface, const Field& score, double band_s
       length += (surface.position(loop.points[(i + 1) % loop.points.size()]) - surface.position(loop.points[i])).norm();
     }
   }
+  return length;
+}
+
+/// Area between the score's level sets at -q and q, over twice the boundary's length.
+double mean_half_width(const Surface& surface, const Field& score, double band_score) {
+  const double length = boundary_length(surface, score);
   if (length == 0.0) return 0.0;
   const double area = superlevel_area(surface, score, -band_score) - superlevel_area(surface, score, band_score);
   return 0.5 * area / length;
@@ -52,6 +58,16 @@ Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& m
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   certainty.expected = expected_error(surface, marginals, level);
   return certainty;
+}
+
+void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m) {
+  const double felt = boundary_length(surface, certainty.score);
+  certainty.score = eroded(surface, certainty.score, radius_m).field;
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  if (felt == 0.0) return;
+  const double share = boundary_length(surface, certainty.score) / felt;
+  certainty.expected.missed_m2 *= share;
+  certainty.expected.extra_m2 *= share;
 }
 
 double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level) {

@@ -140,13 +140,11 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   if (level_ && belief_.site_count() > 0) {
     certainty_ = edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
                        : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
+    if (field_.indenter_radius_m > 0.0) take_back_tip(*certainty_, surface_, field_.indenter_radius_m);
     if (edge_) untouched_m2_ = doubt_untouched(*certainty_, belief_, component_, *level_);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
   }
-  if (field_.indenter_radius_m > 0.0 && level_) {
-    component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
-    if (certainty_) certainty_->score = eroded(surface_, certainty_->score, field_.indenter_radius_m).field;
-  }
+  if (field_.indenter_radius_m > 0.0 && level_) component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
 }
@@ -169,6 +167,11 @@ void Exploration::estimate_boundary() {
     edge_.reset();
     level_ = level_from_range(component_, level_rule_.fraction);
   }
+}
+
+bool Exploration::tip_hides_all() const {
+  if (field_.indenter_radius_m == 0.0 || !edge_ || edge_->depth().maxCoeff() < 0.0) return false;
+  return contour().field.maxCoeff() < 0.0;
 }
 
 Contour Exploration::contour() const {

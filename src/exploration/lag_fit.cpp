@@ -34,7 +34,7 @@ LearnedField learned_at(const Surface& surface, const FieldModel& field, std::sp
 
 LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
                   const std::optional<Lag>& before) {
-  std::optional<Lag> lag = Lag{field.lag.known_m, 0.0};
+  std::optional<Lag> lag = Lag{.value_m = field.lag.known_m};
   double lag_m = field.lag.known_m;
   if (field.lag.learn) lag_m = before ? before->value_m : LagPrior{}.mean_m;
   LearnedField taught = learned_at(surface, field, palpations, start, lag_m);

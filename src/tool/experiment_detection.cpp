@@ -7,6 +7,7 @@
 
 #include "palpation/base/error.h"
 #include "tool/experiment.h"
+#include "tool/paper_scene.h"
 #include "tool/setup.h"
 #include "tool/words.h"
 #include "tool/worlds.h"
@@ -34,9 +35,7 @@ struct Run {
 
 Episode episode_of(const Scene& scene, const Surface& surface) { return run_episode(scene, surface, simulated_world(scene, surface)); }
 
-json disk_mm(const Vec2& centre_m, double radius_m) {
-  return {{"shape", "disk"}, {"centre_mm", {centre_m.x() * 1e3, centre_m.y() * 1e3, 0.0}}, {"radius_mm", radius_m * 1e3}};
-}
+json disk_at(const Vec2& centre_m, double radius_m) { return disk_mm(centre_m.x() * 1e3, centre_m.y() * 1e3, radius_m * 1e3)[0]; }
 
 Vec2 random_place(Random& random, const Surface& surface, double margin_m) {
   const Vec2 least = surface.chart().uv.colwise().minCoeff().transpose(), most = surface.chart().uv.colwise().maxCoeff().transpose();
@@ -64,7 +63,7 @@ std::array<Run, 2> healthy_and_planted(const Scene& base, const Surface& surface
   if (runs[0].good) runs[0].ruled_out_m = runs[1].ruled_out_m = diameter_ruled_out_m(healthy);
   if (!runs[0].ruled_out_m) return runs;
   Random random(seed ^ kPlaceStream);
-  const json disks = json::array({disk_mm(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});
+  const json disks = json::array({disk_at(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});
   runs[1].good = overlaps(surface, episode_of(scene.with("probe.tumours", disks), surface), disks[0], 0.0);
   return runs;
 }
@@ -75,7 +74,7 @@ Run two_tumours(const Scene& base, const Surface& surface, std::uint64_t seed) {
   Vec2 small = random_place(random, surface, kSmallRadius_m + 0.001);
   while ((small - large).norm() < kLargeRadius_m + kSmallRadius_m + kLeastGap_m)
     small = random_place(random, surface, kSmallRadius_m + 0.001);
-  const json disks = json::array({disk_mm(large, kLargeRadius_m), disk_mm(small, kSmallRadius_m)});
+  const json disks = json::array({disk_at(large, kLargeRadius_m), disk_at(small, kSmallRadius_m)});
   const Episode episode = episode_of(base.with("seed", seed).with("probe.tumours", disks), surface);
   Run run{.row = "two", .seed = seed, .noise = base.number("probe.noise")};
   run.good = overlaps(surface, episode, disks[0], 0.5) && overlaps(surface, episode, disks[1], 0.5);
@@ -114,7 +113,12 @@ std::string csv_of(const std::vector<Run>& runs) {
 void detection(const ExperimentArguments& arguments) {
   const Scene base = base_scene(arguments, random_tumours_scene());
   const Tissue tissue = tissue_of(base);
-  const Scene longer = base.with("plan.initial.count", 15).with("plan.batches", kBatchesOfTwo);
+  // The paper's search area, unless a scene is given: 155 touches of a larger one leave gaps as wide as the small tumour.
+  const Scene longer =
+      (arguments.scene.empty() ? base.with("surface.plane.size_mm", {25, 50}).with("surface.plane.vertices", {51, 101}) : base)
+          .with("plan.initial.count", 15)
+          .with("plan.batches", kBatchesOfTwo);
+  const Tissue tissue_of_two = tissue_of(longer);
   std::vector<Cell> cells;
   for (const double noise : kNoises) cells.push_back({"healthy and planted, noise " + text_of(noise), base.with("probe.noise", noise)});
   for (const double noise : kNoisesOfTwo) cells.push_back({"two tumours, noise " + text_of(noise), longer.with("probe.noise", noise)});
@@ -127,7 +131,7 @@ void detection(const ExperimentArguments& arguments) {
         if (run.row == "healthy" || run.ruled_out_m) runs.push_back(run);
       }
     } else {
-      runs.push_back(two_tumours(cells[cell].scene, tissue.surface, seed));
+      runs.push_back(two_tumours(cells[cell].scene, tissue_of_two.surface, seed));
     }
   });
   std::vector<Run> runs;

@@ -127,6 +127,10 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   if (exploration.belief().site_count() == 0) return {};
   std::vector<std::string> remarks = screening_remarks(exploration);
+  if (exploration.lag() && exploration.lag()->at_bound) {
+    remarks.push_back("The lag found, " + fixed(exploration.lag()->value_m * 1e3, 2) +
+                      " mm, is as far as any was looked for: the readings do not tell it. Give field.lag_mm, or touch in more directions.");
+  }
   if (!exploration.level()) {
     remarks.push_back(no_level_words(exploration));
     return remarks;
@@ -134,6 +138,10 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   if (const double share = exploration.untouched_m2() / exploration.surface().area(); share > kMuchUntouched) {
     remarks.push_back(percent(share) + " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
   }
+  if (exploration.tip_hides_all())
+    remarks.push_back(
+        "What was felt is nowhere wider than the probe's tip, field.indenter_radius_mm: nothing is left once the tip is "
+        "taken back, but something stiff is there.");
   const Contour contour = exploration.contour();
   for (const std::string& remark : remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
     remarks.push_back(remark + '.');

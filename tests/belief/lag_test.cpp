@@ -119,6 +119,12 @@ TEST(LearnLag, OfReadingsThatTellNothingIsThePriors) {
   EXPECT_NEAR(lag->stddev_m, 0.0015, 0.0001);
 }
 
+TEST(LearnLag, SaysWhenItRanIntoItsBound) {
+  const Surface tissue = plane(51, 101);
+  EXPECT_TRUE(learn_lag(field_on(tissue), late_readings(tissue, 150, 0.0045, 0.02, 3), kField)->at_bound);
+  EXPECT_FALSE(learn_lag(field_on(tissue), late_readings(tissue, 150, 0.0015, 0.02, 3), kField)->at_bound);
+}
+
 TEST(LearnLag, IsNothingWithoutTravel) {
   const Surface tissue = plane(26, 51);
   Random random(1);

@@ -172,6 +172,30 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   EXPECT_NEAR((shift - learned.lag()->value_m * raw.travel).norm(), 0.0, 2e-5);  // the lag rests at a fiftieth of a millimetre
 }
 
+/// An exploration of the disk phantom by a probe whose tip has this radius.
+Exploration explored_with_tip(double tip_radius_m) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.02);
+  Exploration exploration(tissue, {.indenter_radius_m = tip_radius_m}, {}, {}, 1);
+  Random random(1);
+  run(exploration, probe_of(phantom, random));
+  return exploration;
+}
+
+TEST(RoundTip, TakesTheBoundaryInWithItsBandAndItsExpectedError) {
+  const Exploration sharp = explored_with_tip(0.0), round = explored_with_tip(0.002);
+  EXPECT_FALSE(round.tip_hides_all());
+  const double share = 4.25 / 6.25;  // of the disk's outline, 2 mm farther in
+  EXPECT_NEAR(round.certainty()->expected.symmetric_difference_m2() / sharp.certainty()->expected.symmetric_difference_m2(), share, 0.1);
+  EXPECT_GT(round.certainty()->half_width_m, 0.0);
+}
+
+TEST(RoundTip, WiderThanATumourSaysThatNothingIsLeftOfIt) {
+  const Exploration exploration = explored_with_tip(0.009);
+  EXPECT_TRUE(exploration.tip_hides_all());
+  EXPECT_EQ(exploration.certainty()->half_width_m, 0.0);
+}
+
 TEST(Travel, ReadsOnTheWayOncePerMillimetre) {
   const Surface tissue = plane(26, 51);  // 1 mm cells
   const Phantom phantom = disk_phantom(tissue, 0.0);

@@ -34,6 +34,10 @@ Certainty certainty_of(const Surface& surface, const Belief& belief, const Margi
 /// The same of a boundary that is believed in depths: the score is the depth over the standard deviation of the boundary's offset.
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability = 0.95);
 
+/// What a probe with a round tip feels early, taken back (erosion.h): the score of the boundary that lies a radius farther in, with the
+/// band's width along it. What is expected to be wrong changes as the boundary's length does.
+void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m);
+
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than the field is of it, and counts among what
 /// is expected to be wrong. Far is twice the radius of the smallest tumour of 0.5 cm2, 8 mm. Returns the area of such places, m2.
 double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level);

@@ -128,6 +128,8 @@ class Exploration {
   const std::optional<EdgeBelief>& edge() const { return edge_; }
   /// The boundary: of the depth where edge() knows it, of the component else. Throws InvalidInput where there is no level.
   Contour contour() const;
+  /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the tip is taken back is nothing.
+  bool tip_hides_all() const;
   /// How sure the boundary is, its band with the probability that the plan's stop rule names; nothing where there is no level or no
   /// reading.
   const std::optional<Certainty>& certainty() const { return certainty_; }
