@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "exploration/field_fit.h"
+#include "exploration/heavy_tails.h"
 #include "exploration/lag_fit.h"
 #include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
@@ -25,6 +26,8 @@ constexpr int kFewReadings = 10;
 /// part of their standard deviation. Half of the variance noise is what tells a tumour's few readings from a fluke least hastily.
 constexpr double kSecondLooks = 0.3;
 constexpr double kDoubt = 0.7;
+/// The fourth changes weights by less than a part in ten.
+constexpr int kRoundsOfWeighing = 4;
 /// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
 constexpr double kDistinct_m = 1e-12;
 constexpr double kRounding = 1e-13;
@@ -109,11 +112,12 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   std::vector<Palpation> recorded = recorded_;
   recorded.insert(recorded.end(), palpations.begin(), palpations.end());
   std::vector<Palpation> all = screened_readings(surface_, field_, recorded, lag_);
-  if (field_.learns() || field_.lag.is_modelled() || field_.screening) {
+  if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
     LagFit fit = fit_lagged(surface_, field_, all, learned_, lag_);
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;
+    if (field_.heavy_tails) fit.field.signal_evidence = weigh_for_heavy_tails(all);
     // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
     if (plan_.safe_start && field_.learns() && !trend_is_missing()) {
       const std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : all;
@@ -147,6 +151,27 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   if (field_.indenter_radius_m > 0.0 && level_) component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
+}
+
+/// Weights and field in turn; the readings stay where the lag that was found puts them. Returns the evidence for the field.
+double Exploration::weigh_for_heavy_tails(std::span<const Palpation> palpations) {
+  FieldModel model = field_;
+  model.learn_noise = model.belief.noise_is_relative = false;
+  const std::vector<Palpation> placed = displaced(surface_, palpations, lag_ ? lag_->value_m : 0.0);
+  double noise_sd = std::sqrt(belief_.noise_variance()), evidence = 0.0;
+  for (int round = 0; round < kRoundsOfWeighing; ++round) {
+    const WeighedReadings weighed = weighed_for_heavy_tails(belief_, placed, noise_sd);
+    noise_sd = field_.learn_noise ? weighed.noise_sd : noise_sd;
+    model.belief.noise_sd = noise_sd;
+    if (!model.learns()) {
+      belief_ = fixed_field(surface_, model, weighed.palpations);
+      continue;
+    }
+    FieldFit fit = fit_field(surface_, model, weighed.palpations, learned_);
+    belief_ = std::move(fit.belief);
+    evidence = fit.signal_evidence;
+  }
+  return evidence;
 }
 
 void Exploration::estimate_boundary() {

@@ -139,6 +139,8 @@ std::vector<SceneKey> make_scene_keys() {
             "mean"),
       number("field.indenter_radius_mm", "mm", 0.0, 20.0, 0.0,
              "of the probe's round tip, which feels an edge by as much too early: the boundary is drawn that much inwards; 0: not at all"),
+      truth("field.heavy_tails", false,
+            "noise is Student's t with four degrees of freedom: readings far from the field weigh less, none is set aside"),
       truth("field.screening", false,
             "jams, hangs, lost contact, start-ups, base steps between rows and outliers are found and set aside, with the reason in "
             "measurements.csv"),

@@ -190,6 +190,7 @@ FieldModel field_of(const Scene& scene) {
     field.constant.sd = scene.number("field.constant_sd");
   field.belief.standardize = scene.truth("field.standardize");
   field.screening = scene.truth("field.screening");
+  field.heavy_tails = scene.truth("field.heavy_tails");
   field.indenter_radius_m = scene.metres("field.indenter_radius_mm");
   field.lag.learn = scene.word("field.lag_mm") == "learn";
   if (!field.lag.learn) field.lag.known_m = scene.metres("field.lag_mm");

@@ -45,6 +45,7 @@ struct FieldModel {
   double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
   LagModel lag{};
   double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early: boundary and band lie that much inwards
+  bool heavy_tails = false;        ///< the noise of readings is Student's t, of four degrees of freedom, and large residuals weigh less
   bool screening = false;          ///< readings that are no tissue are set aside (screening.h), judged anew after every batch
   /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are touched, and until then nothing is
   /// concluded. Level and boundary are of the field without it.
@@ -147,6 +148,7 @@ class Exploration {
 
  private:
   void learn_from(std::span<const Palpation> palpations);
+  double weigh_for_heavy_tails(std::span<const Palpation> palpations);
   void estimate_boundary();
   std::vector<int> chosen_stops() const;
   std::vector<int> searching_stops() const;
