@@ -18,6 +18,7 @@
 #include "palpation/certainty/detection.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/expected_error.h"
+#include "palpation/certainty/layout.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/certainty/reference_bound.h"
 #include "palpation/decision/acquisition.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "palpation/geometry/surface.h"
+#include "palpation/certainty/layout.h"
 
 namespace palpation {
 
@@ -18,6 +18,6 @@ struct BoundaryNodes {
 BoundaryNodes boundary_nodes(const Surface& surface, const Field& depth);
 
 /// The nodes' values at all vertices: at each, the mean over the nearest nodes, their weight falling over one spacing.
-Field spread_from_nodes(const Surface& surface, const BoundaryNodes& nodes, const Eigen::VectorXd& values);
+Field spread_from_nodes(const Layout& layout, const BoundaryNodes& nodes, const Eigen::VectorXd& values);
 
 }  // namespace palpation

@@ -8,6 +8,7 @@
 #include "palpation/base/error.h"
 #include "palpation/boundary/erosion.h"
 #include "palpation/boundary/level_set.h"
+#include "palpation/certainty/layout.h"
 
 namespace palpation {
 namespace {
@@ -72,14 +73,15 @@ void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m
 
 double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level) {
   const Surface& surface = belief.prior().surface();
+  const Layout layout(belief.prior());
   std::vector<Vec3> touched;
   for (const Palpation& palpation : belief.palpations()) {
-    if (palpation.set_aside.empty()) touched.push_back(surface.position(palpation.where));
+    if (palpation.set_aside.empty()) touched.push_back(layout.at(palpation.where));
   }
   const double level_sd = level.stddev.value_or(0.0);
   double area = 0.0;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    const Vec3 place = surface.vertex(vertex);
+    const Vec3 place = layout.at(vertex);
     const auto is_near = [&](const Vec3& other) { return (other - place).squaredNorm() < kFar_m * kFar_m; };
     if (std::any_of(touched.begin(), touched.end(), is_near)) continue;
     const double sd = std::sqrt(marginals.variance[vertex] + level_sd * level_sd);

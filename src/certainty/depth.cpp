@@ -12,13 +12,13 @@ struct Piece {
   Vec3 along;
 };
 
-std::vector<Piece> pieces_of(const Surface& surface, std::span<const LevelLoop> loops) {
+std::vector<Piece> pieces_of(const Layout& layout, std::span<const LevelLoop> loops) {
   std::vector<Piece> pieces;
   for (const LevelLoop& loop : loops) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
       if (loop.on_border[i]) continue;
-      const Vec3 from = surface.position(loop.points[i]);
-      pieces.push_back({from, surface.position(loop.points[(i + 1) % loop.points.size()]) - from});
+      const Vec3 from = layout.at(loop.points[i]);
+      pieces.push_back({from, layout.at(loop.points[(i + 1) % loop.points.size()]) - from});
     }
   }
   return pieces;
@@ -54,8 +54,8 @@ std::vector<Stretch> stretches_of(const std::vector<Piece>& pieces) {
 
 }  // namespace
 
-std::vector<double> distances_from(const Surface& surface, std::span<const LevelLoop> loops, std::span<const Vec3> places) {
-  const std::vector<Piece> pieces = pieces_of(surface, loops);
+std::vector<double> distances_from(const Layout& layout, std::span<const LevelLoop> loops, std::span<const Vec3> places) {
+  const std::vector<Piece> pieces = pieces_of(layout, loops);
   if (pieces.empty()) return {};
   const std::vector<Stretch> stretches = stretches_of(pieces);
   std::vector<double> distances;

@@ -39,8 +39,8 @@ double needed_signal(std::size_t readings) {
 
 class Power {
  public:
-  Power(const Surface& surface, std::span<const Vec3> places, const Sought& sought)
-      : surface_(surface),
+  Power(const Layout& layout, std::span<const Vec3> places, const Sought& sought)
+      : layout_(layout),
         places_(places),
         slope_per_m_(sought.slope_per_m),
         needed_(std::isinf(sought.contrast_to_noise)
@@ -49,7 +49,7 @@ class Power {
 
   /// Whether a disk around a vertex is found surely enough. It grows with the radius.
   bool suffices(int vertex, double radius_m) const {
-    const Vec3 centre = surface_.vertex(vertex);
+    const Vec3 centre = layout_.at(vertex);
     double sum = 0.0;
     bool touched = false;
     for (const Vec3& place : places_) {
@@ -63,7 +63,7 @@ class Power {
   }
 
  private:
-  const Surface& surface_;
+  const Layout& layout_;
   std::span<const Vec3> places_;
   double slope_per_m_;
   double needed_;
@@ -71,7 +71,7 @@ class Power {
 
 }  // namespace
 
-double greatest_excess(const Surface& surface, std::span<const Vec3> places, std::span<const double> readings) {
+double greatest_excess(const Layout& layout, std::span<const Vec3> places, std::span<const double> readings) {
   require(places.size() == readings.size(), "greatest_excess", "places and readings", "must be as many");
   const auto count = static_cast<Eigen::Index>(readings.size());
   if (count < 4) return 0.0;
@@ -81,9 +81,9 @@ double greatest_excess(const Surface& surface, std::span<const Vec3> places, std
   if (!(scatter > 0.0)) return 0.0;
   double greatest = 0.0;
   Eigen::VectorXd distances(count), rises(count);
-  const int step = 1 + (surface.vertex_count() - 1) / kMostCentres;
-  for (int vertex = 0; vertex < surface.vertex_count(); vertex += step) {
-    for (Eigen::Index i = 0; i < count; ++i) distances[i] = (places[static_cast<std::size_t>(i)] - surface.vertex(vertex)).norm();
+  const int step = 1 + (layout.surface().vertex_count() - 1) / kMostCentres;
+  for (int vertex = 0; vertex < layout.surface().vertex_count(); vertex += step) {
+    for (Eigen::Index i = 0; i < count; ++i) distances[i] = (places[static_cast<std::size_t>(i)] - layout.at(vertex)).norm();
     for (const double width_m : kWidths_m) {
       for (Eigen::Index i = 0; i < count; ++i) rises[i] = rise(0.5 * width_m - distances[i], kSlope_per_m);
       const double spread = (rises.array() - rises.mean()).matrix().norm();
@@ -93,13 +93,13 @@ double greatest_excess(const Surface& surface, std::span<const Vec3> places, std
   return excess_of(greatest, static_cast<double>(count) - 2.0);
 }
 
-std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought) {
-  std::vector<int> all(static_cast<std::size_t>(surface.vertex_count()));
+std::optional<double> diameter_ruled_out_m(const Layout& layout, std::span<const Vec3> places, const Sought& sought) {
+  std::vector<int> all(static_cast<std::size_t>(layout.surface().vertex_count()));
   std::iota(all.begin(), all.end(), 0);
-  return diameter_ruled_out_m(surface, places, sought, all);
+  return diameter_ruled_out_m(layout, places, sought, all);
 }
 
-std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<const Vec3> places, const Sought& sought,
+std::optional<double> diameter_ruled_out_m(const Layout& layout, std::span<const Vec3> places, const Sought& sought,
                                            std::span<const int> centres) {
   require(sought.contrast_to_noise > 0.0, "diameter_ruled_out_m", "contrast_to_noise = " + text_of(sought.contrast_to_noise),
           "must be positive");
@@ -107,11 +107,11 @@ std::optional<double> diameter_ruled_out_m(const Surface& surface, std::span<con
           "slope_per_m = " + text_of(sought.slope_per_m), "must be positive and finite");
   require(sought.probability > 0.0 && sought.probability < 1.0, "diameter_ruled_out_m", "probability = " + text_of(sought.probability),
           "must lie in (0, 1)");
-  const Power power(surface, places, sought);
+  const Power power(layout, places, sought);
   double radius_m = 0.0;
   for (const int vertex : centres) {
     if (power.suffices(vertex, radius_m)) continue;
-    double too_small = radius_m, enough = surface.diameter();
+    double too_small = radius_m, enough = layout.surface().diameter();
     if (!power.suffices(vertex, enough)) return std::nullopt;
     while (enough - too_small > kResolution_m) {
       const double middle = 0.5 * (too_small + enough);

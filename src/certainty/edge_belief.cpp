@@ -55,19 +55,18 @@ double value_at(const Surface& surface, const Field& field, const SurfacePoint& 
   return value;
 }
 
-std::vector<Vec3> positions(const Surface& surface, std::span<const SurfacePoint> points) {
+std::vector<Vec3> places_of(const Layout& layout, std::span<const SurfacePoint> points) {
   std::vector<Vec3> places;
-  for (const SurfacePoint& point : points) places.push_back(surface.position(point));
+  for (const SurfacePoint& point : points) places.push_back(layout.at(point));
   return places;
 }
 
 /// Signed distances of the vertices and of the readings from { field = level }; false where there is no boundary.
-bool measure_depths(const Surface& surface, const Field& field, double level, Eigen::VectorXd& vertices, EdgeData& data) {
+bool measure_depths(const Layout& layout, const Field& field, double level, Eigen::VectorXd& vertices, EdgeData& data) {
+  const Surface& surface = layout.surface();
   const std::vector<LevelLoop> loops = level_loops(surface, field, level);
-  std::vector<Vec3> places;
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) places.push_back(surface.vertex(vertex));
-  const std::vector<double> of_vertices = distances_from(surface, loops, places);
-  const std::vector<double> of_readings = distances_from(surface, loops, positions(surface, data.places));
+  const std::vector<double> of_vertices = distances_from(layout, loops, layout.vertices());
+  const std::vector<double> of_readings = distances_from(layout, loops, places_of(layout, data.places));
   if (of_vertices.empty() || of_readings.empty()) return false;
   vertices.resize(surface.vertex_count());
   for (Eigen::Index vertex = 0; vertex < vertices.size(); ++vertex) {
@@ -161,7 +160,9 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
                              {plateau_variance, plateau_variance, shape.slope_log_sd * shape.slope_log_sd}};
   const Kernel kernel{.family = KernelFamily::Matern52, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
-  const Prior correction(surface, belief.prior().metric(), kernel, Constant{.sd = 0.0});
+  const Layout layout(belief.prior());
+  const Metric metric = surface.is_planar() ? belief.prior().metric() : layout.metric();
+  const Prior correction(surface, metric, kernel, Constant{.sd = 0.0});
   struct Start {
     EdgeData data;
     Eigen::MatrixXd prior_covariance;
@@ -171,7 +172,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   std::optional<Start> best;
   for (const double first_level : first_levels) {
     Eigen::VectorXd distance;
-    if (!measure_depths(surface, component.mean, first_level, distance, all)) continue;
+    if (!measure_depths(layout, component.mean, first_level, distance, all)) continue;
     EdgeData data = with_plateaus_merged(all);
     Eigen::MatrixXd prior_covariance = correction.covariance(data.places, data.places);
     EdgeFit edge = fit_edge_belief(data, prior_covariance, profile);
@@ -204,7 +205,7 @@ void EdgeBelief::survey_boundary() {
     if (scale > 0.0) turn_ += std::acos(std::clamp(covariance(here, before) / scale, -1.0, 1.0));
   }
   if (sd.size() > 0) mean_part_of_edge_ = sd.mean() * profile_.slope_per_m;
-  offset_sd_ = spread_from_nodes(surface_, nodes, sd);
+  offset_sd_ = spread_from_nodes(Layout(fit_->correction), nodes, sd);
 }
 
 double EdgeBelief::band_score(double probability) const {

@@ -15,11 +15,11 @@ namespace {
 constexpr double kAsGood = 0.9;     // of the best
 constexpr double kCell_m = 0.0005;  // an eighth of an edge's width: of the candidates in one such cube, one is tried
 
-std::vector<int> one_per_cell(const Surface& surface, std::span<const int> candidates) {
+std::vector<int> one_per_cell(const Layout& layout, std::span<const int> candidates) {
   std::set<std::array<long, 3>> taken;
   std::vector<int> thinned;
   for (const int vertex : candidates) {
-    const Vec3 cell = (surface.vertex(vertex) / kCell_m).array().round();
+    const Vec3 cell = (layout.at(vertex) / kCell_m).array().round();
     if (taken.insert({std::lround(cell[0]), std::lround(cell[1]), std::lround(cell[2])}).second) thinned.push_back(vertex);
   }
   return thinned;
@@ -70,7 +70,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
           "must be one for each vertex");
   const Fit& fit = *fit_;
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
-  const std::vector<int> candidates = one_per_cell(surface_, all_candidates);
+  const std::vector<int> candidates = one_per_cell(Layout(fit.correction), all_candidates);
   std::vector<int> picks;
   if (nodes.points.empty() || candidates.empty()) return picks;
 

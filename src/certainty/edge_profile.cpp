@@ -125,6 +125,7 @@ Level level_from_edge(const Surface& surface, const Belief& belief, const Margin
   Level level = level_from_range(marginals, fraction);
   const double range = marginals.mean.maxCoeff() - marginals.mean.minCoeff();
   level.stddev = 0.5 * range;
+  const Layout layout(belief.prior());
   std::vector<EdgeReading> readings;
   std::vector<SurfacePoint> points;
   std::vector<Vec3> places;
@@ -132,7 +133,7 @@ Level level_from_edge(const Surface& surface, const Belief& belief, const Margin
     if (!palpation.set_aside.empty()) continue;
     readings.push_back({0.0, palpation.reading, std::isnan(palpation.noise_variance) ? belief.noise_variance() : palpation.noise_variance});
     points.push_back(palpation.where);
-    places.push_back(surface.position(palpation.where));
+    places.push_back(layout.at(palpation.where));
   }
   if (readings.empty() || !(range > 0.0)) return level;
   // Readings without noise still scatter about the profile: as much as the model of the edge is wrong, a hundredth of the range.
@@ -140,7 +141,7 @@ Level level_from_edge(const Surface& surface, const Belief& belief, const Margin
   const Eigen::VectorXd mean = belief.at(points, Part::Detrended).mean;
   const EdgePrior prior{.plateau = 0.5 * (marginals.mean.maxCoeff() + marginals.mean.minCoeff()), .plateau_sd = range};
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::vector<double> distances = distances_from(surface, level_loops(surface, marginals.mean, level.value), places);
+    const std::vector<double> distances = distances_from(layout, level_loops(surface, marginals.mean, level.value), places);
     if (distances.empty()) return level;
     for (std::size_t i = 0; i < readings.size(); ++i) {
       readings[i].depth_m = mean[static_cast<Eigen::Index>(i)] >= level.value ? distances[i] : -distances[i];

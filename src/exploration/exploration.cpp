@@ -40,14 +40,14 @@ bool has_range(const Marginals& marginals) {
 }
 
 /// A smooth field is slow to believe in a few readings of many; a disk is not.
-bool a_disk_stands_out(const Surface& surface, std::span<const Palpation> palpations) {
+bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpations) {
   const std::vector<double> readings = used_readings(palpations);
   if (readings.size() < kFewReadings) return false;
   std::vector<Vec3> places;
   for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) places.push_back(surface.position(palpation.where));
+    if (palpation.set_aside.empty()) places.push_back(layout.at(palpation.where));
   }
-  return greatest_excess(surface, places, readings) > kNeededToFind;
+  return greatest_excess(layout, places, readings) > kNeededToFind;
 }
 
 /// The vertex that a palpation touched, or -1.
@@ -121,7 +121,7 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
     // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
     if (plan_.safe_start && field_.learns() && !trend_is_missing()) {
       const std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : all;
-      contrast_seen_ = shows_contrast(used_readings(flat), fit.field.signal_evidence) || a_disk_stands_out(surface_, flat);
+      contrast_seen_ = shows_contrast(used_readings(flat), fit.field.signal_evidence) || a_disk_stands_out(Layout(belief_.prior()), flat);
     }
   } else if (trend_is_missing()) {
     belief_ = fixed_field(surface_, field_, all);

@@ -245,24 +245,25 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Surface& surface = exploration.surface();
   if (exploration.belief().site_count() == 0) return std::nullopt;
+  const Layout layout(exploration.belief().prior());
   std::vector<Vec3> places;
   std::vector<double> readings;
   for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
     if (!palpation.set_aside.empty()) continue;
-    places.push_back(surface.position(palpation.where));
+    places.push_back(layout.at(palpation.where));
     readings.push_back(palpation.reading);
   }
   Sought sought{.probability = episode.band_probability};
   if (!exploration.level()) {
     if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
-    return within(surface, palpation::diameter_ruled_out_m(surface, places, sought));
+    return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));
   }
   const Healthy healthy = healthy_part(exploration);
   if (healthy.vertices.empty() || episode.estimate.empty()) return std::nullopt;
   const double contrast = episode.assumed_contrast.value_or((exploration.level()->value - healthy.mean) / episode.level_fraction);
   sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
   if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;
-  return within(surface, palpation::diameter_ruled_out_m(surface, places, sought, healthy.vertices));
+  return within(surface, palpation::diameter_ruled_out_m(layout, places, sought, healthy.vertices));
 }
 
 Snapshot snapshot(const Episode& episode) {

@@ -1,0 +1,28 @@
+#include "palpation/certainty/layout.h"
+
+namespace palpation {
+
+Layout::Layout(const Prior& prior)
+    : surface_(prior.surface()), in_chart_(prior.metric() != Metric::Ambient && !surface_.is_planar() && surface_.has_chart()) {}
+
+Vec3 Layout::at(int vertex) const {
+  if (!in_chart_) return surface_.vertex(vertex);
+  const Points2& uv = surface_.chart().uv;
+  return {uv(vertex, 0), uv(vertex, 1), 0.0};
+}
+
+Vec3 Layout::at(const SurfacePoint& point) const {
+  if (!in_chart_) return surface_.position(point);
+  const Eigen::Vector3i corners = surface_.triangle(point.face);
+  Vec3 place = Vec3::Zero();
+  for (int corner = 0; corner < 3; ++corner) place += point.barycentric[corner] * at(corners[corner]);
+  return place;
+}
+
+std::vector<Vec3> Layout::vertices() const {
+  std::vector<Vec3> places;
+  for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) places.push_back(at(vertex));
+  return places;
+}
+
+}  // namespace palpation
