@@ -30,6 +30,11 @@ constexpr double kCurved = 3.0;
 /// And its tails are heavier than a normal's, the more so the less sure the edge is: a missed arm of a horseshoe lies far out. The band
 /// grows by this part for a mean standard deviation of 1 / slope (found in the same way).
 constexpr double kHeavyTail = 1.0;
+/// Outlines are smoother than the correction's prior, which has corners. That overstates the wrong area the more, the less the readings'
+/// noise adds: by this part where it adds nothing, fading as the mean standard deviation grows past that part of 1 / slope (found in the
+/// same way).
+constexpr double kSmoother = 0.45;
+constexpr double kNoisePart = 0.2;
 
 /// One reading per place, of those that are used.
 EdgeData gathered(const Belief& belief) {
@@ -205,6 +210,7 @@ void EdgeBelief::survey_boundary() {
     if (scale > 0.0) turn_ += std::acos(std::clamp(covariance(here, before) / scale, -1.0, 1.0));
   }
   if (sd.size() > 0) mean_part_of_edge_ = sd.mean() * profile_.slope_per_m;
+  expected_error_m2_ *= 1.0 - kSmoother * std::exp(-mean_part_of_edge_ / kNoisePart);
   offset_sd_ = spread_from_nodes(Layout(fit_->correction), nodes, sd);
 }
 

@@ -46,7 +46,8 @@ class EdgeBelief {
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where the boundary comes nearest.
   const Field& offset_sd() const { return offset_sd_; }
-  /// Expected area between the boundary and the true one: the integral along it of the offset's mean absolute value, sqrt(2 / pi) sd.
+  /// Expected area between the boundary and the true one: the integral along it of the offset's mean absolute value, sqrt(2 / pi) sd,
+  /// less what the prior of corrections overstates where readings are sharp.
   double expected_error_m2() const { return expected_error_m2_; }
   /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
   /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary, widened for the tails of an unsure edge.
