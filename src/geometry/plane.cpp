@@ -16,6 +16,19 @@ Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {
   return (b - a).cross(c - a);
 }
 
+Eigen::Index nearest_row(const Points& points, const Vec3& place) {
+  Eigen::Index nearest = 0;
+  (points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  return nearest;
+}
+
+bool lies_level(const TriangleMesh& mesh, const Plane& plane, double diameter) {
+  const auto z = mesh.vertices.col(2);
+  return plane.normal.z() > 0.0 && z.maxCoeff() - z.minCoeff() <= kFlatness * diameter;
+}
+
+}  // namespace
+
 Vec3 centroid(const TriangleMesh& mesh) {
   const Vec3 origin = mesh.vertices.row(0);
   Vec3 moment = Vec3::Zero();
@@ -30,25 +43,11 @@ Vec3 centroid(const TriangleMesh& mesh) {
   return origin + moment / weight;
 }
 
-Eigen::Index nearest_row(const Points& points, const Vec3& place) {
-  Eigen::Index nearest = 0;
-  (points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-  return nearest;
-}
-
-/// The direction of u: the mesh's x axis in the plane, or y where x is within 10 degrees of the normal.
 Vec3 first_axis(const Vec3& normal) {
   const double steep = std::cos(10.0 * std::numbers::pi / 180.0);
   const Vec3 along = std::abs(normal.x()) > steep ? Vec3::UnitY() : Vec3::UnitX();
   return (along - along.dot(normal) * normal).normalized();
 }
-
-bool lies_level(const TriangleMesh& mesh, const Plane& plane, double diameter) {
-  const auto z = mesh.vertices.col(2);
-  return plane.normal.z() > 0.0 && z.maxCoeff() - z.minCoeff() <= kFlatness * diameter;
-}
-
-}  // namespace
 
 Plane find_plane(const TriangleMesh& mesh, double diameter) {
   Vec3 sum = Vec3::Zero();

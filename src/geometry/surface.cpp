@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/flatten.h"
 #include "geometry/overlap.h"
 #include "geometry/plane.h"
 #include "geometry/surface_state.h"
@@ -89,6 +90,16 @@ void check_point(const SurfacePoint& point, int face_count, const char* function
   if (b.minCoeff() >= -kRounding && std::abs(b.sum() - 1.0) <= kRounding) return;
   throw InvalidInput(std::string("Surface::") + function + ": barycentric (" + text_of(b[0]) + ", " + text_of(b[1]) + ", " + text_of(b[2]) +
                      ") must be at least 0 and add up to 1");
+}
+
+/// Why a surface that is no disk cannot be laid flat.
+std::string loops_in_the_way(const Topology& topology) {
+  const auto counted = [](int count, const std::string& one) { return std::to_string(count) + " " + one + (count == 1 ? "" : "s"); };
+  std::string found;
+  if (topology.components > 1) found += counted(topology.components, "component") + ", ";
+  if (topology.handles > 0) found += counted(topology.handles, "handle") + ", ";
+  found += topology.is_closed() ? "no border (it is closed)" : counted(topology.borders, "border loop");
+  return "only a disk of one component, one border loop and no handles can be laid flat, and it has " + found;
 }
 
 }  // namespace
@@ -223,26 +234,37 @@ const Surface::State& Surface::State::laid_flat() const {
   return *this;
 }
 
+const Surface::State& Surface::State::flattened() const {
+  std::call_once(chart_once, [this] {
+    Flattened made = flatten(mesh, connectivity, border_loops, area, diameter);
+    chart = std::move(made.chart);
+    chart_fault = std::move(made.fault);
+    const std::lock_guard lock(computed_guard);
+    computed.insert("chart");
+  });
+  return *this;
+}
+
 void Surface::State::refuse_chart() const {
-  std::string what = "a surface that is not flat";
-  std::string rule = "has no chart: use the ambient metric, or a flat patch of it";
-  if (plane.folded_face) {
-    what = "a flat surface that is folded";
-    rule = "has no chart: triangle " + std::to_string(*plane.folded_face) + " looks the other way";
-  } else if (plane.is_plane) {
+  const auto refuse = [](const std::string& what, const std::string& rule) {
+    require(false, "Surface::chart", what, "has no chart: " + rule);
+  };
+  if (plane.folded_face) refuse("a flat surface that is folded", "triangle " + std::to_string(*plane.folded_face) + " looks the other way");
+  if (plane.is_plane) {
     const Vec2 place = laid_flat().overlap.value_or(Vec2::Zero());
-    what = "a flat surface that lies over itself";
-    rule = "has no chart: two of its sheets cover u = " + text_of(place.x()) + " m, v = " + text_of(place.y()) + " m of its plane";
+    refuse("a flat surface that lies over itself",
+           "two of its sheets cover u = " + text_of(place.x()) + " m, v = " + text_of(place.y()) + " m of its plane");
   }
-  require(false, "Surface::chart", what, rule);
+  const std::string reason = topology.is_disk() ? flattened().chart_fault : loops_in_the_way(topology);
+  refuse("a curved surface", reason + "; work on a patch of it");
 }
 
 const Chart& Surface::chart() const {
-  if (!has_chart()) state_->refuse_chart();
+  if (!has_chart() || (!state_->is_flat() && !state_->flattened().chart_fault.empty())) state_->refuse_chart();
   return state_->chart;
 }
 
-bool Surface::has_chart() const { return is_planar(); }
+bool Surface::has_chart() const { return state_->is_flat() ? is_planar() : state_->topology.is_disk(); }
 
 std::vector<std::string> Surface::computed() const {
   const std::lock_guard lock(state_->computed_guard);

@@ -25,8 +25,12 @@ struct Plane {
 
 /// All but the last group is fixed when the constructor is done. What is mutable is made at first use, each under its own flag.
 struct Surface::State {
+  /// Whether it lies in a plane, folded or not.
+  bool is_flat() const { return plane.is_plane || plane.folded_face; }
   /// With the chart, and the overlap if there is one. Only for what is in a plane.
   const State& laid_flat() const;
+  /// With the chart, or its fault. Only for disks that are not flat.
+  const State& flattened() const;
   /// Throws InvalidInput that says why there is none.
   void refuse_chart() const;
 
@@ -45,6 +49,7 @@ struct Surface::State {
   mutable Points vertex_normals;
   mutable Chart chart;
   mutable std::optional<Vec2> overlap;  ///< where a flat surface lies over itself, in its plane
+  mutable std::string chart_fault;      ///< why a curved disk has no chart after all
   mutable std::shared_ptr<const ClosestPoint> closest_point;
 
   mutable std::mutex computed_guard;

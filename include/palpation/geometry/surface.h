@@ -71,8 +71,11 @@ class Surface {
   /// first use.
   SurfacePoint project(const Vec3& position) const;
 
-  /// The chart: for a planar surface its own plane, at no cost. Throws InvalidInput where there is none: see chart.h.
+  /// The chart: for a planar surface its own plane, at no cost; for another disk computed at first use. Throws InvalidInput where there is
+  /// none, and says what is in the way: see chart.h.
   const Chart& chart() const;
+  /// Whether it is planar, or a disk that does not lie flat upon itself. Costs nothing; chart() still refuses the few disks whose
+  /// flattening would lie over itself.
   bool has_chart() const;
 
   /// What has been computed so far beyond the mesh itself, in alphabetical order: of "chart", "geodesics", "search tree".
