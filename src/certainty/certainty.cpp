@@ -71,6 +71,21 @@ void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m
   certainty.expected.extra_m2 *= share;
 }
 
+void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading, const Field& sd, double whole_loss) {
+  const double before = certainty.half_width_m;
+  const Eigen::VectorXd along = surface.mesh().vertices * fading.towards;
+  const double start = along.minCoeff(), length = along.maxCoeff() - start;
+  const double farthest = fading.base_fall * whole_loss;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const double here = std::max(sd[vertex], 1e-12 * farthest);
+    if (here > 0.0) certainty.score[vertex] *= here / std::hypot(here, farthest * (along[vertex] - start) / length);
+  }
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  if (before == 0.0) return;
+  certainty.expected.missed_m2 *= certainty.half_width_m / before;
+  certainty.expected.extra_m2 *= certainty.half_width_m / before;
+}
+
 double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level) {
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());

@@ -144,6 +144,7 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   if (level_ && belief_.site_count() > 0) {
     certainty_ = edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
                        : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
+    if (field_.screening) doubt_where_contact_fades();
     if (field_.indenter_radius_m > 0.0) take_back_tip(*certainty_, surface_, field_.indenter_radius_m);
     if (edge_) untouched_m2_ = doubt_untouched(*certainty_, belief_, component_, *level_);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
@@ -192,6 +193,19 @@ void Exploration::estimate_boundary() {
     edge_.reset();
     level_ = level_from_range(component_, level_rule_.fraction);
   }
+}
+
+/// A sigmoid's steepest rise is a quarter of slope times contrast.
+void Exploration::doubt_where_contact_fades() {
+  const std::optional<FadingContact> fading = fading_contact(surface_, palpations_);
+  if (!fading) return;
+  if (edge_) {
+    doubt_fading_contact(*certainty_, surface_, *fading, edge_->offset_sd(), 4.0 * level_rule_.fraction / edge_->profile().slope_per_m);
+    return;
+  }
+  const double level_sd = level_->stddev.value_or(0.0), contrast = component_.mean.maxCoeff() - component_.mean.minCoeff();
+  const Field sd = (component_.variance.array() + level_sd * level_sd).sqrt();
+  doubt_fading_contact(*certainty_, surface_, *fading, sd, level_rule_.fraction * contrast);
 }
 
 bool Exploration::tip_hides_all() const {

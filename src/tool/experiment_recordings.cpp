@@ -360,7 +360,7 @@ void recordings(const ExperimentArguments& arguments) {
   tell_new();
   screening(arguments, figures);
   tell_new();
-  fading(arguments, scene, figures);
+  fading(arguments, scene.with("field.screening", true), figures);
   tell_new();
   pokes(arguments, scene, figures);
   tell_new();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "palpation/belief/belief.h"
+#include "palpation/belief/contact.h"
 #include "palpation/belief/level.h"
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/expected_error.h"
@@ -37,6 +38,12 @@ Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double pr
 /// What a probe with a round tip feels early, taken back (erosion.h): the score of the boundary that lies a radius farther in, with the
 /// band's width along it. What is expected to be wrong changes as the boundary's length does.
 void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m);
+
+/// Where contact fades (contact.h) a tumour reads less than its plateau elsewhere, by up to what healthy tissue's reading falls, in
+/// proportion to the way. `sd` is what the score was divided by, at the vertices, and `whole_loss` by how much the
+/// boundary would be off, in the same unit, were all amplitude lost. The doubt counts as one more standard deviation: band and expected
+/// error grow with it.
+void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading, const Field& sd, double whole_loss);
 
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than the field is of it, and counts among what
 /// is expected to be wrong. Far is twice the radius of the smallest tumour of 0.5 cm2, 8 mm. Returns the area of such places, m2.

@@ -150,6 +150,7 @@ class Exploration {
   void learn_from(std::span<const Palpation> palpations);
   double weigh_for_heavy_tails(std::span<const Palpation> palpations);
   void estimate_boundary();
+  void doubt_where_contact_fades();
   std::vector<int> chosen_stops() const;
   std::vector<int> searching_stops() const;
   Belief searching_belief() const;
