@@ -28,8 +28,8 @@ constexpr double kPlateauError = 0.25;
 /// less than that: the offset's variance grows by this much for a standard deviation of 1 / slope (found on simulated tumours).
 constexpr double kCurved = 3.0;
 /// And its tails are heavier than a normal's, the more so the less sure the edge is: a missed arm of a horseshoe lies far out. The band
-/// grows by this part for a mean standard deviation of 1 / slope (found in the same way).
-constexpr double kHeavyTail = 1.0;
+/// grows by p (1 + 0.3 p) for a mean standard deviation of p / slope (found in the same way).
+constexpr double kHeavierTail = 0.3;
 /// Outlines are smoother than the correction's prior, which has corners. That overstates the wrong area the more, the less the readings'
 /// noise adds: by this part where it adds nothing, fading as the mean standard deviation grows past that part of 1 / slope (found in the
 /// same way).
@@ -222,7 +222,7 @@ double EdgeBelief::band_score(double probability) const {
   for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {
     (misses(middle) > 1.0 - probability ? below : above) = middle;
   }
-  return (1.0 + kHeavyTail * mean_part_of_edge_) * above;
+  return (1.0 + mean_part_of_edge_ * (1.0 + kHeavierTail * mean_part_of_edge_)) * above;
 }
 
 }  // namespace palpation
