@@ -23,13 +23,16 @@ struct InfoArguments {
 };
 
 struct MeshArguments {
-  std::string kind = "plane";
+  std::string kind = "plane";  ///< of mesh_kinds()
   std::vector<double> size_mm = {25.0, 50.0};
   std::vector<int> vertices = {200, 200};
+  bool gives_size = false, gives_vertices = false;
   double jitter = 0.0;
   std::filesystem::path around;  ///< span this recording instead
   double margin_mm = 0.0;
-  double edge_mm = 0.5;  ///< with `around`
+  double edge_mm = 0.5;  ///< with `around`, and of all phantoms but the plane
+  // Of the curved phantoms; what is left out is as in make_phantom.h.
+  std::optional<double> radius_mm, reach_mm, amplitude_mm, wavelength_mm, gap_mm, flank_mm;
   std::uint64_t seed = 1;
   std::string unit = "mm";
   std::filesystem::path output;
@@ -54,6 +57,8 @@ void replay(const SceneArguments& arguments, const std::vector<std::filesystem::
 void compare_boundaries(const SceneArguments& arguments, const std::filesystem::path& a, const std::filesystem::path& b);
 void info(const InfoArguments& arguments);
 void make_mesh(const MeshArguments& arguments);
+/// The phantoms that there are.
+std::vector<std::string> mesh_kinds();
 void experiment(const ExperimentArguments& arguments);
 /// The experiments that there are.
 std::vector<std::string> experiment_names();
