@@ -5,16 +5,12 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/unfolding.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/distance.h"
 
 namespace palpation {
 namespace {
-
-/// A straight piece of the way inside one face.
-struct Piece {
-  int face;
-  Vec3 from, to;  // barycentric
-};
 
 /// Nearer to the cutting plane than this share of the way's length is in it.
 constexpr double kThickness = 1e-9;
@@ -196,14 +192,26 @@ std::vector<SurfacePoint> projected_line(const Surface& surface, const SurfacePo
   return places;
 }
 
+/// The shortest path, looked for among ways not much longer than the fast estimate of its length first.
+std::optional<ShortestPath> shortest_path(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to) {
+  constexpr double kSlack = 1.02;
+  const std::array<SurfacePoint, 2> ends = {from, to};
+  const double estimate = distances_between(surface, ends)(0, 1);
+  if (const auto path = unfolded_path(surface, from, to, kSlack * estimate)) return path;
+  return unfolded_path(surface, from, to);
+}
+
 }  // namespace
 
 std::vector<SurfacePoint> way_between(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, double step_m) {
   require(std::isfinite(step_m) && step_m > 0.0, "way_between", "step_m = " + text_of(step_m), "must be positive and finite");
-  if ((surface.position(to) - surface.position(from)).norm() <= step_m) return {};
-  for (const InPlane choice : {InPlane::Front, InPlane::Behind}) {
-    if (const auto pieces = SectionWalk(surface, from, to, choice).walk(from)) return spaced_along(surface, *pieces, step_m);
+  if (surface.is_planar()) {
+    if ((surface.position(to) - surface.position(from)).norm() <= step_m) return {};
+    for (const InPlane choice : {InPlane::Front, InPlane::Behind}) {
+      if (const auto pieces = SectionWalk(surface, from, to, choice).walk(from)) return spaced_along(surface, *pieces, step_m);
+    }
   }
+  if (const auto path = shortest_path(surface, from, to)) return spaced_along(surface, path->pieces, step_m);
   return projected_line(surface, from, to, step_m);
 }
 

@@ -8,6 +8,7 @@
 
 #include "geometry/zoo.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/make_phantom.h"
 #include "palpation/geometry/sampling.h"
 
 namespace palpation {
@@ -175,6 +176,65 @@ TEST(Distance, RefusesSourcesThatAreNone) {
   EXPECT_THROW(distance_from(square, {}), InvalidInput);
   EXPECT_THROW(distance_from_one(square, {8, Vec3(1.0, 0.0, 0.0)}), InvalidInput);
   EXPECT_THROW(distance_from_one(square, {0, Vec3(1.0, 1.0, 0.0)}), InvalidInput);
+}
+
+Surface phantom(const Sheet& sheet, double edge_m) {
+  Random random(1);
+  return Surface(make_phantom(sheet, edge_m, 0.3, random).mesh);
+}
+
+TEST(DistancesBetween, AreThoseOfUnfoldingToAPercent) {
+  for (const Sheet& sheet : {cylinder_sheet(), dome_sheet(), saddle_sheet(), wave_sheet(), folded_sheet()}) {
+    const Surface surface = phantom(sheet, 0.001);
+    Random random(1);
+    std::vector<SurfacePoint> places = sample_uniformly(surface, 12, random);
+    places[3] = surface.at_vertex(11);
+    places[7] = surface.at_vertex(surface.vertex_count() - 5);
+    const Eigen::MatrixXd distances = distances_between(surface, places);
+    EXPECT_EQ(distances, distances.transpose());
+    for (int i : {3, 7}) {
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const Field exact = distance_from_one(surface, places[k]);
+        const double truth = exact[i == 3 ? 11 : surface.vertex_count() - 5];
+        EXPECT_NEAR(distances(i, static_cast<Eigen::Index>(k)), truth, 0.01 * truth);
+      }
+    }
+  }
+}
+
+TEST(DistancesBetween, AreStraightOnAPlaneAndCostNothing) {
+  const Surface plane(zoo::jittered_square_mesh(9, 1));
+  Random random(1);
+  const std::vector<SurfacePoint> places = sample_uniformly(plane, 5, random);
+  const Eigen::MatrixXd distances = distances_between(plane, places);
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j)
+      EXPECT_EQ(distances(i, j),
+                (plane.position(places[static_cast<std::size_t>(i)]) - plane.position(places[static_cast<std::size_t>(j)])).norm());
+  }
+  EXPECT_TRUE(plane.computed().empty());
+}
+
+TEST(DistancesBetween, AreInfiniteWhereNothingLeads) {
+  const TriangleMesh bent = zoo::cylinder_mesh(1.0, 2.0, 8, 3);
+  const Surface two(zoo::together(bent, zoo::moved(bent, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
+  const std::vector<SurfacePoint> places = {two.at_vertex(0), two.at_vertex(two.vertex_count() - 1)};
+  EXPECT_EQ(distances_between(two, places)(0, 1), std::numeric_limits<double>::infinity());
+}
+
+TEST(VerticesNear, LeavesOutWhatIsNearThroughSpaceOnly) {
+  // Facing flanks are 1.5 mm apart, and up to 42 mm along the surface.
+  const Surface folded = phantom(folded_sheet(), 0.001);
+  const int vertex = folded.nearest_vertex(Vec3(0.003, 0.012, 0.0));
+  const Field distance = distance_from_one(folded, folded.at_vertex(vertex));
+  std::vector<int> expected;
+  int in_space = 0;
+  for (int v = 0; v < folded.vertex_count(); ++v) {
+    if (distance[v] < 0.0025) expected.push_back(v);
+    in_space += (folded.vertex(v) - folded.vertex(vertex)).norm() < 0.0025;
+  }
+  EXPECT_EQ(vertices_near(folded, vertex, 0.0025), expected);
+  EXPECT_GT(in_space, static_cast<int>(expected.size()));
 }
 
 }  // namespace

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <span>
 
 #include "geometry/zoo.h"
 #include "palpation/base/error.h"
 #include "palpation/geometry/distance.h"
+#include "palpation/geometry/make_phantom.h"
 
 namespace palpation {
 namespace {
@@ -93,6 +97,50 @@ TEST(Patch, RefusesARadiusThatHoldsNoTriangle) {
   EXPECT_THROW(patch_around(square, Vec3(0.5, 0.5, 0.0), 0.0), InvalidInput);
   EXPECT_THROW(patch_around(square, Vec3(0.5, 0.5, 0.0), -1.0), InvalidInput);
   EXPECT_THROW(patch_around(square, Vec3(0.5, 0.5, 0.0), std::numeric_limits<double>::infinity()), InvalidInput);
+}
+
+TEST(PatchPassing, TakesTheTrianglesInABox) {
+  // Cells of 0.1: those between 0.2 and 0.5 along x, and 0.3 and 0.4 along y.
+  const Surface square = zoo::unit_square(10);
+  const PatchTests tests{.box = PatchTests::Box{Vec3(0.19, 0.29, -1.0), Vec3(0.51, 0.41, 1.0)}};
+  const Surface piece(patch_passing(square, tests, std::nullopt));
+  EXPECT_EQ(piece.face_count(), 6);
+  EXPECT_NEAR(piece.area(), 0.03, 1e-15);
+}
+
+TEST(PatchPassing, TakesWhatFacesADirection) {
+  // Of a sphere's cap all up to an angle from the top: the closed form of a cap's area, within a ring of triangles.
+  Random random(1);
+  const Surface dome(make_phantom(dome_sheet({.radius_m = 0.010, .reach_m = 0.025}), 0.0005, 0.3, random).mesh);
+  const PatchTests tests{.facing = PatchTests::Facing{Vec3(0.0, 0.0, 7.0), 1.0}};
+  const Surface piece(patch_passing(dome, tests, std::nullopt));
+  const double cap = 2.0 * std::numbers::pi * 1e-4 * (1.0 - std::cos(1.0));
+  EXPECT_NEAR(piece.area(), cap, 2.0 * std::numbers::pi * 0.010 * std::sin(1.0) * 0.0005);
+  for (int f = 0; f < piece.face_count(); ++f) EXPECT_GE(piece.face_normal(f).z(), std::cos(1.0));
+}
+
+TEST(PatchPassing, KeepsThePartNearestToTheCentreOrTheLargest) {
+  // What faces up of an S-bend: the lowest flank and half a bend, and the highest one and half a bend, shortened by the box.
+  Random random(1);
+  const Surface folded(make_phantom(folded_sheet(), 0.001, 0.3, random).mesh);
+  const PatchTests tests{.box = PatchTests::Box{Vec3(-0.01, -0.01, -0.01), Vec3(0.015, 0.1, 0.1)},
+                         .facing = PatchTests::Facing{Vec3::UnitZ(), 0.5}};
+  const Surface largest(patch_passing(folded, tests, std::nullopt));
+  const Surface low(patch_passing(folded, tests, Vec3(0.005, 0.01, -0.001))), high(patch_passing(folded, tests, Vec3(0.005, 0.01, 0.004)));
+  EXPECT_LT(low.mesh().vertices.col(2).maxCoeff(), 0.001);
+  EXPECT_GT(high.mesh().vertices.col(2).minCoeff(), 0.002);
+  EXPECT_EQ(largest.area(), std::max(low.area(), high.area()));
+}
+
+TEST(PatchPassing, RefusesTestsThatNothingPasses) {
+  const Surface square = zoo::unit_square(4);
+  using Box = PatchTests::Box;
+  using Facing = PatchTests::Facing;
+  EXPECT_THROW(patch_passing(square, {.box = Box{Vec3(0.0, 0.0, 1.0), Vec3(1.0, 1.0, 2.0)}}, std::nullopt), InvalidInput);
+  EXPECT_THROW(patch_passing(square, {.box = Box{Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 1.0)}}, std::nullopt), InvalidInput);
+  EXPECT_THROW(patch_passing(square, {.facing = Facing{-Vec3::UnitZ(), 0.5}}, std::nullopt), InvalidInput);
+  EXPECT_THROW(patch_passing(square, {.facing = Facing{Vec3::Zero(), 0.5}}, std::nullopt), InvalidInput);
+  EXPECT_THROW(patch_passing(square, {.facing = Facing{Vec3::UnitZ(), 0.0}}, std::nullopt), InvalidInput);
 }
 
 }  // namespace

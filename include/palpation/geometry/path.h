@@ -7,9 +7,9 @@
 
 namespace palpation {
 
-/// Places every step_m along the way from `from` to `to`, both left out. The way is where the plane through both and the mean of their
-/// normals cuts the surface: the straight line on flat tissue. Where that cut does not lead there (a hole, a border, a fold), the straight
-/// line through space is projected to the surface. Throws InvalidInput unless step_m is positive and finite.
+/// Places every step_m along the way from `from` to `to`, both left out: the straight line on flat tissue, elsewhere and around holes the
+/// shortest path along the surface. Only where no way leads along the surface, between two components, the straight line through space is
+/// projected to it. Throws InvalidInput unless step_m is positive and finite.
 std::vector<SurfacePoint> way_between(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, double step_m);
 
 }  // namespace palpation

@@ -63,7 +63,7 @@ Field unfold_distances(const TriangleMesh& mesh, std::span<const SurfacePoint> s
   try {
     return distances_to_all(mesh, sources);
   } catch (const CGAL::Failure_exception& failure) {
-    throw NumericalError("distance_from: unfolding the faces failed: " + failure.message() + " (" + failure.expression() + ")");
+    throw NumericalError("unfold_distances: unfolding the faces failed: " + failure.message() + " (" + failure.expression() + ")");
   }
 }
 

@@ -1,4 +1,4 @@
-/// Exact distances along a triangle mesh.
+/// Exact distances along a triangle mesh, by CGAL: slow, and the twin of what the library does.
 #pragma once
 
 #include <span>

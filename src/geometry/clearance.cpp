@@ -1,0 +1,51 @@
+#include "palpation/geometry/clearance.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "palpation/base/error.h"
+
+namespace palpation {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Faces = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Faces::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Kernel::Point_3 cgal_point(const Vec3& place) { return {place.x(), place.y(), place.z()}; }
+
+}  // namespace
+
+std::vector<bool> clear_vertices(const Surface& surface, double length_m) {
+  require(std::isfinite(length_m) && length_m > 0.0, "clear_vertices", "length_m = " + text_of(length_m), "must be positive and finite");
+  surface.note_computed("clearance");
+  Faces faces;
+  for (int face = 0; face < surface.face_count(); ++face) {
+    const Eigen::Vector3i corners = surface.triangle(face);
+    faces.emplace_back(cgal_point(surface.vertex(corners[0])), cgal_point(surface.vertex(corners[1])),
+                       cgal_point(surface.vertex(corners[2])));
+  }
+  const Tree tree(faces.cbegin(), faces.cend());
+  const Points& normals = surface.vertex_normals();
+  std::vector<bool> clear(static_cast<std::size_t>(surface.vertex_count()));
+  std::vector<Faces::const_iterator> met;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const Vec3 start = surface.vertex(vertex), end = start + length_m * normals.row(vertex).transpose();
+    const Kernel::Segment_3 line(cgal_point(start), cgal_point(end));
+    met.clear();
+    if (!line.is_degenerate()) tree.all_intersected_primitives(line, std::back_inserter(met));
+    clear[static_cast<std::size_t>(vertex)] = std::all_of(met.begin(), met.end(), [&](Faces::const_iterator face) {
+      return (surface.triangle(static_cast<int>(face - faces.cbegin())).array() == vertex).any();
+    });
+  }
+  return clear;
+}
+
+}  // namespace palpation
