@@ -8,6 +8,7 @@
 #include "certainty/boundary_nodes.h"
 #include "certainty/edge_belief_fit.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/distance.h"
 
 namespace palpation {
 namespace {
@@ -127,8 +128,9 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
     with_picked += by_profile_variance * by_profile.row(picked).transpose();
     with_picked -= of_candidates.transpose() * of_candidates.col(picked);
     design.pick(picked, std::move(with_picked));
+    const std::vector<int> near = vertices_near(surface_, vertex, least_spacing_m);
     for (std::size_t i = 0; i < allowed.size(); ++i) {
-      if ((surface_.vertex(candidates[i]) - surface_.vertex(vertex)).norm() < least_spacing_m) allowed[i] = false;
+      if (std::binary_search(near.begin(), near.end(), candidates[i])) allowed[i] = false;
     }
     allowed[static_cast<std::size_t>(picked)] = false;
   }

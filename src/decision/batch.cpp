@@ -11,6 +11,8 @@
 #include "decision/scoring.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
+#include "palpation/geometry/distance.h"
+#include "palpation/geometry/path.h"
 
 namespace palpation {
 namespace {
@@ -99,10 +101,7 @@ class Candidates {
 
   void pick(int picked) {
     if (least_spacing_m_ == 0.0) return;
-    const Vec3 place = surface_.vertex(picked);
-    for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) {
-      if (allowed_[vertex] && (surface_.vertex(vertex) - place).norm() < least_spacing_m_) allowed_[vertex] = false;
-    }
+    for (const int vertex : vertices_near(surface_, picked, least_spacing_m_)) allowed_[vertex] = false;
   }
 
  private:
@@ -255,6 +254,15 @@ std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const 
   const double length = (end - start).norm();
   // As many readings as will be made on so long a piece of the way.
   const double variance = belief.noise_variance() * way_reading_m / kWayStep_m;
+  if (!surface.is_planar()) {
+    const SurfacePoint begin = surface.at_vertex(surface.nearest_vertex(start));
+    for (const SurfacePoint& place : way_between(surface, begin, surface.at_vertex(vertex), kWayStep_m)) {
+      Eigen::Index nearest = 0;
+      place.barycentric.maxCoeff(&nearest);
+      readings.push_back({surface.triangle(place.face)[nearest], variance});
+    }
+    return readings;
+  }
   for (double done = kWayStep_m; done < length; done += kWayStep_m) {
     readings.push_back({surface.nearest_vertex(start + done / length * (end - start)), variance});
   }

@@ -17,6 +17,7 @@
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
+#include "palpation/geometry/distance.h"
 
 namespace palpation {
 namespace {
@@ -256,12 +257,12 @@ Field Exploration::acquisition_field() const { return score(acquisition_in_force
 
 std::vector<int> Exploration::in_tour_order(std::vector<int> stops) const {
   if (stops.empty()) return stops;
-  const Vec3 start = probe_ ? surface_.position(*probe_) : surface_.vertex(*std::min_element(stops.begin(), stops.end()));
-  const auto place = [&](Eigen::Index i) { return i == 0 ? start : surface_.vertex(stops[static_cast<std::size_t>(i - 1)]); };
-  Eigen::MatrixXd distance(stops.size() + 1, stops.size() + 1);
-  for (Eigen::Index i = 0; i < distance.rows(); ++i) {
-    for (Eigen::Index j = 0; j < distance.cols(); ++j) distance(i, j) = (place(i) - place(j)).norm();
-  }
+  std::vector<SurfacePoint> places = {probe_ ? *probe_ : surface_.at_vertex(*std::min_element(stops.begin(), stops.end()))};
+  for (const int stop : stops) places.push_back(surface_.at_vertex(stop));
+  Eigen::MatrixXd distance = distances_between(surface_, places);
+  // Between components the probe flies: those ways come last.
+  const double farthest = surface_.diameter() * static_cast<double>(surface_.face_count());
+  distance = distance.cwiseMin(farthest);
   std::vector<int> ordered;
   for (int stop : shortest_tour(distance)) ordered.push_back(stops[stop]);
   return ordered;
@@ -339,11 +340,13 @@ std::vector<int> Exploration::with_others(std::vector<int> stops, Belief believe
     options.size -= static_cast<int>(stops.size());
   }
   std::vector<int> others = candidates();
-  std::erase_if(others, [&](int vertex) {
-    return std::any_of(stops.begin(), stops.end(), [&](int stop) {
-      return vertex == stop || (surface_.vertex(vertex) - surface_.vertex(stop)).norm() < options.least_spacing_m;
-    });
-  });
+  std::vector<int> taken = stops;
+  for (const int stop : stops) {
+    const std::vector<int> near = vertices_near(surface_, stop, options.least_spacing_m);
+    taken.insert(taken.end(), near.begin(), near.end());
+  }
+  std::sort(taken.begin(), taken.end());
+  std::erase_if(others, [&](int vertex) { return std::binary_search(taken.begin(), taken.end(), vertex); });
   const std::vector<int> rest = choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), others, options).vertices;
   stops.insert(stops.end(), rest.begin(), rest.end());
   return stops;

@@ -1,5 +1,6 @@
 #include "tool/episode.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -64,7 +65,21 @@ Healthy healthy_part(const Exploration& exploration) {
   return healthy;
 }
 
-Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach reach) {
+/// What can be touched, of what the robot reaches.
+Reach within_reach(const Scene& scene, const Surface& surface, Reach reach) {
+  const std::optional<std::vector<int>> reached = reachable_of(scene, surface);
+  if (!reached) return reach;
+  if (reach.vertices.empty()) {
+    reach.vertices = *reached;
+    return reach;
+  }
+  std::erase_if(reach.vertices, [&](int vertex) { return !std::binary_search(reached->begin(), reached->end(), vertex); });
+  if (reach.vertices.empty()) scene.refuse("robot", "reaches none of the tissue that answers");
+  return reach;
+}
+
+Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach given_reach) {
+  Reach reach = within_reach(scene, surface, std::move(given_reach));
   return Episode{
       .exploration = Exploration(surface, field_of(scene), level_rule_of(scene), std::move(plan), scene.seed(), std::move(reach)),
       .cut_risk = scene.number("band.cut_risk"),

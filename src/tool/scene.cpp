@@ -152,6 +152,14 @@ void Scene::check_together() const {
     refuse_value("probe.high", "more than " + text_of(least) + " above probe.low, or readings cannot tell them apart");
   if (gives("probe.bias_axis") && value("probe.bias_axis") == json({0, 0, 0}))
     refuse("probe.bias_axis", "must not be zero: leave it out for the longest side");
+  for (const char* direction : {"surface.patch.facing", "robot.shaft_direction"}) {
+    if (gives(direction) && value(direction) == json({0, 0, 0})) refuse(direction, "must not be zero: leave it out for any direction");
+  }
+  if (gives("surface.patch.box_mm")) {
+    const std::vector<double> box = numbers("surface.patch.box_mm");
+    if (box[0] >= box[3] || box[1] >= box[4] || box[2] >= box[5])
+      refuse_value("surface.patch.box_mm", "two corners, the second one greater along every axis");
+  }
 }
 
 std::vector<std::string> Scene::warnings() const {
@@ -163,6 +171,8 @@ std::vector<std::string> Scene::warnings() const {
   warn("field.period_mm", word("field.kernel") == "periodic", "field.kernel is " + word("field.kernel"));
   warn("field.constant_sd", word("field.trend") != "zero", "field.trend is zero");
   warn("field.length_prior_mm", word("field.length_mm") == "learn", "field.length_mm is given");
+  warn("surface.patch.within_deg", gives("surface.patch.facing"), "there is no surface.patch.facing");
+  warn("robot.cone_deg", gives("robot.shaft_direction"), "there is no robot.shaft_direction");
   warn("surface.unit", gives("surface.mesh"), "there is no surface.mesh");
   warn("surface.weld", gives("surface.mesh"), "there is no surface.mesh");
   return warnings;

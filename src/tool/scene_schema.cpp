@@ -114,6 +114,12 @@ std::vector<SceneKey> make_scene_keys() {
               "work on the tissue around the surface point nearest to this"),
       number("surface.patch.radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
              "and no farther from it, walking along the surface"),
+      numbers("surface.patch.box_mm", 6, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+              "work on the triangles inside a box, from its corner at the first three numbers to the one at the last three: of their parts "
+              "the one nearest to centre_mm, or else the largest"),
+      numbers("surface.patch.facing", 3, "", -kMostDirection, kMostDirection, nullptr,
+              "work on the triangles that face this direction, parts as for the box; not zero"),
+      number("surface.patch.within_deg", "degrees", 1e-3, 180.0, 60.0, "how far their normals may be from it"),
       word("field.metric", {"chart", "ambient"}, "chart", "distance between places: in the chart, or straight through space"),
       word("field.kernel", {"squared-exponential", "matern-1/2", "matern-3/2", "matern-5/2", "periodic"}, "squared-exponential",
            "covariance of the stiffness at two places"),
@@ -200,6 +206,12 @@ std::vector<SceneKey> make_scene_keys() {
               "rigid transform to the robot's frame, row by row, its translation in metres"),
       number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0, "of the approach point, above the tissue"),
       number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),
+      numbers(
+          "robot.shaft_direction", 3, "", -kMostDirection, kMostDirection, nullptr,
+          "from the tissue along the probe's shaft, in the robot's frame: only tissue whose normal is near it is touched; left out: all"),
+      number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0, "how near: the greatest angle between the two"),
+      number("robot.clearance_mm", "mm", 0.0, 1000.0, 0.0,
+             "tissue is touched only where a line of this length along its normal does not meet tissue again; 0: everywhere"),
       integer("seed", 0, kMostSeed, 1, "of all that is random"),
   };
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "palpation/base/error.h"
@@ -9,6 +11,7 @@
 #include "palpation/geometry/patch.h"
 #include "palpation/io/read_mesh.h"
 #include "tool/tumours.h"
+#include "tool/words.h"
 
 namespace palpation::tool {
 namespace {
@@ -53,7 +56,7 @@ Surface surface_of(const Scene& scene, TriangleMesh mesh) {
   }
 }
 
-TriangleMesh patch_of(const Scene& scene, TriangleMesh mesh) {
+TriangleMesh patch_around_centre(const Scene& scene, TriangleMesh mesh) {
   const Vec3 centre = scene.point_m("surface.patch.centre_mm");
   const double radius_m = scene.metres("surface.patch.radius_mm");
   const Surface whole = surface_of(scene, std::move(mesh));
@@ -61,6 +64,30 @@ TriangleMesh patch_of(const Scene& scene, TriangleMesh mesh) {
     return patch_around(whole, centre, radius_m);
   } catch (const InvalidInput&) {
     scene.refuse_value("surface.patch.radius_mm", "large enough for a triangle of the mesh around the centre: take a larger one");
+  }
+}
+
+bool limits_reach(const Scene& scene) { return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0; }
+
+bool gives_tests(const Scene& scene) { return scene.gives("surface.patch.box_mm") || scene.gives("surface.patch.facing"); }
+
+TriangleMesh patch_by_tests(const Scene& scene, TriangleMesh mesh) {
+  PatchTests tests;
+  if (scene.gives("surface.patch.box_mm")) {
+    const std::vector<double> box = scene.numbers("surface.patch.box_mm");
+    tests.box = {Vec3(box[0], box[1], box[2]) / 1000.0, Vec3(box[3], box[4], box[5]) / 1000.0};
+  }
+  if (scene.gives("surface.patch.facing")) {
+    const std::vector<double> direction = scene.numbers("surface.patch.facing");
+    tests.facing = {Vec3(direction[0], direction[1], direction[2]), scene.number("surface.patch.within_deg") * std::numbers::pi / 180.0};
+  }
+  std::optional<Vec3> centre;
+  if (scene.gives("surface.patch.centre_mm")) centre = scene.point_m("surface.patch.centre_mm");
+  const Surface whole = surface_of(scene, std::move(mesh));
+  try {
+    return patch_passing(whole, tests, centre);
+  } catch (const InvalidInput&) {
+    scene.refuse("surface.patch", "leaves no triangle of the mesh: take a larger box or angle (palpate info tells where the mesh is)");
   }
 }
 
@@ -103,12 +130,18 @@ void check_size(const Scene& scene, const Surface& surface) {
 
 /// A scene is sound as a whole before anything is read for it.
 void check_all(const Scene& scene) {
+  const std::string strategy = scene.word("plan.acquisition");
+  if (limits_reach(scene) && (strategy == "raster" || strategy == "refinement"))
+    scene.refuse("plan.acquisition",
+                 "is " + strategy + ", a scan that takes no account of robot.shaft_direction and robot.clearance_mm: leave them out");
   field_of(scene);
   level_rule_of(scene);
   plan_of(scene);
   robot_of(scene);
   if (scene.gives("surface.patch.radius_mm") && !scene.gives("surface.patch.centre_mm"))
     scene.refuse("surface.patch", "has a radius but no centre_mm");
+  if (scene.gives("surface.patch.centre_mm") && !scene.gives("surface.patch.radius_mm") && !gives_tests(scene))
+    scene.refuse("surface.patch.radius_mm", "is needed here: how far the patch goes from its centre_mm (or give box_mm, or facing)");
 }
 
 KernelFamily kernel_family(const std::string& name) {
@@ -119,13 +152,24 @@ KernelFamily kernel_family(const std::string& name) {
   return KernelFamily::SquaredExponential;
 }
 
+void warn_of_reach(const Scene& scene, Tissue& tissue) {
+  const std::optional<std::vector<int>> reached = reachable_of(scene, tissue.surface);
+  if (!reached) return;
+  double reached_m2 = 0.0;
+  for (const int vertex : *reached) reached_m2 += tissue.surface.vertex_areas()[vertex];
+  const double percent = 100.0 * (1.0 - reached_m2 / tissue.surface.area());
+  if (percent > 0.05)
+    tissue.warnings.push_back(scene.name() + ": " + fixed(percent, 1) +
+                              " % of the tissue cannot be reached: it is no candidate for a touch, and the boundary there is a guess.");
+}
+
 /// The chart is what the boundary is drawn in; without one, say what to do.
 void check_chart(const Scene& scene, const Surface& surface) {
   if (surface.has_chart()) return;
   if (surface.topology().is_closed()) {
     scene.refuse("surface",
                  "the mesh is a closed surface, which cannot be laid flat as a whole: choose a flat part to work on by surface.patch "
-                 "(centre_mm and radius_mm)");
+                 "(centre_mm and radius_mm, or box_mm, or facing)");
   }
   scene.refuse("surface",
                "the tissue is curved, and boundaries are drawn on flat tissue only so far: choose a flat part by surface.patch (palpate "
@@ -152,11 +196,13 @@ Tissue tissue_of(const Scene& scene) {
   check_all(scene);
   std::vector<std::string> warnings = scene.warnings();
   TriangleMesh mesh = mesh_of(scene, warnings);
-  if (scene.gives("surface.patch.centre_mm")) mesh = patch_of(scene, std::move(mesh));
+  if (scene.gives("surface.patch.radius_mm")) mesh = patch_around_centre(scene, std::move(mesh));
+  if (gives_tests(scene)) mesh = patch_by_tests(scene, std::move(mesh));
   if (scene.gives("surface.refine_mm")) mesh = refined(scene, std::move(mesh));
   Tissue tissue{surface_of(scene, std::move(mesh)), std::move(warnings)};
   check_chart(scene, tissue.surface);
   check_size(scene, tissue.surface);
+  warn_of_reach(scene, tissue);
   return tissue;
 }
 
@@ -236,6 +282,26 @@ Robot robot_of(const Scene& scene) {
     scene.refuse("robot.from_tissue", without("Robot: from_tissue ", error.what()));
   }
   return robot;
+}
+
+Access access_of(const Scene& scene) {
+  Access access;
+  if (scene.gives("robot.shaft_direction")) {
+    const std::vector<double> direction = scene.numbers("robot.shaft_direction");
+    const Eigen::Matrix3d to_robot = robot_of(scene).from_tissue.topLeftCorner<3, 3>();
+    access.shaft_direction = to_robot.transpose() * Vec3(direction[0], direction[1], direction[2]);
+  }
+  access.cone_rad = scene.number("robot.cone_deg") * std::numbers::pi / 180.0;
+  access.clearance_m = scene.metres("robot.clearance_mm");
+  return access;
+}
+
+std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface) {
+  if (!limits_reach(scene)) return std::nullopt;
+  std::vector<int> vertices = reachable_vertices(surface, access_of(scene));
+  if (vertices.empty())
+    scene.refuse("robot", "reaches no tissue: with this shaft_direction, cone_deg and clearance_mm nothing can be touched");
+  return vertices;
 }
 
 Phantom phantom_of(const Scene& scene, const Surface& surface) {

@@ -18,6 +18,8 @@ namespace palpation {
 namespace {
 
 constexpr double kFarthestCentre_m = 0.005;
+constexpr double kStep = 0.028;             // along a horseshoe's arc, in half widths
+constexpr double kMostSteps = 20'000;       // what an arc of 560 half widths takes
 constexpr int kMostOutlinePoints = 10'000;  // each is compared with each
 
 /// A tumour's place in the list, for messages.
@@ -167,22 +169,14 @@ Field distance_inside(const Surface& surface, const Disk& disk, const Name& name
   return disk.radius_m - distance_from(surface, centre).array();
 }
 
-double mean_edge_m(const Surface& surface) {
-  double sum = 0.0;
-  for (int face = 0; face < surface.face_count(); ++face) {
-    const Eigen::Vector3i corners = surface.triangle(face);
-    for (int i = 0; i < 3; ++i) sum += (surface.vertex(corners[(i + 1) % 3]) - surface.vertex(corners[i])).norm();
-  }
-  return sum / (3.0 * surface.face_count());
-}
-
-/// An arc in the tangent plane at the centre, taken down to the surface, in steps of half an edge of the mesh.
+/// An arc in the tangent plane at the centre, taken down to the surface, in steps so short that at the outline, a half width away, the
+/// distance to the nearest step is that to the arc to a ten-thousandth: sqrt(1 + (step / 2)^2) - 1 < 1e-4 in half widths.
 std::vector<SurfacePoint> arc_on(const Surface& surface, const Horseshoe& horseshoe, const SurfacePoint& centre, const Name& name) {
   const Vec3 normal = surface.normal(centre);
   const Vec3 tangential = horseshoe.facing - normal.dot(horseshoe.facing) * normal;
   const Vec3 x = direction_of(tangential, horseshoe.facing.norm(), name);
   const Vec3 y = normal.cross(x);
-  const double steps = std::ceil(horseshoe.arc_radius_m * horseshoe.arc_rad / (0.5 * mean_edge_m(surface)));
+  const double steps = std::min(kMostSteps, std::ceil(horseshoe.arc_radius_m * horseshoe.arc_rad / (kStep * horseshoe.half_width_m)));
   std::vector<SurfacePoint> arc;
   for (double step = 0.0; step <= steps; step += 1.0) {
     const double angle = horseshoe.arc_rad * (step / steps - 0.5);

@@ -6,6 +6,8 @@
 
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/make_phantom.h"
+#include "palpation/geometry/path.h"
 
 namespace palpation {
 namespace {
@@ -53,6 +55,40 @@ TEST(Waypoints, TurnByTheLeastRotation) {
   const Eigen::AngleAxisd turn(poses[1].rotation * poses[0].rotation.transpose());
   const double least = std::acos(poses[0].rotation.col(2).dot(poses[1].rotation.col(2)));
   EXPECT_NEAR(turn.angle(), least, 1e-9);
+}
+
+/// A rotation that turns one direction to another about the axis across both, by their angle (Rodrigues' formula).
+Eigen::Matrix3d least_rotation(const Vec3& from, const Vec3& to) {
+  const Vec3 axis = from.cross(to);
+  const double cosine = from.dot(to);
+  Eigen::Matrix3d cross;
+  cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + cross + cross * cross / (1.0 + cosine);
+}
+
+TEST(Waypoints, FollowCurvedTissueFromOutsideEachPoseTheOneBeforeUnderTheLeastRotation) {
+  for (const Sheet& sheet : {cylinder_sheet(), dome_sheet(), saddle_sheet(), wave_sheet()}) {
+    Random random(1);
+    const PhantomMesh phantom = make_phantom(sheet, 0.00025, 0.3, random);
+    const Surface tissue(phantom.mesh);
+    const int first = 1234, last = tissue.vertex_count() - 2345;
+    const std::vector<SurfacePoint> way = way_between(tissue, tissue.at_vertex(first), tissue.at_vertex(last), 0.00025);
+    ASSERT_GT(way.size(), 40u);
+    const std::vector<Waypoint> poses = waypoints(tissue, way, {});
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      Vec2 parameters = Vec2::Zero();
+      for (int i = 0; i < 3; ++i) parameters += way[k].barycentric[i] * phantom.parameters.row(tissue.triangle(way[k].face)[i]).transpose();
+      const Vec3 truth = sheet.normal(parameters);
+      EXPECT_LT(std::atan2(poses[k].normal.cross(truth).norm(), poses[k].normal.dot(truth)), 1.0 * 3.1415926 / 180.0);
+      EXPECT_GT((poses[k].approach - poses[k].position).dot(truth), 0.0049);
+      EXPECT_LT((poses[k].indented - poses[k].position).dot(truth), -0.0019);
+      if (k == 0) continue;
+      const Eigen::Matrix3d turn = least_rotation(poses[k - 1].rotation.col(2), poses[k].rotation.col(2));
+      EXPECT_LT((poses[k].rotation - turn * poses[k - 1].rotation).cwiseAbs().maxCoeff(), 1e-9);
+      // 0.25 mm of tissue curved by at most 1 / 5 mm, and what the mesh adds.
+      EXPECT_LT(std::acos(std::min(1.0, poses[k].normal.dot(poses[k - 1].normal))), 0.05 + 0.02);
+    }
+  }
 }
 
 TEST(Robot, RefusesATransformThatIsNotRigid) {

@@ -242,6 +242,20 @@ void add_domain(Cases& cases) {
   add("C12", "a patch smaller than a triangle",
       surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "patch": {"centre_mm": [10, 10, 0], "radius_mm": 0.1})"),
       {": surface.patch.radius_mm: is 0.1, but must be large enough for a triangle"});
+  add("C12", "a patch in a box",
+      scene({{"surface", R"({"plane": {"size_mm": [20, 20], "vertices": [11, 11]}, "patch": {"box_mm": [3, 3, -1, 17, 17, 1]}})"},
+             {"plan", R"({"initial": {"count": 4}, "batches": 0})"}}),
+      {});
+  add("C12", "a patch in a box without inside",
+      surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "patch": {"box_mm": [3, 3, 0, 17, 17, 0]})"),
+      {": surface.patch.box_mm: is [3,3,0,17,17,0], but must be two corners"});
+  add("C12", "a patch in a box beside the tissue",
+      surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "patch": {"box_mm": [3, 3, 5, 17, 17, 6]})"),
+      {": surface.patch: leaves no triangle"});
+  add("C12", "a patch that faces away", surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "patch": {"facing": [0, 0, -1]})"),
+      {": surface.patch: leaves no triangle"});
+  add("C12", "a patch that faces nowhere", surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "patch": {"facing": [0, 0, 0]})"),
+      {": surface.patch.facing: must not be zero"});
   add("C12", "a patch larger than the tissue",
       surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "patch": {"centre_mm": [10, 10, 0], "radius_mm": 1e6})"), {});
   add("C12", "triangles of no size", surface(R"("plane": {"size_mm": [20, 20], "vertices": [6, 6]}, "refine_mm": 0)"),

@@ -235,6 +235,22 @@ class Tool(unittest.TestCase):
         self.assertIn("Flat", words)
         self.assertIn("12.500 cm2", words)
 
+    def test_mesh_makes_curved_phantoms_too(self):
+        for kind, area in (("cylinder", 12.5), ("dome", 12.48), ("saddle", 14.8), ("wave", 13.7), ("folded", 16.2)):
+            made = self.folder / f"{kind}.ply"
+            self.done("mesh", kind, "--edge-mm", 0.8, "--jitter", 0.3, made)
+            words = self.done("info", made, "--unit", "mm")
+            self.assertIn("Curved", words)
+            self.assertAlmostEqual(float(words.split("Area: ")[1].split()[0]), area, delta=0.15, msg=kind)
+        self.assertIn("--reach-mm", self.refused(3, "mesh", "wave", "--reach-mm", 3, self.folder / "x.ply"))
+        self.assertIn("--vertices", self.refused(3, "mesh", "dome", "--vertices", 30, 30, self.folder / "x.ply"))
+
+    def test_the_robot_touches_only_what_it_reaches(self):
+        reached = ["--set", "robot.shaft_direction=[0,0,1]", "--set", "robot.clearance_mm=3"]
+        self.done("simulate", self.scene, *reached, "--set", "plan.batches=0")
+        self.assertIn("reaches no tissue", self.refused(3, "simulate", self.scene, "--set", "robot.shaft_direction=[0,0,-1]"))
+        self.assertIn("takes no account", self.refused(3, "simulate", self.scene, *reached, "--set", "plan.acquisition=raster"))
+
     def test_the_classical_scans_run_too(self):
         for strategy in ("raster", "refinement"):
             words = self.done("simulate", self.scene, "--set", f"plan.acquisition={strategy}", "--set", "field.length_mm=3.3", "--quiet", "--out", self.folder / strategy)

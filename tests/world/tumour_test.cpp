@@ -8,6 +8,8 @@
 #include <string>
 
 #include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
+#include "palpation/geometry/make_phantom.h"
 #include "world/tissue.h"
 
 namespace palpation {
@@ -253,6 +255,27 @@ TEST(SignedDistance, SaysThatAnOutlineNeedsFlatTissueSoFar) {
   const Outline triangle{{{0.004, 0.004, 0.0}, {0.016, 0.005, 0.0}, {0.009, 0.017, 0.0}}};
   EXPECT_EQ(message_of(bent_sheet(0.020, 0.020, 0.005, 0.050), {triangle}),
             "signed_distance: tumour 1: an outline needs flat tissue so far");
+}
+
+/// Mean error of a geodesic disk's area on a sphere of radius R, relative to 2 pi R^2 (1 - cos(r / R)), over some meshes.
+double area_error_on_dome(double edge_m, int meshes) {
+  constexpr double kSphere_m = 0.025, kDisk_m = 0.00625;
+  const double area = 2.0 * std::numbers::pi * kSphere_m * kSphere_m * (1.0 - std::cos(kDisk_m / kSphere_m));
+  double mean = 0.0;
+  Random random(1);
+  for (int mesh = 0; mesh < meshes; ++mesh) {
+    const Surface dome(make_phantom(dome_sheet({.reach_m = 0.009}), edge_m, 0.3, random).mesh);
+    const Field distance = distance_of(dome, Disk{.centre_m = {0.0003, -0.0002, 0.0}, .radius_m = kDisk_m});
+    mean += (superlevel_area(dome, distance, 0.0) / area - 1.0) / meshes;
+  }
+  return std::abs(mean);
+}
+
+TEST(SignedDistance, OfADiskOnADomeHasTheAreaOfTheClosedFormToSecondOrder) {
+  const double coarse = area_error_on_dome(0.001, 16), middle = area_error_on_dome(0.0005, 8), fine = area_error_on_dome(0.00025, 4);
+  EXPECT_LT(fine, 4e-4);
+  EXPECT_NEAR(0.5 * std::log2(coarse / fine), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(coarse / middle), 2.0, 0.2);  // jitter
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ enum class Evaluation {
 struct BatchOptions {
   int size = 10;
   double least_spacing_m =
-      0.0;  ///< no two picks closer than this in a straight line; 0: a vertex may even be picked again, as the paper allows
+      0.0;  ///< no two picks closer than this along the surface; 0: a vertex may even be picked again, as the paper allows
   Evaluation evaluation = Evaluation::Automatic;
   double way_reading_m = 0.0;          ///< the probe also reads on its way, once per this length, and the picks count that; 0: it does not
   std::optional<SurfacePoint> from{};  ///< where the probe is
@@ -37,7 +37,7 @@ struct Batch {
 /// not finite, a candidate is no vertex or out of order, a score is NaN, or Lazy is asked of an acquisition that does not promise to grow
 /// with stddev.
 ///
-/// With readings on the way, a pick also removes the variance that those will: on the straight line to it from the nearest of the probe's
+/// With readings on the way, a pick also removes the variance that those will: on the way to it (path.h) from the nearest of the probe's
 /// place and the picks before. The tour is not known before the batch is; this is what it comes to but for detours.
 Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const Level& level, std::span<const int> candidates,
                    const BatchOptions& options);
@@ -48,8 +48,8 @@ struct Supposed {
   double noise_variance = 0.0;
 };
 
-/// The readings on the straight line to a vertex from the nearest of `places`: one every two millimetres, at the nearest vertex, ends left
-/// out. None where there is no place, or `way_reading_m` is 0.
+/// The readings on the way to a vertex from the nearest of `places`, in a straight line: one every two millimetres, at a nearest vertex,
+/// ends left out. None where there is no place, or `way_reading_m` is 0.
 std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const Vec3> places, int vertex, double way_reading_m);
 
 }  // namespace palpation

@@ -37,7 +37,8 @@ using Tumour = std::variant<Disk, Horseshoe, Outline>;
 /// outline of their union as single shapes counts: the greatest of their signed distances. Without any: minus infinity everywhere.
 ///
 /// On planar tissue shapes live in its plane, also beyond the border, which may cut them: distances are straight and exact, without a
-/// search tree. Elsewhere they are those of distance_from (to a horseshoe's arc: from places half an edge of the mesh apart on it). Throws
+/// search tree. Elsewhere they are those of distance_from (to a horseshoe's arc: from places so close on it that its
+/// outline is exact to a ten-thousandth of its half width). Throws
 /// InvalidInput naming the tumour's number (from 1) and the rule: radii and widths positive and finite, half_width below arc_radius, on
 /// curved tissue arc_radius at most the tissue's diameter, 0 < arc <= 2 pi, `facing` not along the normal, an outline of at least three
 /// distinct and at most 10,000 points that does not cross or touch itself, centres and an outline's points no farther from the surface than
