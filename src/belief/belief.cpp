@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "belief/correlations.h"
 #include "belief/rows.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
@@ -105,17 +106,22 @@ void Belief::keep_rows(int count) {
   explained_ = covered_ = v_ones_ = v_whitened_ = Field::Zero(vertices);
   ones_.conservativeResize(row_count());
   whitened_.conservativeResize(row_count());
-  for (int vertex = 0; vertex < vertices; ++vertex) {
-    const Vec3 x = prior_.coordinates(vertex);
-    for (const auto& rows : rows_) {
-      for (int row = 0; row < rows->count; ++row) {
-        const double v = rows->value(row, vertex);
-        const double k = correlation(prior_.kernel(), x - sites_[rows->first + row].coordinates);
-        explained_[vertex] += v * v;
-        covered_[vertex] += k * k;
-        v_ones_[vertex] += v * ones_[rows->first + row];
-        v_whitened_[vertex] += v * whitened_[rows->first + row];
-        if (prior_.has_slope()) v_tilts_.row(vertex) += v * tilts_.row(rows->first + row);
+  if (rows_.empty()) return;
+  const TileCorrelations correlations(prior_, std::span(sites_).first(static_cast<std::size_t>(row_count())));
+  std::vector<double> k(static_cast<std::size_t>(row_count()) * kLanes);
+  for (int tile = 0; tile < tile_count(prior_.surface()); ++tile) {
+    correlations(tile, k.data());
+    for (int vertex = tile * kLanes; vertex < std::min((tile + 1) * kLanes, vertices); ++vertex) {
+      for (const auto& rows : rows_) {
+        for (int row = 0; row < rows->count; ++row) {
+          const double v = rows->value(row, vertex);
+          const double k_row = k[static_cast<std::size_t>((rows->first + row) * kLanes + vertex % kLanes)];
+          explained_[vertex] += v * v;
+          covered_[vertex] += k_row * k_row;
+          v_ones_[vertex] += v * ones_[rows->first + row];
+          v_whitened_[vertex] += v * whitened_[rows->first + row];
+          if (prior_.has_slope()) v_tilts_.row(vertex) += v * tilts_.row(rows->first + row);
+        }
       }
     }
   }
@@ -124,13 +130,8 @@ void Belief::keep_rows(int count) {
 /// The rows of L for the sites from `first` on: row-append Cholesky, which is as accurate as factoring anew.
 Eigen::MatrixXd Belief::factor_of_new_sites(int first) const {
   const int count = site_count() - first;
-  Eigen::MatrixXd correlations(site_count(), count);
-  for (int j = 0; j < count; ++j) {
-    for (int i = 0; i <= first + j; ++i) {
-      correlations(i, j) = correlation(prior_.kernel(), sites_[i].coordinates - sites_[first + j].coordinates);
-    }
-    correlations(first + j, j) += diagonal_[first + j];
-  }
+  Eigen::MatrixXd correlations = palpation::correlations(prior_, prior_.kernel(), sites_, first);
+  for (int j = 0; j < count; ++j) correlations(first + j, j) += diagonal_[first + j];
   for (const auto& rows : rows_) {
     auto right_side = correlations.middleRows(rows->first, rows->count);
     right_side.noalias() -= rows->factor.leftCols(rows->first) * correlations.topRows(rows->first);
@@ -180,7 +181,7 @@ void Belief::append_rows() {
   if (prior_.has_slope()) {
     tilts_.conservativeResize(site_count(), 3);
     for (int row = 0; row < count; ++row) {
-      const Vec3 tilt = prior_.tilt(sites_[first + row].coordinates);
+      const Vec3 tilt = prior_.tilt(sites_[first + row].place.coordinates);
       tilts_.row(first + row) =
           (tilt.transpose() - factor.row(row).head(first + row) * tilts_.topRows(first + row)) / factor(row, first + row);
     }
@@ -189,18 +190,14 @@ void Belief::append_rows() {
   const Surface& surface = prior_.surface();
   fresh->v = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(tile_count(surface)) * count * kLanes);
   const int stride = static_cast<int>(factor.cols());
+  const TileCorrelations correlations(prior_, std::span(sites_).subspan(static_cast<std::size_t>(first)));
   for_ranges(tile_count(surface), kTilesAtOnce, [&](int first_tile, int last_tile) {
     for (int tile = first_tile; tile < last_tile; ++tile) {
       double* rows = fresh->tile(tile);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int vertex = std::min(tile * kLanes + lane, surface.vertex_count() - 1);
-        const bool real = tile * kLanes + lane == vertex;
-        const Vec3 x = prior_.coordinates(vertex);
-        for (int row = 0; row < count; ++row) {
-          const double k = correlation(prior_.kernel(), x - sites_[first + row].coordinates);
-          rows[row * kLanes + lane] = k;
-          if (real) covered_[vertex] += k * k;
-        }
+      correlations(tile, rows);
+      for (int vertex = tile * kLanes; vertex < std::min((tile + 1) * kLanes, surface.vertex_count()); ++vertex) {
+        for (int row = 0; row < count; ++row)
+          covered_[vertex] += rows[row * kLanes + vertex % kLanes] * rows[row * kLanes + vertex % kLanes];
       }
       for (const auto& block : rows_) subtract_product(factor.data() + block->first, stride, block->tile(tile), block->count, rows, count);
       solve_triangle(factor.data() + first, stride, rows, count);
@@ -314,14 +311,12 @@ Marginals Belief::at(std::span<const SurfacePoint> points, Part part) const {
   Marginals result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
   for_ranges(count, 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const Vec3 x = prior_.coordinates(points[i]);
-      Eigen::VectorXd k(site_count());
+      const Place place = prior_.place(points[i]);
       int same_site = -1;
       for (int site = 0; site < site_count(); ++site) {
-        k[site] = correlation(prior_.kernel(), x - sites_[site].coordinates);
-        if (x == sites_[site].coordinates) same_site = site;
+        if (place == sites_[site].place) same_site = site;
       }
-      const Eigen::VectorXd v = solve_lower(k);
+      const Eigen::VectorXd v = solve_lower(correlations_with(prior_, place, sites_));
       double variance = std::clamp(1.0 - v.squaredNorm(), 0.0, 1.0);
       if (same_site >= 0 && diagonal_[same_site] < kSmallNoise) variance = site_variance(same_site);
       const double residual = 1.0 - v.dot(ones_);
@@ -329,7 +324,7 @@ Marginals Belief::at(std::span<const SurfacePoint> points, Part part) const {
       result.variance[i] = signal_variance * variance;
       result.mean[i] = constant_ + (v.dot(whitened_) - (constant_ - origin_) * v.dot(ones_));
       if (prior_.has_slope()) {
-        const Vec3 tilt = tilt_residual(x, tilts_.transpose() * v, residual, part);
+        const Vec3 tilt = tilt_residual(place.coordinates, tilts_.transpose() * v, residual, part);
         result.variance[i] += signal_variance * tilt.dot(tilt_covariance_ * tilt);
         result.mean[i] += tilt_.dot(tilt);
       }
@@ -371,16 +366,17 @@ double Belief::log_marginal_likelihood() const {
   return result;
 }
 
-CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belief), coordinates_(belief.prior_.coordinates(vertex)) {
+CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belief) {
   require(vertex >= 0 && vertex < belief.prior_.surface().vertex_count(), "CovarianceWith", "vertex " + std::to_string(vertex),
           "is not on the surface");
+  correlations_ = std::make_shared<const TileCorrelations>(belief.prior_, vertex);
   column_.reserve(static_cast<std::size_t>(belief.site_count()));
   for (const auto& rows : belief.rows_) {
     for (int row = 0; row < rows->count; ++row) column_.push_back(rows->value(row, vertex));
   }
   residual_ones_ = 1.0 - belief.v_ones_[vertex];
   if (belief.prior_.has_slope()) {
-    const Vec3 tilt = belief.tilt_residual(coordinates_, belief.v_tilts_.row(vertex), residual_ones_, Part::Whole);
+    const Vec3 tilt = belief.tilt_residual(belief.prior_.coordinates(vertex), belief.v_tilts_.row(vertex), residual_ones_, Part::Whole);
     tilt_weights_ = belief.tilt_covariance_ * tilt;
   }
 }
@@ -390,15 +386,16 @@ void CovarianceWith::operator()(int first, int count, double* out) const {
   const double signal_variance = belief_.signal_sd() * belief_.signal_sd();
   const double constant_share = belief_.constant_is_unsure() ? residual_ones_ / belief_.constant_precision_ : 0.0;
   for (int tile = first / kLanes; tile * kLanes < first + count; ++tile) {
-    double covariance[kLanes] = {};
+    double covariance[kLanes] = {}, prior_correlations[kLanes];
+    (*correlations_)(tile, prior_correlations);
     for (const auto& rows : belief_.rows_) {
       subtract_product(column_.data() + rows->first, 0, rows->tile(tile), rows->count, covariance, 1);
     }
     for (int lane = 0; lane < kLanes; ++lane) {
       const int vertex = tile * kLanes + lane;
       if (vertex < first || vertex >= first + count) continue;
-      const double prior_correlation = correlation(prior.kernel(), prior.coordinates(vertex) - coordinates_);
-      out[vertex - first] = signal_variance * (prior_correlation + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
+      out[vertex - first] =
+          signal_variance * (prior_correlations[lane] + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
       if (!prior.has_slope()) continue;
       const Vec3 tilt =
           belief_.tilt_residual(prior.coordinates(vertex), belief_.v_tilts_.row(vertex), 1.0 - belief_.v_ones_[vertex], Part::Whole);

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+#include "belief/correlations.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -120,7 +121,7 @@ using Tilts = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 Tilts tilts_of(const Prior& prior, std::span<const Site> sites) {
   Tilts tilts(sites.size(), 3);
-  for (std::size_t i = 0; i < sites.size(); ++i) tilts.row(static_cast<Eigen::Index>(i)) = prior.tilt(sites[i].coordinates);
+  for (std::size_t i = 0; i < sites.size(); ++i) tilts.row(static_cast<Eigen::Index>(i)) = prior.tilt(sites[i].place.coordinates);
   return tilts;
 }
 
@@ -186,14 +187,7 @@ LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site>
   const double signal_variance = at.signal_sd * at.signal_sd;
   const double noise_variance = at.noise_sd * at.noise_sd;
 
-  Eigen::MatrixXd k(n, n), k_slope(n, n);  // correlations and their derivative by log length
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = j; i < n; ++i) {
-      const Vec3 difference = sites[i].coordinates - sites[j].coordinates;
-      k(i, j) = k(j, i) = correlation(kernel, difference);
-      k_slope(i, j) = k_slope(j, i) = correlation_slope(kernel, difference);
-    }
-  }
+  const auto [k, k_slope] = correlation_slopes(prior, kernel, sites);
   Eigen::VectorXd readings(n), variances(n), variance_slopes(n), mean_slopes(n);
   LikelihoodGradient result;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -255,15 +249,12 @@ double log_likelihood(const Prior& prior, std::span<const Site> sites, const Hyp
   const double noise_variance = at.noise_sd * at.noise_sd;
   const double constant_sd = prior.constant().sd;
   double result = 0.0;
-  Eigen::MatrixXd s(n, n);
+  Eigen::MatrixXd s = at.signal_sd * at.signal_sd * correlations(prior, kernel, sites);
   Eigen::MatrixXd right(n, 5);  // readings, constant, slope
   right.rightCols<3>() = tilts_of(prior, sites);
   for (Eigen::Index j = 0; j < n; ++j) {
     const MergedReading merged = merge(sites[j], noise_variance);
     result += scatter_log_likelihood(sites[j], noise_variance);
-    for (Eigen::Index i = j; i < n; ++i) {
-      s(i, j) = at.signal_sd * at.signal_sd * correlation(kernel, sites[i].coordinates - sites[j].coordinates);
-    }
     s(j, j) += merged.variance;
     right(j, 0) = merged.mean;
     right(j, 1) = std::isinf(constant_sd) ? 1.0 : constant_sd;
@@ -313,8 +304,17 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
     from_start.push_back(std::log(first > 0.0 ? first : median));
     from_prior.push_back(std::log(median));
   };
-  free_variable(0, options.length_m, options.length_median_m * 0.1, options.length_median_m * 10.0, start.length_m,
-                options.length_median_m);
+  double least_length_m = options.length_median_m * 0.1, most_length_m = options.length_median_m * 10.0;
+  if (prior.metric() == Metric::Intrinsic && !options.length_m) {
+    const LengthRange lengths = prior.lengths();
+    require(lengths.least_m < lengths.most_m, "learn", "an intrinsic prior of one length, " + text_of(lengths.least_m) + " m,",
+            "has no other to learn: give Prior the range, as lengths_to_learn has it");
+    least_length_m = std::max(least_length_m, lengths.least_m);
+    most_length_m = std::min(most_length_m, lengths.most_m);
+    require(least_length_m < most_length_m, "learn", "length_median_m = " + text_of(options.length_median_m),
+            "must suit the lengths of the intrinsic prior, " + text_of(lengths.least_m) + " to " + text_of(lengths.most_m));
+  }
+  free_variable(0, options.length_m, least_length_m, most_length_m, start.length_m, options.length_median_m);
   free_variable(1, options.signal_sd, 0.25 * range, 10.0 * range, start.signal_sd, 0.5 * range);
   free_variable(2, options.noise_sd, kLeastNoise * range, 2.0 * range, start.noise_sd, std::sqrt(kRatioMedian) * 0.5 * range);
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "belief/tile.h"
+#include "palpation/base/tile.h"
 #include "palpation/belief/belief.h"
 
 namespace palpation {

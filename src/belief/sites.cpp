@@ -6,13 +6,15 @@
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
 
-using Place = std::tuple<double, double, double>;
+/// In the intrinsic metric two sheets may touch: their modes differ, and so does the sum.
+using PlaceKey = std::tuple<double, double, double, double>;
 
 void check(const Palpation& palpation, std::size_t number) {
   const std::string name = "palpation " + std::to_string(number);
@@ -35,14 +37,15 @@ MergedReading merge_exact(const std::vector<double>& readings) {
 
 std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> palpations) {
   std::vector<Site> sites;
-  std::map<Place, std::size_t> site_at;
+  std::map<PlaceKey, std::size_t> site_at;
   for (std::size_t number = 0; number < palpations.size(); ++number) {
     const Palpation& palpation = palpations[number];
     if (!palpation.set_aside.empty()) continue;
     check(palpation, number);
-    const Vec3 x = prior.coordinates(palpation.where);
-    const auto [entry, is_new] = site_at.try_emplace(Place(x.x(), x.y(), x.z()), sites.size());
-    if (is_new) sites.push_back({palpation.where, x, {}, {}, {}});
+    Place place = prior.place(palpation.where);
+    const Vec3& x = place.coordinates;
+    const auto [entry, is_new] = site_at.try_emplace(PlaceKey(x.x(), x.y(), x.z(), place.modes.sum()), sites.size());
+    if (is_new) sites.push_back({palpation.where, std::move(place), {}, {}, {}});
     Site& site = sites[entry->second];
     if (std::isnan(palpation.noise_variance)) {
       site.plain.push_back(palpation.reading);

@@ -166,8 +166,9 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
                              {plateau_variance, plateau_variance, shape.slope_log_sd * shape.slope_log_sd}};
   const Kernel kernel{.family = KernelFamily::Matern52, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};
   const Layout layout(belief.prior());
-  const Metric metric = surface.is_planar() ? belief.prior().metric() : layout.metric();
-  const Prior correction(surface, metric, kernel, Constant{.sd = 0.0});
+  // On a plane all metrics are one: the intrinsic one needs no waves there.
+  const bool as_believed = surface.is_planar() && belief.prior().metric() != Metric::Intrinsic;
+  const Prior correction(surface, as_believed ? belief.prior().metric() : layout.metric(), kernel, Constant{.sd = 0.0});
   struct Start {
     EdgeData data;
     Eigen::MatrixXd prior_covariance;

@@ -301,7 +301,7 @@ std::vector<int> Exploration::searching_stops() const {
     Kernel kernel = field_.kernel;
     if (field_.learn_length) kernel.length_m = field_.length_median_m;
     kernel.signal_sd = spread_of(readings).sd;
-    const Belief doubting(Prior(surface_, field_.metric, kernel, field_.constant), {.noise_sd = kDoubt * kernel.signal_sd});
+    const Belief doubting(unlearned(surface_, field_).prior().with(kernel), {.noise_sd = kDoubt * kernel.signal_sd});
     options.size = static_cast<int>(std::floor(kSecondLooks * plan_.batch.size));
     stops = choose_batch(doubting.condition_on(belief_.palpations()), ucb(0.5), Level{}, candidates(), options).vertices;
     options.size = plan_.batch.size;

@@ -47,9 +47,7 @@ Slope slope_of(const Surface& surface, const FieldModel& field, std::size_t plac
   return slope_across(surface, field.metric, kSlopeToHalfContrast * half_contrast);
 }
 
-Prior with_slope(const Prior& prior, const Slope& slope) {
-  return Prior(prior.surface(), prior.metric(), prior.kernel(), prior.constant(), slope);
-}
+Prior with_slope(const Prior& prior, const Slope& slope) { return prior.with(prior.kernel(), prior.constant(), slope); }
 
 }  // namespace
 
@@ -70,7 +68,8 @@ Belief unlearned(const Surface& surface, const FieldModel& field) {
   BeliefOptions options = field.belief;
   if (field.learn_noise) options.noise_sd = 0.1 * kernel.signal_sd;
   if (field.learns()) options.standardize = options.noise_is_relative = false;
-  return Belief(Prior(surface, field.metric, kernel, field.constant), options);
+  const LengthRange lengths = field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
+  return Belief(Prior(surface, field.metric, kernel, field.constant, {}, lengths), options);
 }
 
 /// Half the contrast is what the signal's standard deviation stands for.
@@ -122,7 +121,7 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
   kernel.length_m = learned.values.length_m;
   kernel.signal_sd = learned.values.signal_sd / spread.sd;
   slope.sd /= spread.sd;
-  const Prior prior(surface, field.metric, kernel, field.constant, slope);
+  const Prior prior = fresh.prior().with(kernel, field.constant, slope);
   return {Belief(prior, {.noise_sd = learned.values.noise_sd, .standardize = centred}), learned.values, learned.signal_evidence, true,
           shifted.size() < palpations.size()};
 }

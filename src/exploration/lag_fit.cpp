@@ -12,7 +12,7 @@ constexpr double kAtRest_m = 0.00002;  // a fifth of what two lags can be told a
 /// The field's prior about a constant that is not known: where readings belong does not depend on what they have in common.
 Prior for_lag(const Prior& prior) {
   if (std::isinf(prior.constant().sd)) return prior;
-  return Prior(prior.surface(), prior.metric(), prior.kernel(), {}, prior.slope());
+  return prior.with(prior.kernel(), {}, prior.slope());
 }
 
 /// The field of fixed hyperparameters; those in force are in reading units.

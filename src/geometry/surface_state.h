@@ -1,6 +1,7 @@
 /// What the copies of a Surface share.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,7 +11,7 @@
 
 #include "geometry/check_mesh.h"
 #include "geometry/half_edge_mesh.h"
-#include "palpation/geometry/surface.h"
+#include "palpation/geometry/spectrum.h"
 
 namespace palpation {
 
@@ -51,6 +52,9 @@ struct Surface::State {
   mutable std::optional<Vec2> overlap;  ///< where a flat surface lies over itself, in its plane
   mutable std::string chart_fault;      ///< why a curved disk has no chart after all
   mutable std::shared_ptr<const ClosestPoint> closest_point;
+
+  mutable std::mutex spectra_guard;
+  mutable std::map<SpectrumRange, std::shared_ptr<const Spectrum>> spectra;
 
   mutable std::mutex computed_guard;
   mutable std::set<std::string> computed;

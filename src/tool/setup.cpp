@@ -144,6 +144,11 @@ void check_all(const Scene& scene) {
     scene.refuse("surface.patch.radius_mm", "is needed here: how far the patch goes from its centre_mm (or give box_mm, or facing)");
 }
 
+Metric metric_named(const std::string& name) {
+  if (name == "ambient") return Metric::Ambient;
+  return name == "intrinsic" ? Metric::Intrinsic : Metric::Chart;
+}
+
 KernelFamily kernel_family(const std::string& name) {
   if (name == "matern-1/2") return KernelFamily::Matern12;
   if (name == "matern-3/2") return KernelFamily::Matern32;
@@ -208,12 +213,15 @@ Tissue tissue_of(const Scene& scene) {
 
 FieldModel field_of(const Scene& scene) {
   FieldModel field;
-  field.metric = scene.word("field.metric") == "ambient" ? Metric::Ambient : Metric::Chart;
+  field.metric = metric_named(scene.word("field.metric"));
   field.kernel.family = kernel_family(scene.word("field.kernel"));
   if (field.kernel.family == KernelFamily::Periodic) {
     if (field.metric != Metric::Chart) scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
     field.kernel.period_m = scene.metres("field.period_mm");
   }
+  if (field.kernel.family == KernelFamily::Matern12 && field.metric == Metric::Intrinsic)
+    scene.refuse("field.kernel",
+                 "is \"matern-1/2\", which field.metric intrinsic does not have: take squared-exponential, matern-3/2 or matern-5/2");
   field.learn_length = scene.word("field.length_mm") == "learn";
   if (!field.learn_length) field.kernel.length_m = scene.metres("field.length_mm");
   field.learn_signal = scene.word("field.signal_sd") == "learn";

@@ -122,6 +122,8 @@ class Belief {
   Vec3 constant_per_tilt_ = Vec3::Zero();                      // by how much c falls for each
 };
 
+class TileCorrelations;
+
 /// Posterior covariance of the field between one vertex and others: the row that a hypothetical touch there would add.
 class CovarianceWith {
  public:
@@ -133,7 +135,7 @@ class CovarianceWith {
 
  private:
   const Belief& belief_;
-  Vec3 coordinates_;
+  std::shared_ptr<const TileCorrelations> correlations_;
   std::vector<double> column_;        // of V
   double residual_ones_;              // 1 - V' L^-1 1
   Vec3 tilt_weights_ = Vec3::Zero();  // of the slope's residual at the other vertex

@@ -14,7 +14,7 @@ namespace palpation {
 
 struct Site {
   SurfacePoint where;
-  Vec3 coordinates = Vec3::Zero();
+  Place place;
   std::vector<double> plain;            ///< readings whose noise is the field's
   std::vector<double> known;            ///< readings whose noise variance is known ...
   std::vector<double> known_variances;  ///< ... and those variances

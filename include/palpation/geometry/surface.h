@@ -23,6 +23,9 @@
 
 namespace palpation {
 
+class Spectrum;
+struct SpectrumRange;
+
 /// What kind of surface it is.
 struct Topology {
   int components = 0;
@@ -77,8 +80,10 @@ class Surface {
   /// Whether it is planar, or a disk that does not lie flat upon itself. Costs nothing; chart() still refuses the few disks whose
   /// flattening would lie over itself.
   bool has_chart() const;
+  /// The slow waves of the surface's Laplacian (spectrum.h), made once for each range that is asked for. Throws as spectrum_of.
+  std::shared_ptr<const Spectrum> spectrum(const SpectrumRange& range) const;
 
-  /// What has been computed so far beyond the mesh itself, in alphabetical order: of "chart", "geodesics", "search tree".
+  /// What has been computed so far beyond the mesh itself, in alphabetical order: of "chart", "geodesics", "search tree", "spectrum".
   std::vector<std::string> computed() const;
   /// Says that something costly was computed for this surface (used by the functions of this folder).
   void note_computed(const std::string& what) const;

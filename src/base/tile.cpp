@@ -1,4 +1,4 @@
-#include "belief/tile.h"
+#include "palpation/base/tile.h"
 
 #include <cstring>
 

@@ -1,4 +1,5 @@
-/// The innermost loops of the posterior: rows of V over tiles of eight vertices, one cache line a row.
+/// The innermost loops over the vertices, of the posterior and of a surface's waves: rows of values over tiles of eight vertices, one cache
+/// line a row.
 #pragma once
 
 namespace palpation {

@@ -1,0 +1,155 @@
+#include "belief/correlations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "belief/intrinsic.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+double inverse_root(double square) { return 1.0 / std::sqrt(std::max(square, std::numeric_limits<double>::min())); }
+
+/// Rows f / |f| for rows of modes.
+Eigen::MatrixXd unit_rows(Eigen::MatrixXd modes, const Eigen::VectorXd& weights) {
+  modes *= weights.cwiseSqrt().asDiagonal();
+  for (Eigen::Index i = 0; i < modes.rows(); ++i) modes.row(i) *= inverse_root(modes.row(i).squaredNorm());
+  return modes;
+}
+
+Eigen::MatrixXd modes_of(const Spectrum& spectrum, std::span<const Site> sites) {
+  Eigen::MatrixXd modes(sites.size(), spectrum.rank());
+  for (std::size_t i = 0; i < sites.size(); ++i) modes.row(static_cast<Eigen::Index>(i)) = sites[i].place.modes;
+  return modes;
+}
+
+}  // namespace
+
+Eigen::VectorXd inverse_norms(const Spectrum& spectrum, const Eigen::VectorXd& weights) {
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(spectrum.tile_count() * kLanes);
+  for_ranges(spectrum.tile_count(), 64, [&](int first, int last) {
+    for (int number = first; number < last; ++number) {
+      const double* tile = spectrum.tile(number);
+      double sums[kLanes] = {};
+      for (int mode = 0; mode < spectrum.rank(); ++mode) {
+        for (int lane = 0; lane < kLanes; ++lane) sums[lane] += weights[mode] * tile[mode * kLanes + lane] * tile[mode * kLanes + lane];
+      }
+      for (int lane = 0; lane < kLanes && number * kLanes + lane < spectrum.vertex_count(); ++lane) {
+        inverse[number * kLanes + lane] = inverse_root(sums[lane]);
+      }
+    }
+  });
+  return inverse;
+}
+
+Eigen::MatrixXd unit_features(const Prior& prior, std::span<const SurfacePoint> points) {
+  const Spectrum& spectrum = prior.spectrum();
+  Eigen::MatrixXd modes(points.size(), spectrum.rank());
+  for (std::size_t i = 0; i < points.size(); ++i) modes.row(static_cast<Eigen::Index>(i)) = prior.place(points[i]).modes;
+  return unit_rows(std::move(modes), spectral_weights(prior.kernel(), spectrum.values()));
+}
+
+Eigen::MatrixXd correlations(const Prior& prior, const Kernel& kernel, std::span<const Site> sites, int first) {
+  const auto n = static_cast<Eigen::Index>(sites.size()), columns = n - first;
+  if (prior.metric() == Metric::Intrinsic) {
+    const Eigen::MatrixXd features = unit_rows(modes_of(prior.spectrum(), sites), spectral_weights(kernel, prior.spectrum().values()));
+    Eigen::MatrixXd result = features * features.bottomRows(columns).transpose();
+    for (Eigen::Index j = 0; j < columns; ++j) result(first + j, j) = 1.0;
+    return result;
+  }
+  Eigen::MatrixXd result(n, columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    for (Eigen::Index i = 0; i <= first + j; ++i) {
+      result(i, j) = correlation(kernel, sites[i].place.coordinates - sites[first + j].place.coordinates);
+      if (i >= first) result(first + j, i - first) = result(i, j);
+    }
+  }
+  return result;
+}
+
+/// With K = sum phi phi' s and c = K(x,y) / sqrt(K(x,x) K(y,y)): c' = K'(x,y) / sqrt(..) - c (K'(x,x) / K(x,x) + K'(y,y) / K(y,y)) / 2.
+CorrelationSlopes correlation_slopes(const Prior& prior, const Kernel& kernel, std::span<const Site> sites) {
+  const auto n = static_cast<Eigen::Index>(sites.size());
+  CorrelationSlopes result{correlations(prior, kernel, sites), Eigen::MatrixXd(n, n)};
+  if (prior.metric() == Metric::Intrinsic) {
+    const Eigen::VectorXd& eigenvalues = prior.spectrum().values();
+    Eigen::MatrixXd modes = modes_of(prior.spectrum(), sites);
+    const Eigen::VectorXd weights = spectral_weights(kernel, eigenvalues);
+    for (Eigen::Index i = 0; i < n; ++i) modes.row(i) *= inverse_root((modes.row(i).cwiseAbs2() * weights).value());
+    result.slope.noalias() = modes * spectral_slopes(kernel, eigenvalues).asDiagonal() * modes.transpose();
+    const Eigen::VectorXd own = result.slope.diagonal();
+    result.slope.array() -= 0.5 * result.value.array() * (own.replicate(1, n) + own.transpose().replicate(n, 1)).array();
+    return result;
+  }
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = j; i < n; ++i) {
+      result.slope(i, j) = result.slope(j, i) = correlation_slope(kernel, sites[i].place.coordinates - sites[j].place.coordinates);
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::span<const Site> sites) {
+  Eigen::VectorXd k(sites.size());
+  if (prior.metric() == Metric::Intrinsic) {
+    const Eigen::VectorXd weights = spectral_weights(prior.kernel(), prior.spectrum().values());
+    const Eigen::VectorXd weighted = place.modes.cwiseProduct(weights);
+    const double scale = inverse_root(place.modes.dot(weighted));
+    for (std::size_t site = 0; site < sites.size(); ++site) {
+      const Eigen::VectorXd& modes = sites[site].place.modes;
+      k[static_cast<Eigen::Index>(site)] = scale * modes.dot(weighted) * inverse_root((modes.cwiseAbs2().cwiseProduct(weights)).sum());
+    }
+    return k;
+  }
+  for (std::size_t site = 0; site < sites.size(); ++site) {
+    k[static_cast<Eigen::Index>(site)] = correlation(prior.kernel(), place.coordinates - sites[site].place.coordinates);
+  }
+  return k;
+}
+
+TileCorrelations::TileCorrelations(const Prior& prior, std::span<const Site> sites) : prior_(prior) {
+  if (prior.metric() != Metric::Intrinsic) {
+    for (const Site& site : sites) coordinates_.push_back(site.place.coordinates);
+    return;
+  }
+  minus_rows_.resize(static_cast<Eigen::Index>(sites.size()), prior.spectrum().rank());
+  for (std::size_t i = 0; i < sites.size(); ++i) weigh(static_cast<int>(i), sites[i].place.modes);
+}
+
+TileCorrelations::TileCorrelations(const Prior& prior, int vertex) : prior_(prior) {
+  if (prior.metric() != Metric::Intrinsic) {
+    coordinates_.push_back(prior.coordinates(vertex));
+    return;
+  }
+  minus_rows_.resize(1, prior.spectrum().rank());
+  weigh(0, prior.spectrum().at(vertex));
+}
+
+void TileCorrelations::weigh(int row, const Eigen::VectorXd& modes) {
+  const Eigen::VectorXd weighted = modes.cwiseProduct(prior_.norms().weights);
+  minus_rows_.row(row) = -inverse_root(modes.dot(weighted)) * weighted;
+}
+
+void TileCorrelations::operator()(int tile, double* rows) const {
+  if (prior_.metric() == Metric::Intrinsic) {
+    const int count = static_cast<int>(minus_rows_.rows()), rank = static_cast<int>(minus_rows_.cols());
+    std::fill(rows, rows + count * kLanes, 0.0);
+    subtract_product(minus_rows_.data(), rank, prior_.spectrum().tile(tile), rank, rows, count);
+    const double* scale = prior_.norms().inverse.data() + static_cast<long>(tile) * kLanes;
+    for (int row = 0; row < count; ++row) {
+      for (int lane = 0; lane < kLanes; ++lane) rows[row * kLanes + lane] *= scale[lane];
+    }
+    return;
+  }
+  const int last = prior_.surface().vertex_count() - 1;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const Vec3 x = prior_.coordinates(std::min(tile * kLanes + lane, last));
+    for (std::size_t row = 0; row < coordinates_.size(); ++row) {
+      rows[static_cast<int>(row) * kLanes + lane] = correlation(prior_.kernel(), x - coordinates_[row]);
+    }
+  }
+}
+
+}  // namespace palpation

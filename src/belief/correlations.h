@@ -1,0 +1,59 @@
+/// The correlations that a belief asks of its prior, in whichever metric: functions of a difference of coordinates, or products of
+/// features.
+#pragma once
+
+#include <Eigen/Core>
+#include <mutex>
+#include <span>
+
+#include "palpation/base/tile.h"
+#include "palpation/belief/prior.h"
+#include "palpation/belief/sites.h"
+#include "palpation/geometry/spectrum.h"
+
+namespace palpation {
+
+/// Of a prior's kernel, made at first use.
+struct Prior::Norms {
+  std::once_flag once;
+  Eigen::VectorXd weights;  // s at the eigenvalues
+  Eigen::VectorXd inverse;  // 1 / |f| at the vertices, and 0 beyond the last to fill its tile
+};
+
+/// 1 / sqrt(sum_j phi_j^2 s_j) at the vertices, in whole tiles.
+Eigen::VectorXd inverse_norms(const Spectrum& spectrum, const Eigen::VectorXd& weights);
+
+/// f / |f| of the places, one a row, in the intrinsic metric.
+Eigen::MatrixXd unit_features(const Prior& prior, std::span<const SurfacePoint> points);
+
+/// Of all sites (rows) with those from `first` on (columns).
+Eigen::MatrixXd correlations(const Prior& prior, const Kernel& kernel, std::span<const Site> sites, int first = 0);
+
+/// And their derivatives by log length, all with all.
+struct CorrelationSlopes {
+  Eigen::MatrixXd value, slope;
+};
+CorrelationSlopes correlation_slopes(const Prior& prior, const Kernel& kernel, std::span<const Site> sites);
+
+/// Of a place with sites.
+Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::span<const Site> sites);
+
+/// Of places with the vertices, a tile of eight at a time.
+class TileCorrelations {
+ public:
+  /// Keeps a reference to the prior.
+  TileCorrelations(const Prior& prior, std::span<const Site> sites);
+  TileCorrelations(const Prior& prior, int vertex);
+
+  /// Rows of kLanes, one for each place. What stands in lanes beyond the last vertex means nothing.
+  void operator()(int tile, double* rows) const;
+
+ private:
+  void weigh(int row, const Eigen::VectorXd& modes);
+
+  const Prior& prior_;
+  std::vector<Vec3> coordinates_;                                                      // or:
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> minus_rows_;  // places x modes: -phi s / |f|
+};
+
+}  // namespace palpation

@@ -1,0 +1,270 @@
+#include "palpation/geometry/spectrum.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "geometry/block_solver.h"
+#include "geometry/margin.h"
+#include "geometry/surface_state.h"
+#include "palpation/base/error.h"
+#include "palpation/base/parallel.h"
+#include "palpation/base/random.h"
+#include "palpation/base/tile.h"
+
+namespace palpation {
+
+static_assert(Spectrum::kLanes == kLanes);
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+constexpr int kDense = 600;           // vertices that are solved as a whole
+constexpr double kShift = 0.2;        // of the greatest eigenvalue
+constexpr double kSpare = 1.2;        // block over the modes that are expected; the filter ends there, too
+constexpr int kSolves = 5;            // more in one go lose directions
+constexpr double kDependent = 1e-11;  // of a unit diagonal: directions that rounding made
+
+/// Stiffness and mass in the order of the factor's pivots, and that order.
+struct Ordered {
+  Sparse stiffness, mass;
+  Eigen::PermutationMatrix<Eigen::Dynamic> order;  // of a vertex
+};
+
+Ordered in_order_of_elimination(const Laplacian& laplacian) {
+  Eigen::AMDOrdering<int> ordering;
+  Eigen::PermutationMatrix<Eigen::Dynamic> inverse;
+  ordering(laplacian.stiffness.selfadjointView<Eigen::Lower>(), inverse);
+  Ordered ordered;
+  ordered.order = inverse.inverse();
+  ordered.stiffness = laplacian.stiffness.twistedBy(ordered.order);
+  ordered.mass = laplacian.mass.twistedBy(ordered.order);
+  return ordered;
+}
+
+BlockFactor factor_of(const Sparse& matrix) {
+  const Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt(matrix);
+  const Eigen::VectorXd diagonal = ldlt.vectorD();
+  if (ldlt.info() != Eigen::Success || !diagonal.allFinite() || !(diagonal.array() > 0.0).all()) {
+    throw NumericalError("spectrum: the Laplacian of the mesh has no factor in double precision");
+  }
+  const Sparse& lower = ldlt.matrixL().nestedExpression();
+  BlockFactor factor;
+  factor.column_starts.push_back(0);
+  for (int column = 0; column < lower.cols(); ++column) {
+    for (Sparse::InnerIterator entry(lower, column); entry; ++entry) {
+      if (entry.row() <= column) continue;
+      factor.rows.push_back(static_cast<int>(entry.row()));
+      factor.values.push_back(entry.value());
+    }
+    factor.column_starts.push_back(static_cast<int>(factor.rows.size()));
+    factor.inverse_diagonal.push_back(1.0 / diagonal[column]);
+  }
+  return factor;
+}
+
+/// Random signs, as if white over the surface.
+std::vector<Strip> random_block(const Sparse& mass, int strips) {
+  Random random(1);
+  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  std::vector<Strip> block(static_cast<std::size_t>(strips));
+  for (Strip& strip : block) {
+    strip.resize(static_cast<std::size_t>(mass.cols()) * kStrip);
+    for (Eigen::Index row = 0; row < mass.cols(); ++row) {
+      std::uint64_t bits = random.bits();
+      for (int lane = 0; lane < kStrip; ++lane, bits >>= 1)
+        strip[static_cast<std::size_t>(row * kStrip + lane)] = (bits & 1) ? scale[row] : -scale[row];
+    }
+  }
+  return block;
+}
+
+/// Y <- T_(q-1)(2 S / s - 1) S Y with S = c (G + c M)^-1 M, s its eigenvalue where the filter ends.
+void filter(std::vector<Strip>& block, const Ordered& ordered, double shift, double end) {
+  const BlockFactor factor = factor_of(ordered.stiffness + shift * ordered.mass);
+  const double s = 1.0 / (1.0 + end / shift);
+  for_ranges(static_cast<int>(block.size()), 1, [&](int first, int last) {
+    Strip product;
+    const auto apply = [&](const Strip& in) {
+      multiply(ordered.mass, in, product);
+      factor.solve(product);
+    };
+    for (int i = first; i < last; ++i) {
+      apply(block[i]);
+      Strip before = product;
+      combine(shift, before, 0.0, before, 0.0, before);  // T_0
+      apply(before);
+      Strip here = product;
+      combine(2.0 * shift / s, here, -1.0, before, 0.0, before);  // T_1
+      for (int q = 2; q < kSolves; ++q) {
+        apply(here);
+        combine(-1.0, before, 4.0 * shift / s, product, -2.0, here);
+        std::swap(before, here);
+      }
+      block[i] = std::move(here);
+    }
+  });
+}
+
+/// Y' A Y, by groups of strips whose products with A wait while all strips pass by.
+Eigen::MatrixXd gram(const std::vector<Strip>& block, const Sparse& a) {
+  constexpr int kGroup = 4;
+  constexpr long kRowsAtOnce = 128;
+  using Square = Eigen::Matrix<double, kStrip, kStrip, Eigen::RowMajor>;
+  const int strips = static_cast<int>(block.size());
+  Eigen::MatrixXd result(strips * kStrip, strips * kStrip);
+  for_ranges((strips + kGroup - 1) / kGroup, 1, [&](int first_group, int last_group) {
+    for (int start = first_group * kGroup; start < std::min(last_group * kGroup, strips); start += kGroup) {
+      const int end = std::min(start + kGroup, strips);
+      std::vector<Strip> products(static_cast<std::size_t>(end - start));
+      for (int j = start; j < end; ++j) multiply(a, block[j], products[j - start]);
+      std::vector<Square> sums(static_cast<std::size_t>((end - start) * strips), Square::Zero());
+      for (long row = 0; row < a.cols(); row += kRowsAtOnce) {
+        const long count = std::min<long>(kRowsAtOnce, a.cols() - row);
+        for (int i = start; i < strips; ++i) {
+          for (int j = start; j < end; ++j) {
+            add_gram(block[i].data() + row * kStrip, products[j - start].data() + row * kStrip, count,
+                     sums[(j - start) * strips + i].data());
+          }
+        }
+      }
+      for (int j = start; j < end; ++j) {
+        for (int i = j; i < strips; ++i) {
+          const Square& sum = sums[(j - start) * strips + i];
+          result.block<kStrip, kStrip>(j * kStrip, i * kStrip) = sum.transpose();
+          result.block<kStrip, kStrip>(i * kStrip, j * kStrip) = sum;
+        }
+      }
+    }
+  });
+  return 0.5 * (result + result.transpose());
+}
+
+struct Ritz {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd weights;  // of the block's vectors
+};
+
+/// The best modes within the block's span.
+Ritz ritz(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> whole(scale.asDiagonal() * mass * scale.asDiagonal());
+  Eigen::Index dependent = 0;
+  while (dependent < scale.size() && !(whole.eigenvalues()[dependent] > kDependent)) ++dependent;
+  const Eigen::Index kept = scale.size() - dependent;
+  const Eigen::MatrixXd basis =
+      scale.asDiagonal() * whole.eigenvectors().rightCols(kept) * whole.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd reduced = basis.transpose() * stiffness * basis;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (reduced + reduced.transpose()));
+  return {modes.eigenvalues(), basis * modes.eigenvectors()};
+}
+
+int count_up_to(const Eigen::VectorXd& values, double greatest) {
+  return static_cast<int>(std::upper_bound(values.begin(), values.end(), greatest) - values.begin());
+}
+
+/// Eigenvalues below 0 are those of constants, rounded.
+Eigen::VectorXd not_negative(const Eigen::VectorXd& values) { return values.cwiseMax(0.0); }
+
+Spectrum solve_densely(const MetricMesh& mesh, double greatest, int kept) {
+  const Laplacian laplacian = laplacian_of(mesh);
+  const Ritz all = ritz(Eigen::MatrixXd(laplacian.stiffness), Eigen::MatrixXd(laplacian.mass));
+  const int rank = std::max(1, count_up_to(all.values, greatest));
+  return {not_negative(all.values.head(rank)), all.weights.topLeftCorner(kept, rank)};
+}
+
+}  // namespace
+
+/// Writes modes without a detour over a matrix.
+class SpectrumMaker {
+ public:
+  static Spectrum make(const std::vector<Strip>& block, const Ritz& modes, int rank, const Ordered& ordered, int kept) {
+    Spectrum spectrum(not_negative(modes.values.head(rank)), kept);
+    const int width = static_cast<int>(modes.weights.rows());
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = -modes.weights.leftCols(rank).transpose();
+    for_ranges(spectrum.tile_count(), 64, [&](int first, int last) {
+      std::vector<double> values(static_cast<std::size_t>(width) * kLanes);
+      for (int number = first; number < last; ++number) {
+        std::fill(values.begin(), values.end(), 0.0);
+        for (int vertex = number * kLanes; vertex < std::min((number + 1) * kLanes, kept); ++vertex) {
+          const long row = static_cast<long>(ordered.order.indices()[vertex]) * kStrip;
+          for (int column = 0; column < width; ++column) {
+            values[static_cast<std::size_t>(column * kLanes + vertex % kLanes)] = block[column / kStrip][row + column % kStrip];
+          }
+        }
+        double* tile = spectrum.waves_.get() + static_cast<long>(number) * rank * kLanes;
+        std::fill(tile, tile + static_cast<long>(rank) * kLanes, 0.0);
+        subtract_product(weights.data(), width, values.data(), width, tile, rank);
+      }
+    });
+    return spectrum;
+  }
+};
+
+Spectrum::Spectrum(Eigen::VectorXd values, int vertex_count) : values_(std::move(values)), vertex_count_(vertex_count) {
+  waves_ = std::shared_ptr<double[]>(new double[static_cast<std::size_t>(tile_count()) * static_cast<std::size_t>(rank()) * kLanes]);
+}
+
+Spectrum::Spectrum(Eigen::VectorXd values, const Eigen::MatrixXd& waves) : Spectrum(std::move(values), static_cast<int>(waves.rows())) {
+  for (int vertex = 0; vertex < tile_count() * kLanes; ++vertex) {
+    double* lane = waves_.get() + static_cast<long>(vertex / kLanes) * rank() * kLanes + vertex % kLanes;
+    for (int mode = 0; mode < rank(); ++mode) lane[mode * kLanes] = vertex < vertex_count_ ? waves(vertex, mode) : 0.0;
+  }
+}
+
+Eigen::VectorXd Spectrum::at(int vertex) const {
+  Eigen::VectorXd modes(rank());
+  const double* lane = tile(vertex / kLanes) + vertex % kLanes;
+  for (int mode = 0; mode < rank(); ++mode) modes[mode] = lane[mode * kLanes];
+  return modes;
+}
+
+double expected_modes(const MetricMesh& mesh, double greatest) {
+  double modes = 0.0, border = 0.0;
+  for (int face = 0; face < mesh.triangles.rows(); ++face) {
+    modes += std::min(area_of(mesh, face) * greatest / (4.0 * std::numbers::pi), 0.5);  // two triangles a vertex
+    for (int corner = 0; corner < 3; ++corner) border += mesh.across(face, corner) < 0 ? mesh.lengths(face, corner) : 0.0;
+  }
+  return std::min(modes + border * std::sqrt(greatest) / (4.0 * std::numbers::pi) + 1.0, static_cast<double>(mesh.vertex_count));
+}
+
+Spectrum spectrum_of(const MetricMesh& mesh, double greatest, int kept) {
+  if (mesh.vertex_count <= kDense) return solve_densely(mesh, greatest, kept);
+  const double expected = expected_modes(mesh, greatest);
+  const auto too_many = [](double modes) {
+    return InvalidInput("spectrum: about " + std::to_string(std::lround(modes)) + " modes must be at most " + std::to_string(kMostModes));
+  };
+  if (!(expected <= kMostModes)) throw too_many(expected);
+  const Ordered ordered = in_order_of_elimination(laplacian_of(mesh));
+  for (double wanted = kSpare * expected + kStrip;; wanted *= 1.4) {
+    const int strips = static_cast<int>(std::ceil(wanted / kStrip));
+    if (strips * kStrip * 2 > mesh.vertex_count) throw too_many(wanted);
+    std::vector<Strip> block = random_block(ordered.mass, strips);
+    filter(block, ordered, kShift * greatest, kSpare * greatest);
+    const Ritz modes = ritz(gram(block, ordered.stiffness), gram(block, ordered.mass));
+    const int rank = count_up_to(modes.values, greatest);
+    if (rank * 1.08 < strips * kStrip) return SpectrumMaker::make(block, modes, std::max(rank, 1), ordered, kept);
+  }
+}
+
+std::shared_ptr<const Spectrum> Surface::spectrum(const SpectrumRange& range) const {
+  const std::lock_guard lock(state_->spectra_guard);
+  std::shared_ptr<const Spectrum>& spectrum = state_->spectra[range];
+  if (!spectrum) {
+    note_computed("spectrum");
+    spectrum = std::make_shared<const Spectrum>(spectrum_of(extended(*this, range.margin_m), range.greatest, vertex_count()));
+  }
+  return spectrum;
+}
+
+MetricMesh extended(const Surface& surface, double margin_m) {
+  MetricMesh mesh = with_margin(metric_of(surface), surface.border_loops(), margin_m);
+  flip_to_delaunay(mesh);
+  return mesh;
+}
+
+}  // namespace palpation
