@@ -5,25 +5,16 @@
 #include <cmath>
 #include <limits>
 
-#include "boundary/level_segments.h"
+#include "boundary/above_level.h"
 #include "boundary/level_walk.h"
 #include "boundary/reproducer.h"
 #include "boundary/simple_loops.h"
+#include "boundary/tissue_area.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
 
 namespace {
-
-void require_field(const Surface& surface, const Field& field, double level, const std::string& function) {
-  require(field.size() == surface.vertex_count(), function, "a field of " + std::to_string(field.size()) + " values",
-          "must have one for each of the " + std::to_string(surface.vertex_count()) + " vertices");
-  for (int vertex = 0; vertex < field.size(); ++vertex) {
-    if (std::isfinite(field[vertex])) continue;
-    require(false, function, "the field's value " + text_of(field[vertex]) + " at vertex " + std::to_string(vertex), "must be finite");
-  }
-  require(std::isfinite(level), function, "the level " + text_of(level), "must be finite");
-}
 
 double length(const Surface& surface, const LevelLoop& loop) {
   double sum = 0.0;
@@ -83,12 +74,7 @@ double sum_inside(const Surface& surface, const Field& field, double level, Area
   double sum = 0.0;
   double lost = 0.0;
   for (int face = 0; face < surface.face_count(); ++face) {
-    const Eigen::Vector3i triangle = surface.triangle(face);
-    const Vec3 values(field[triangle[0]], field[triangle[1]], field[triangle[2]]);
-    const double scale = safe_scale(std::max(values.cwiseAbs().maxCoeff(), std::abs(level)));
-    Vec3 above;
-    for (int corner = 0; corner < 3; ++corner) above[corner] = scaled_value(values[corner], level, scale) - scale * level;
-    const double share = share_inside(above);
+    const double share = share_inside(above_level(surface, field, level, face));
     if (share == 0.0) continue;
     const double term = share * area_of_face(face);
     const double next = sum + term;
@@ -147,8 +133,8 @@ double superlevel_area(const Surface& surface, const Field& field, double level)
 }
 
 double surface_area(const Surface& surface, const Region& region) {
-  require(surface.chart().isometric, "surface_area", "a chart that distorts areas", "is no measure of the tissue");
-  return region.area();
+  surface.chart();  // throws where there is none
+  return surface.is_planar() ? region.area() : tissue_area(surface, region);
 }
 
 }  // namespace palpation

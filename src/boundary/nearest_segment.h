@@ -11,6 +11,7 @@ namespace palpation {
 struct Segment {
   Vec2 from;
   Vec2 to;
+  double nearest_part(const Vec2& place) const;  ///< from 0 at `from` to 1 at `to`
   double squared_distance(const Vec2& place) const;
 };
 
@@ -23,9 +24,15 @@ class NearestSegment {
   /// `hint`: the number of a segment that may be near; becomes that of the nearest.
   double distance(const Vec2& place, int& hint) const;
 
+  /// The nearest place on a segment where a step has the length |stretch * step|.
+  Vec2 nearest(const Vec2& place, const Eigen::Matrix2d& stretch, int& hint) const;
+
  private:
   void build(int node, int first, int last);
-  void search(const Vec2& place, int node, int first, int last, double& best, int& nearest) const;
+  /// `squared_distance` of a segment from the place; boxes are no nearer than in the plane, times `shrink`.
+  template <typename SquaredDistance>
+  void search(const Vec2& place, double shrink, const SquaredDistance& squared_distance, int node, int first, int last, double& best,
+              int& nearest) const;
 
   std::vector<Segment> segments_;
   std::vector<Eigen::AlignedBox2d> boxes_;  ///< node i has the children 2 i + 1 and 2 i + 2, each with half of its segments

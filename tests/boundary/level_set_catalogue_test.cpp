@@ -53,7 +53,8 @@ std::vector<LevelLoop> lawful_loops(const Surface& surface, const Field& field, 
   // Hundreds of faces, each rounded.
   EXPECT_LE(report.area_difference, 1e-13);
   if (surface.has_chart()) {
-    EXPECT_NEAR(superlevel_region(surface, field, level).area(), superlevel_area(surface, field, level), 1e-13 * surface.area());
+    EXPECT_NEAR(surface_area(surface, superlevel_region(surface, field, level)), superlevel_area(surface, field, level),
+                1e-13 * surface.area());
   }
   return loops;
 }
@@ -489,7 +490,7 @@ TEST(LevelSetCatalogue, B17_ALoopAroundATubeHasNoSeam) {
   for (const LevelLoop& loop : around) EXPECT_GT(length_of(tube, loop), 6.0);
   const Surface ring = torus();
   EXPECT_EQ(lawful_loops(ring, field_of(ring, [](const Vec3& p) { return p.x(); }), 0.1).size(), 2u);
-  EXPECT_NE(refusal(tube).find("not flat"), std::string::npos);
+  EXPECT_NE(refusal(tube).find("2 border loops"), std::string::npos);
 }
 
 }  // namespace

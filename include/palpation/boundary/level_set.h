@@ -31,8 +31,8 @@ Region superlevel_region(const Surface& surface, const Field& field, double leve
 /// Its area on the tissue, m2, summed over the triangles without polygons: the slow path's twin, and right on any surface.
 double superlevel_area(const Surface& surface, const Field& field, double level);
 
-/// The area on the tissue, m2, of a region of the surface's chart: the chart's own area. Throws InvalidInput where the chart is not
-/// isometric.
+/// The area on the tissue, m2, of a region of the surface's chart: on flat tissue the region's own; else, face by face, the share that the
+/// region covers, so that what lies beside the chart counts for nothing. Throws as Surface::chart.
 double surface_area(const Surface& surface, const Region& region);
 
 }  // namespace palpation
