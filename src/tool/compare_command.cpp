@@ -44,7 +44,7 @@ Region read_region(const std::filesystem::path& path, const Surface& surface, st
   const Region region = read_any(path, surface, warnings);
   check_place(region, path, surface);
   const Region tissue = superlevel_region(surface, Field::Zero(surface.vertex_count()), 0.0);
-  const double beside_m2 = subtract(region, tissue).area();
+  const double beside_m2 = subtract(region, tissue).area();  // where the chart stretches nothing, as there is no tissue
   if (beside_m2 <= kRounding * surface.area()) return region;
   warnings.push_back(path.string() + ": " + fixed(beside_m2 * 1e6, 2) + " mm2 of it lie beside the tissue and do not count.");
   return intersect(region, tissue);

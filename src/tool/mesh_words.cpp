@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "palpation/base/error.h"
 #include "palpation/geometry/mesh_faults.h"
 #include "palpation/geometry/self_intersection.h"
 #include "tool/words.h"
@@ -19,6 +20,9 @@ constexpr std::size_t kMostListed = 8;
 constexpr int kMostFacesToCross = 200'000;
 // What a probe resolves.
 constexpr double kCoarse_m = 0.001;
+// Laying flat takes two seconds for 80,000 triangles.
+constexpr int kMostFacesToFlatten = 200'000;
+constexpr double kMisleading = 0.1;
 
 std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -167,22 +171,51 @@ std::string crossing_words(const Surface& surface) {
          ".\n  Tissue does not do so. Cut away one of the sheets, or work on a patch away from it.\n";
 }
 
+const std::string kRunScene = "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate simulate or palpate plan.\n";
+
+std::string disk_advice(const Surface& surface) {
+  if (surface.face_count() > kMostFacesToFlatten)
+    return "Curved: a disk, which can be laid flat; how well is not tried here, as it has more than " +
+           std::to_string(kMostFacesToFlatten) + " triangles.\n" + kRunScene;
+  try {
+    const Chart& chart = surface.chart();
+    if (chart.isometric) return "Curved, but it unrolls without stretch: its chart is exact.\n" + kRunScene;
+    const std::string warning =
+        misleads(chart.distortion)
+            ? "Warning: that is more than 10 % off, and field.metric chart would mislead there. Take another metric, or a "
+              "smaller part by surface.patch (centre_mm, radius_mm).\n"
+            : "";
+    return "Curved: laid flat, it is " + stretch_words(chart.distortion) + ", " + fixed(100.0 * chart.distortion.rms_stretch_error, 2) +
+           " % off on average; areas and errors are measured on the tissue.\n" + warning + kRunScene;
+  } catch (const InvalidInput& error) {
+    return "Curved, without a chart: " + std::string(error.what()) + ".\n" +
+           "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene.\n";
+  }
+}
+
 std::string advice(const Surface& surface) {
-  if (surface.is_planar()) {
-    return "Flat: its own plane is its chart, and every metric and the boundary's area are exact.\n"
-           "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate simulate or palpate plan.\n";
+  if (surface.is_planar()) return "Flat: its own plane is its chart, and every metric and the boundary's area are exact.\n" + kRunScene;
+  if (surface.has_chart()) return disk_advice(surface);
+  const std::string next = "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene.\n";
+  if (surface.topology().is_closed()) return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + next;
+  try {
+    surface.chart();
+  } catch (const InvalidInput& error) {
+    return "Without a chart: " + std::string(error.what()) + ".\n" + next;
   }
-  if (surface.topology().is_closed()) {
-    return "Closed: it cannot be laid flat as a whole, so it has no chart.\n"
-           "Next: choose a flat part to work on by surface.patch (centre_mm, radius_mm) in a scene; boundaries are drawn on flat tissue "
-           "only "
-           "so far.\n";
-  }
-  return "Curved: it has no chart of its own, and boundaries are drawn on flat tissue only so far.\n"
-         "Next: choose a flat part by surface.patch (centre_mm, radius_mm) in a scene.\n";
+  return next;
 }
 
 }  // namespace
+
+bool misleads(const Distortion& distortion) {
+  return distortion.least_stretch < 1.0 - kMisleading || distortion.greatest_stretch > 1.0 + kMisleading;
+}
+
+std::string stretch_words(const Distortion& distortion) {
+  return "stretched to between " + fixed(100.0 * distortion.least_stretch, 1) + " and " + fixed(100.0 * distortion.greatest_stretch, 1) +
+         " % of its length";
+}
 
 std::string size_words(const TriangleMesh& mesh) {
   const Vec3 size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).transpose() * 1e3;

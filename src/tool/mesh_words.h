@@ -11,6 +11,12 @@ namespace palpation::tool {
 /// "25.00 x 50.00 x 0.00 mm".
 std::string size_words(const TriangleMesh& mesh);
 
+/// Whether some stretch of a chart is more than 10 % off.
+bool misleads(const Distortion& distortion);
+
+/// "stretched to between 95.2 and 108.9 % of its length".
+std::string stretch_words(const Distortion& distortion);
+
 /// Topology, components and borders where there are several, area, edges, curvature, where it runs through itself, what it supports.
 std::string surface_words(const Surface& surface);
 

@@ -63,12 +63,12 @@ json place_json(const TumourPart& part) {
           {"extent_mm", pair_mm(part.most_m - part.least_m)}};
 }
 
-json part_json(const TumourPart& part) {
+json part_json(const TumourPart& part, const Surface& surface) {
   json result = place_json(part);
   result["probability"] = part.probability;
   result["touches_border"] = part.touches_border;
   result["holes"] = json::array();
-  for (const Ring& hole : part.polygon.holes) result["holes"].push_back(place_json(measured(hole)));
+  for (const Ring& hole : part.polygon.holes) result["holes"].push_back(place_json(measured(hole, surface)));
   return result;
 }
 
@@ -165,7 +165,7 @@ void OutputFolder::write_step(const Episode& episode, const World* world) {
 json OutputFolder::summary(const Episode& episode) const {
   const Exploration& exploration = episode.exploration;
   json parts = json::array();
-  for (const TumourPart& part : parts_of(episode)) parts.push_back(part_json(part));
+  for (const TumourPart& part : parts_of(episode)) parts.push_back(part_json(part, surface_));
   const std::optional<Level>& level = exploration.level();
   std::vector<std::string> warnings = warnings_;
   const std::vector<std::string> remarks = boundary_remarks(episode);

@@ -4,10 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "palpation/boundary/level_set.h"
+
 namespace palpation::tool {
 namespace {
 
-TumourPart measured(const PolygonWithHoles& polygon) {
+/// On flat tissue the chart's area is the tissue's.
+double area_on_tissue(const PolygonWithHoles& polygon, double in_chart_m2, const Surface& surface) {
+  if (surface.is_planar()) return in_chart_m2;
+  std::vector<Ring> rings = polygon.holes;
+  rings.push_back(polygon.outer);
+  return surface_area(surface, Region::even_odd(rings));
+}
+
+TumourPart measured(const PolygonWithHoles& polygon, const Surface& surface) {
   TumourPart part{.polygon = polygon};
   double twice_area = 0.0;
   Vec2 moment = Vec2::Zero();
@@ -26,7 +36,7 @@ TumourPart measured(const PolygonWithHoles& polygon) {
   };
   add(polygon.outer);
   for (const Ring& hole : polygon.holes) add(hole);
-  part.area_m2 = 0.5 * twice_area;
+  part.area_m2 = area_on_tissue(polygon, 0.5 * twice_area, surface);
   part.centroid_m = origin + moment / twice_area;
   return part;
 }
@@ -78,13 +88,13 @@ bool has_border_corner(const TumourPart& part, const Surface& surface) {
 
 }  // namespace
 
-TumourPart measured(const Ring& ring) { return measured(PolygonWithHoles{ring, {}}); }
+TumourPart measured(const Ring& ring, const Surface& surface) { return measured(PolygonWithHoles{ring, {}}, surface); }
 
 std::vector<TumourPart> parts_of(const Episode& episode) {
   std::vector<TumourPart> parts;
   const Exploration& exploration = episode.exploration;
   for (const PolygonWithHoles& polygon : episode.estimate.polygons()) {
-    TumourPart& part = parts.emplace_back(measured(polygon));
+    TumourPart& part = parts.emplace_back(measured(polygon, exploration.surface()));
     if (exploration.certainty()) look_inside(part, exploration.surface(), exploration.certainty()->score);
     part.touches_border = has_border_corner(part, exploration.surface());
   }

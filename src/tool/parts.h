@@ -7,7 +7,7 @@
 
 namespace palpation::tool {
 
-/// Lengths in the chart.
+/// The area on the tissue, lengths and places in the chart.
 struct TumourPart {
   PolygonWithHoles polygon;
   double area_m2 = 0.0;                                ///< without its holes
@@ -21,6 +21,6 @@ struct TumourPart {
 std::vector<TumourPart> parts_of(const Episode& episode);
 
 /// A ring as a part of its own, without probability.
-TumourPart measured(const Ring& ring);
+TumourPart measured(const Ring& ring, const Surface& surface);
 
 }  // namespace palpation::tool

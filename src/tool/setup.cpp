@@ -10,6 +10,7 @@
 #include "palpation/geometry/make_plane.h"
 #include "palpation/geometry/patch.h"
 #include "palpation/io/read_mesh.h"
+#include "tool/mesh_words.h"
 #include "tool/tumours.h"
 #include "tool/words.h"
 
@@ -168,17 +169,25 @@ void warn_of_reach(const Scene& scene, Tissue& tissue) {
                               " % of the tissue cannot be reached: it is no candidate for a touch, and the boundary there is a guess.");
 }
 
-/// The chart is what the boundary is drawn in; without one, say what to do.
+/// The chart is what the boundary is drawn in; without one, say what is in the way and what to do.
 void check_chart(const Scene& scene, const Surface& surface) {
-  if (surface.has_chart()) return;
-  if (surface.topology().is_closed()) {
-    scene.refuse("surface",
-                 "the mesh is a closed surface, which cannot be laid flat as a whole: choose a flat part to work on by surface.patch "
-                 "(centre_mm and radius_mm, or box_mm, or facing)");
+  const std::string next = ": choose a part to work on by surface.patch (centre_mm and radius_mm, or box_mm, or facing)";
+  if (surface.topology().is_closed()) scene.refuse("surface", "the mesh is a closed surface, which cannot be laid flat as a whole" + next);
+  try {
+    surface.chart();
+  } catch (const InvalidInput& error) {
+    scene.refuse("surface", without("Surface::chart: ", error.what()) + next);
   }
-  scene.refuse("surface",
-               "the tissue is curved, and boundaries are drawn on flat tissue only so far: choose a flat part by surface.patch (palpate "
-               "info tells what the mesh is)");
+}
+
+/// Where lengths in the chart are not those on the tissue, a metric that takes them for it misleads.
+std::string stretch_warning(const Scene& scene, const Surface& surface) {
+  const Distortion& distortion = surface.chart().distortion;
+  if (scene.word("field.metric") != "chart" || !misleads(distortion)) return "";
+  return "Laid flat, the tissue is " + stretch_words(distortion) +
+         ": with field.metric chart, the field's length is off by as much there. Take another metric or a smaller patch; areas and errors "
+         "are "
+         "measured on the tissue all the same.";
 }
 
 Acquisition acquisition_of(const Scene& scene) {
@@ -207,7 +216,11 @@ Tissue tissue_of(const Scene& scene) {
   Tissue tissue{surface_of(scene, std::move(mesh)), std::move(warnings)};
   check_chart(scene, tissue.surface);
   check_size(scene, tissue.surface);
+<<<<<<< HEAD
   warn_of_reach(scene, tissue);
+=======
+  if (const std::string warning = stretch_warning(scene, tissue.surface); !warning.empty()) tissue.warnings.push_back(warning);
+>>>>>>> 051600f (Work on curved disks, and tell how far their chart stretches them)
   return tissue;
 }
 

@@ -8,6 +8,7 @@
 #include "palpation/belief/contact.h"
 #include "palpation/belief/screening.h"
 #include "palpation/boundary/level_remarks.h"
+#include "palpation/boundary/level_set.h"
 #include "tool/parts.h"
 
 namespace palpation::tool {
@@ -73,6 +74,8 @@ std::string nothing_words(const Episode& episode) {
          percent(episode.band_probability) + " wherever it might be.\n";
 }
 
+double area_found_m2(const Episode& episode) { return surface_area(episode.exploration.surface(), episode.estimate); }
+
 std::string found_words(const Episode& episode) {
   if (episode.exploration.belief().site_count() == 0) return "No reading yet, so nothing is known.\n";
   if (!episode.exploration.level()) return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
@@ -80,7 +83,7 @@ std::string found_words(const Episode& episode) {
   const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
   if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
   std::string words =
-      "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(episode.estimate.area() * 1e6, 1) + " mm2 in all:\n";
+      "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in all:\n";
   for (const TumourPart& part : parts) words += part_words(part);
   words += band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
   if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
@@ -157,9 +160,9 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const std::optional<Certainty>& certainty = exploration.certainty();
   if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is tumour as good as surely: the band has no inner curve.");
-  if (!parts.empty() && certainty && certainty->expected.symmetric_difference_m2() > kLargeShare * episode.estimate.area())
-    remarks.push_back("The area expected to be wrong is " +
-                      percent(certainty->expected.symmetric_difference_m2() / episode.estimate.area()) +
+  const double found_m2 = area_found_m2(episode);
+  if (!parts.empty() && certainty && certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
+    remarks.push_back("The area expected to be wrong is " + percent(certainty->expected.symmetric_difference_m2() / found_m2) +
                       " of the area found: more readings are needed.");
   return remarks;
 }

@@ -2,6 +2,7 @@
 """The tool as a person meets it: exit codes, messages, files. Usage: tool_test.py PALPATE PROJECT_ROOT (Python 3, standard library only)."""
 
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -306,6 +307,32 @@ class Tool(unittest.TestCase):
         self.assertIn("surface.patch", self.done("info", LIVER, "--unit", "cm"))
         scene = self.write("liver.json", json.dumps({"surface": {"mesh": str(LIVER), "unit": "cm"}}))
         self.assertIn("surface.patch", self.refused(3, "simulate", scene))
+
+    def test_works_on_a_curved_disk_in_its_chart(self):
+        # 24 x 24 mm of a sphere of 20 mm, its grid sheared so that nothing is regular.
+        side, radius, rows, faces = 33, 20.0, [], []
+        for i in range(side * side):
+            x, y = (i % side + 0.2 * math.sin(i)) * 24 / (side - 1) - 12, (i // side + 0.2 * math.cos(3 * i)) * 24 / (side - 1) - 12
+            angle = math.hypot(x, y) / radius
+            share = math.sin(angle) / angle
+            rows.append(f"{x * share} {y * share} {radius * math.cos(angle)}")
+        for i in range((side - 1) ** 2):
+            a = i // (side - 1) * side + i % (side - 1)
+            faces += [f"3 {a} {a + 1} {a + side + 1}", f"3 {a} {a + side + 1} {a + side}"]
+        mesh = self.write("dome.off", f"OFF\n{len(rows)} {len(faces)} 0\n" + "\n".join(rows + faces) + "\n")
+        self.assertIn("Curved: laid flat, it is stretched to between", self.done("info", mesh, "--unit", "mm"))
+        scene = self.write("dome.json", json.dumps({"version": 1,
+            "surface": {"mesh": str(mesh), "unit": "mm"}, "field": {"metric": "chart"}, "plan": {"batches": 5},
+            "probe": {"low": 7, "high": 9, "slope_per_m": 1400, "noise": 0.01,
+                      "tumours": [{"shape": "disk", "centre_mm": [0, 0, radius], "radius_mm": 5}]}}))
+        out = self.folder / "dome"
+        words = self.done("simulate", scene, "--out", out)
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertIn("chart", summary["computed"], words)
+        # A cap of 5 mm along the surface: 2 pi R^2 (1 - cos(5 / R)).
+        self.assertLess(abs(summary["area_mm2"] - 2 * math.pi * radius ** 2 * (1 - math.cos(5 / radius))), 8.0, words)
+        self.assertLess(summary["error"]["symmetric_difference_mm2"], 12.0, words)
+        self.assertAlmostEqual(sum(part["area_mm2"] for part in summary["parts"]), summary["area_mm2"], 6)
 
 
 if __name__ == "__main__":
