@@ -216,11 +216,8 @@ Tissue tissue_of(const Scene& scene) {
   Tissue tissue{surface_of(scene, std::move(mesh)), std::move(warnings)};
   check_chart(scene, tissue.surface);
   check_size(scene, tissue.surface);
-<<<<<<< HEAD
   warn_of_reach(scene, tissue);
-=======
   if (const std::string warning = stretch_warning(scene, tissue.surface); !warning.empty()) tissue.warnings.push_back(warning);
->>>>>>> 051600f (Work on curved disks, and tell how far their chart stretches them)
   return tissue;
 }
 
