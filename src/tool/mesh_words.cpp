@@ -179,12 +179,15 @@ std::string disk_advice(const Surface& surface) {
            std::to_string(kMostFacesToFlatten) + " triangles.\n" + kRunScene;
   try {
     const Chart& chart = surface.chart();
-    if (chart.isometric) return "Curved, but it unrolls without stretch: its chart is exact.\n" + kRunScene;
+    if (chart.isometric)
+      return "Curved, but it unrolls without stretch: its chart is exact.\nRecommended: field.metric chart, exact here and the "
+             "cheapest.\n" +
+             kRunScene;
     const std::string warning =
         misleads(chart.distortion)
-            ? "Warning: that is more than 10 % off, and field.metric chart would mislead there. Take another metric, or a "
-              "smaller part by surface.patch (centre_mm, radius_mm).\n"
-            : "";
+            ? "Warning: that is more than 10 % off, and field.metric chart would mislead there.\n"
+              "Recommended: field.metric intrinsic, whose lengths are those along the surface; or a smaller part by surface.patch.\n"
+            : "Recommended: field.metric chart, less than 10 % off everywhere and the cheapest.\n";
     return "Curved: laid flat, it is " + stretch_words(chart.distortion) + ", " + fixed(100.0 * chart.distortion.rms_stretch_error, 2) +
            " % off on average; areas and errors are measured on the tissue.\n" + warning + kRunScene;
   } catch (const InvalidInput& error) {
@@ -194,7 +197,10 @@ std::string disk_advice(const Surface& surface) {
 }
 
 std::string advice(const Surface& surface) {
-  if (surface.is_planar()) return "Flat: its own plane is its chart, and every metric and the boundary's area are exact.\n" + kRunScene;
+  if (surface.is_planar())
+    return "Flat: its own plane is its chart, and every metric and the boundary's area are exact.\nRecommended: field.metric chart, the "
+           "cheapest.\n" +
+           kRunScene;
   if (surface.has_chart()) return disk_advice(surface);
   const std::string next = "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene.\n";
   if (surface.topology().is_closed()) return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + next;

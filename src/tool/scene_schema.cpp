@@ -101,7 +101,8 @@ std::vector<SceneKey> make_scene_keys() {
   const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   return {
       integer("version", kSceneVersion, kSceneVersion, kSceneVersion, "of this format"),
-      text("surface.mesh", "the tissue: an OBJ, OFF, STL, PLY or VTP file, relative to the scene"),
+      text("surface.mesh",
+           "the tissue: an OBJ, OFF, STL, PLY or VTP file, relative to the scene, or where there is none to where palpate runs"),
       word("surface.unit", {"mm", "cm", "m"}, nullptr, "of the mesh's coordinates; needed with surface.mesh"),
       truth("surface.weld", false, "vertices of the mesh at exactly the same place become one; STL corners always do"),
       numbers("surface.plane.size_mm", 2, "mm", 0.01, 2000.0, nullptr,

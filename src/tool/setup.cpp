@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -34,11 +35,18 @@ TriangleMesh plane_of(const Scene& scene) {
       unused);
 }
 
+/// Relative to the scene; a path that leads nowhere from there, as one given by --set may, is relative to where the tool runs.
+std::filesystem::path mesh_path(const Scene& scene) {
+  const std::filesystem::path given = scene.word("surface.mesh"), beside_scene = scene.folder() / given;
+  std::error_code none;
+  return !std::filesystem::exists(beside_scene, none) && std::filesystem::exists(given, none) ? given : beside_scene;
+}
+
 TriangleMesh mesh_of(const Scene& scene, std::vector<std::string>& warnings) {
   if (scene.gives("surface.plane.size_mm")) return plane_of(scene);
   if (!scene.gives("surface.mesh")) scene.refuse("surface.mesh", "is needed: the file of the tissue's mesh (or surface.plane.size_mm)");
-  const MeshFile file = read_mesh(scene.folder() / scene.word("surface.mesh"), length_unit(scene.word("surface.unit")),
-                                  {.weld_equal_vertices = scene.truth("surface.weld")});
+  const MeshFile file =
+      read_mesh(mesh_path(scene), length_unit(scene.word("surface.unit")), {.weld_equal_vertices = scene.truth("surface.weld")});
   for (const MeshWarning& warning : file.warnings) warnings.push_back(warning.text);
   return file.mesh;
 }
@@ -52,7 +60,7 @@ Surface surface_of(const Scene& scene, TriangleMesh mesh) {
   try {
     return Surface(std::move(mesh));
   } catch (const InvalidMesh& error) {
-    const std::string file = scene.gives("surface.mesh") ? (scene.folder() / scene.word("surface.mesh")).string() : scene.name();
+    const std::string file = scene.gives("surface.mesh") ? mesh_path(scene).string() : scene.name();
     throw InvalidMesh(file + ": " + without("Surface: ", error.what()) + " (positions in metres; palpate info tells more)");
   }
 }
@@ -185,7 +193,8 @@ std::string stretch_warning(const Scene& scene, const Surface& surface) {
   const Distortion& distortion = surface.chart().distortion;
   if (scene.word("field.metric") != "chart" || !misleads(distortion)) return "";
   return "Laid flat, the tissue is " + stretch_words(distortion) +
-         ": with field.metric chart, the field's length is off by as much there. Take another metric or a smaller patch; areas and errors "
+         ": with field.metric chart, the field's length is off by as much there. Take field.metric intrinsic or a smaller patch; areas and "
+         "errors "
          "are "
          "measured on the tissue all the same.";
 }
