@@ -46,16 +46,27 @@ Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
   return snapped(place);
 }
 
-bool is_on_border(const Surface& surface, const SurfacePoint& point) {
+std::vector<bool> border_vertices(const Surface& surface) {
+  std::vector<bool> on_border(static_cast<std::size_t>(surface.vertex_count()), false);
+  for (const std::vector<int>& loop : surface.border_loops()) {
+    for (const int vertex : loop) on_border[vertex] = true;
+  }
+  return on_border;
+}
+
+/// A border vertex may be told by a face that has no border edge.
+bool is_on_border(const Surface& surface, const std::vector<bool>& border, const SurfacePoint& point) {
+  const Eigen::Vector3i corners = surface.triangle(point.face);
   for (int i = 0; i < 3; ++i) {
+    if (point.barycentric[i] > 1.0 - 1e-9 && border[corners[i]]) return true;
     if (point.barycentric[(i + 2) % 3] < 1e-9 && surface.neighbour(point.face, i) < 0) return true;
   }
   return false;
 }
 
 /// How far beside the tissue a point of space lies, apart from its height over the surface.
-double beyond_border_m(const Surface& surface, const Vec3& position, const SurfacePoint& closest) {
-  if (!is_on_border(surface, closest)) return 0.0;
+double beyond_border_m(const Surface& surface, const std::vector<bool>& border, const Vec3& position, const SurfacePoint& closest) {
+  if (!is_on_border(surface, border, closest)) return 0.0;
   const Vec3 normal = surface.face_normal(closest.face);
   const Vec3 offset = position - surface.position(closest);
   return (offset - normal.dot(offset) * normal).norm();
@@ -76,11 +87,12 @@ ChartReadings in_plane(const Surface& surface, const RecordedReadings& recording
 /// Readings beside the tissue would pile up on its border: those farther out than the reach are left out.
 ChartReadings on_curved(const Surface& surface, const RecordedReadings& recording, double reach_m) {
   ChartReadings kept{Points2(recording.positions.rows(), 2), Eigen::VectorXd(recording.readings.size())};
+  const std::vector<bool> border = border_vertices(surface);
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < recording.positions.rows(); ++i) {
     const Vec3 position = recording.positions.row(i);
     const SurfacePoint closest = surface.project(position);
-    if (beyond_border_m(surface, position, closest) > reach_m) continue;
+    if (beyond_border_m(surface, border, position, closest) > reach_m) continue;
     kept.places.row(count) = chart_place(surface, closest);
     kept.values[count++] = recording.readings[i];
   }

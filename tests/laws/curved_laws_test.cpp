@@ -72,7 +72,7 @@ TEST(CurvedLaws, AFacetedCylinderIsThePlaneThatItUnrollsTo) {
   const Sheets tissue = sheets();
   const Result bent = explored(tissue.bent, 640), flat = explored(tissue.flat, 640);
   ASSERT_EQ(bent.picks.size(), flat.picks.size());
-  ASSERT_GT(flat.picks.size(), 40u);
+  ASSERT_GE(flat.picks.size(), 40u);
   for (std::size_t i = 0; i < flat.picks.size(); ++i) {
     EXPECT_EQ(bent.picks[i].face, flat.picks[i].face) << "touch " << i;
     EXPECT_LT((bent.picks[i].barycentric - flat.picks[i].barycentric).norm(), 1e-9) << "touch " << i;

@@ -221,13 +221,13 @@ class Sweep {
     if (!surface.has_chart()) return;
     ++regions_;
     const Region region = superlevel_region(surface, field, level);
-    note(std::abs(region.area() - area) / surface.area(), region_, name);
+    note(std::abs(surface_area(surface, region) - area) / surface.area(), region_, name);
     if (regions_ % 10 == 0 && std::isfinite(higher)) {
       note(subtract(superlevel_region(surface, field, higher), region).area() / surface.area(), nesting_, name);
     }
     if (regions_ % 10 == 5) {
       const Region below = superlevel_region(surface, -field, -level);
-      note(std::abs(intersect(region, below).area() - area_at(surface, field, level)) / surface.area(), complement_, name);
+      note(std::abs(surface_area(surface, intersect(region, below)) - area_at(surface, field, level)) / surface.area(), complement_, name);
     }
   }
 
