@@ -10,8 +10,9 @@
 
 namespace palpation::draw {
 
-inline constexpr double kRightOfMap_px = 108.0;  ///< beside a map, for the colour bar with its numbers
-inline constexpr double kCaption_px = 50.0;      ///< at the foot of the picture
+inline constexpr double kRightOfMap_px = 108.0;    ///< beside a map, for the colour bar with its numbers
+inline constexpr double kCaption_px = 50.0;        ///< at the foot of the picture
+inline constexpr double kCaptionMargin_px = 24.0;  ///< beside it
 
 struct Layout {
   int width_px = 1800;

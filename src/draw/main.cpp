@@ -17,6 +17,7 @@
 #include "draw/offscreen.h"
 #include "draw/outcome.h"
 #include "draw/picture.h"
+#include "draw/unroll.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
 
@@ -41,7 +42,7 @@ struct Wish {
 };
 
 void draw_outcome(const fs::path& folder) {
-  const Outcome outcome = read_outcome(folder);
+  const Outcome outcome = unrolled_where_folded(read_outcome(folder));
   write_atomically(folder / "picture.png", picture_of(outcome));
   if (!outcome.trace) return;
   const std::optional<Chart> chart = convergence_of(*outcome.trace);

@@ -345,8 +345,11 @@ std::string picture_of(const Outcome& outcome) {
   draw_uncertainty(sheet, outcome, plan, layout.maps[1]);
   draw_third(sheet, outcome, plan, layout.maps[2]);
   draw_legend(sheet, layout.legend, kCaption_px);
-  sheet.text({sheet.width_px() / 2.0, kCaption_px / 2.0 + 2.0}, caption_of(outcome),
-             {.size_px = 21.0, .bold = true, .horizontal = Horizontal::Centre});
+  const std::string caption = caption_of(outcome);
+  TextStyle style{.size_px = 21.0, .bold = true, .horizontal = Horizontal::Centre};
+  const double room_px = sheet.width_px() - 2.0 * kCaptionMargin_px;
+  style.size_px *= std::min(1.0, room_px / text_width_px(caption, style));
+  sheet.text({sheet.width_px() / 2.0, kCaption_px / 2.0 + 2.0}, caption, style);
   return sheet.png();
 }
 

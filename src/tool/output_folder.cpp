@@ -128,6 +128,11 @@ NamedFields fields_of(const Episode& episode, const World* world) {
     fields.emplace_back("probability_inside", now.probability_inside);
   }
   if (world != nullptr) fields.emplace_back("truth", world->truth);
+  // Curved tissue may hide a part of itself: a picture can show it laid flat.
+  if (const Surface& surface = episode.exploration.surface(); !surface.is_planar()) {
+    fields.emplace_back("chart_u", surface.chart().uv.col(0));
+    fields.emplace_back("chart_v", surface.chart().uv.col(1));
+  }
   return fields;
 }
 
