@@ -16,7 +16,7 @@ struct Experiment {
 
 constexpr Experiment kExperiments[] = {
     {"table1", table1},       {"figure4", figure4},       {"table2", table2}, {"coverage", coverage},
-    {"detection", detection}, {"recordings", recordings}, {"curved", curved},
+    {"detection", detection}, {"recordings", recordings}, {"curved", curved}, {"acquisitions", acquisitions},
 };
 
 }  // namespace

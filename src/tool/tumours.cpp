@@ -60,7 +60,7 @@ void check_place(const Scene& scene, const Surface& surface, const std::string& 
                                 const std::string& words) {
   if (shape.contains("centre_mm")) check_place(scene, surface, path + ".centre_mm", shape["centre_mm"]);
   if (shape["shape"] == "polygon") {
-    if (!surface.is_planar()) scene.refuse(path, "a polygon needs flat tissue so far");
+    if (!surface.has_chart()) scene.refuse(path, "a polygon needs tissue that can be laid flat: a patch without holes");
     const json& points = shape["points_mm"];
     for (std::size_t i = 0; i < points.size(); ++i) check_place(scene, surface, path + ".points_mm[" + std::to_string(i) + "]", points[i]);
     scene.refuse(path + ".points_mm", "is " + words);

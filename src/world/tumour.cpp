@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "palpation/geometry/distance.h"
+#include "palpation/geometry/path.h"
 #include "world/closed_lines.h"
 #include "world/plane_map.h"
 
@@ -138,15 +140,25 @@ std::vector<Vec2> without_repeats(const std::vector<Vec2>& points) {
   return line;
 }
 
+void require_simple(const std::vector<Vec2>& line, const std::vector<int>& side_of, const Name& name) {
+  const auto sides = sides_that_meet(line);
+  if (!sides) return;
+  const std::string both = std::to_string(side_of[sides->first]) + " and " + std::to_string(side_of[sides->second]);
+  name.require(false, "an outline whose sides " + both + " meet", "must not cross or touch itself");
+}
+
+void require_corners(std::size_t count, const Name& name) {
+  name.require(count >= 3, "an outline of " + std::to_string(count) + " distinct points", "must have at least three");
+}
+
 Field distance_inside(const FlatTissue& tissue, const Outline& outline, const Name& name) {
   std::vector<Vec2> points;
   for (const Vec3& point : outline.points_m) points.push_back(snapped(tissue.place(point, name)));
   const std::vector<Vec2> line = without_repeats(points);
-  name.require(line.size() >= 3, "an outline of " + std::to_string(line.size()) + " distinct points", "must have at least three");
-  if (const auto sides = sides_that_meet(line)) {
-    const std::string both = std::to_string(sides->first + 1) + " and " + std::to_string(sides->second + 1);
-    name.require(false, "an outline whose sides " + both + " meet", "must not cross or touch itself");
-  }
+  require_corners(line.size(), name);
+  std::vector<int> side_of(line.size());
+  std::iota(side_of.begin(), side_of.end(), 1);
+  require_simple(line, side_of, name);
   const ClosedLines closed({line});
   return tissue.at_vertices([&](const Vec2& place) { return closed.signed_distance(place); });
 }
@@ -193,9 +205,48 @@ Field distance_inside(const Surface& surface, const Horseshoe& horseshoe, const 
   return horseshoe.half_width_m - distance_from(surface, arc_on(surface, horseshoe, centre, name)).array();
 }
 
-Field distance_inside(const Surface&, const Outline&, const Name& name) {
-  name.require(false, "an outline", "needs flat tissue so far");
-  return {};
+Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
+  const Eigen::Vector3i corners = surface.triangle(point.face);
+  Vec2 place = Vec2::Zero();
+  for (int i = 0; i < 3; ++i) place += point.barycentric[i] * surface.chart().uv.row(corners[i]).transpose();
+  return snapped(place);
+}
+
+std::vector<SurfacePoint> corners_on(const Surface& surface, const Outline& outline, const Name& name) {
+  std::vector<SurfacePoint> corners;
+  const auto are_one = [&](const SurfacePoint& a, const SurfacePoint& b) { return chart_place(surface, a) == chart_place(surface, b); };
+  for (const Vec3& point : outline.points_m) {
+    const SurfacePoint corner = centre_on(surface, point, name);
+    if (corners.empty() || !are_one(corner, corners.back())) corners.push_back(corner);
+  }
+  while (corners.size() > 1 && are_one(corners.back(), corners.front())) corners.pop_back();
+  return corners;
+}
+
+/// Sides are shortest ways over the tissue; where they run, and distances from them, are told in its chart.
+Field distance_inside(const Surface& surface, const Outline& outline, const Name& name) {
+  name.require(surface.has_chart(), "an outline", "needs tissue that can be laid flat: a patch without holes");
+  const std::vector<SurfacePoint> corners = corners_on(surface, outline, name);
+  require_corners(corners.size(), name);
+  const double step_m = std::sqrt(surface.area() / surface.face_count());  // about two thirds of an edge
+  std::vector<Vec2> line;
+  std::vector<int> side_of;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const SurfacePoint& next = corners[(i + 1) % corners.size()];
+    std::vector<SurfacePoint> side = way_between(surface, corners[i], next, step_m);
+    side.insert(side.begin(), corners[i]);
+    for (const SurfacePoint& place : side) {
+      line.push_back(chart_place(surface, place));
+      side_of.push_back(static_cast<int>(i) + 1);
+    }
+  }
+  require_simple(line, side_of, name);
+  const ClosedLines closed({line});
+  Field field(surface.vertex_count());
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    field[vertex] = closed.signed_distance(surface.chart().uv.row(vertex).transpose());
+  }
+  return field;
 }
 
 }  // namespace

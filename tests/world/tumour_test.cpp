@@ -251,10 +251,23 @@ TEST(SignedDistance, LetsTheBorderCutATumour) {
   EXPECT_NEAR(at_mm(phantom, distance, 3, 10), 0.0, 1e-15);
 }
 
-TEST(SignedDistance, SaysThatAnOutlineNeedsFlatTissueSoFar) {
-  const Outline triangle{{{0.004, 0.004, 0.0}, {0.016, 0.005, 0.0}, {0.009, 0.017, 0.0}}};
-  EXPECT_EQ(message_of(bent_sheet(0.020, 0.020, 0.005, 0.050), {triangle}),
-            "signed_distance: tumour 1: an outline needs flat tissue so far");
+// A facet of the bent sheet spans a millimetre of arc, half of that past which its chord is shorter by 2e-8 m.
+TEST(SignedDistance, OfAnOutlineOnABentSheetIsThatOnTheFlatOne) {
+  constexpr double kRadius = 0.050, kMiddle = 0.010;
+  const Surface flat = sheet(0.020, 0.020, 0.001), bent = bent_sheet(0.020, 0.020, 0.001, kRadius);
+  const Outline outline{{{0.004, 0.004, 0.0}, {0.016, 0.005, 0.0}, {0.009, 0.017, 0.0}}};
+  Outline rolled = outline;
+  for (Vec3& point : rolled.points_m) {
+    const double angle = (point.x() - kMiddle) / kRadius;
+    point = Vec3(kMiddle + kRadius * std::sin(angle), point.y(), kRadius * std::cos(angle) - kRadius);
+  }
+  EXPECT_LT((distance_of(bent, rolled) - distance_of(flat, outline)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SignedDistance, RefusesAnOutlineWhoseWaysCrossOnABentSheet) {
+  const Outline bow{{{0.004, 0.004, 0.0}, {0.016, 0.016, 0.0}, {0.016, 0.004, 0.0}, {0.004, 0.016, 0.0}}};
+  EXPECT_EQ(message_of(bent_sheet(0.020, 0.020, 0.001, 0.050), {bow}),
+            "signed_distance: tumour 1: an outline whose sides 1 and 3 meet must not cross or touch itself");
 }
 
 /// Mean error of a geodesic disk's area on a sphere of radius R, relative to 2 pi R^2 (1 - cos(r / R)), over some meshes.

@@ -26,7 +26,7 @@ struct Horseshoe {
 };
 
 /// A closed outline through points, each taken to its closest surface point, joined by shortest surface paths; the last may repeat the
-/// first. Needs planar tissue so far. Points are rounded to a picometre.
+/// first. Curved tissue must have a chart: distances from the outline are those in it. Points are rounded to a picometre there.
 struct Outline {
   std::vector<Vec3> points_m;
 };
