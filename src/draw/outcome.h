@@ -49,6 +49,7 @@ struct Outcome {
   std::vector<Touch> touches;
   std::optional<Table> trace;
   Summary summary;
+  bool unrolled = false;  ///< laid flat: coordinates are the chart's
 
   /// The field of that name, or null.
   vtkDataArray* field(const std::string& name) const;

@@ -101,7 +101,7 @@ int tick_count(double length_px) { return std::clamp(static_cast<int>(length_px 
 
 void draw_axes(Sheet& sheet, const View& view, const Box& map) {
   const double px_per_mm = map.width / view.width_mm;
-  const bool own_axes = view.turn.isIdentity(1e-12);
+  const bool own_axes = !view.in_chart && view.turn.isIdentity(1e-12);
   for (const Tick& tick : ticks(view.left_mm, view.left_mm + view.width_mm, tick_count(map.width))) {
     const Pixel foot(map.left + (tick.value - view.left_mm) * px_per_mm, map.bottom);
     sheet.line(foot, foot - Pixel(0.0, 6.0), kFrame);

@@ -239,6 +239,7 @@ class Shapes {
 
 View view_of(const Outcome& outcome, std::optional<double> level) {
   View view;
+  view.in_chart = outcome.unrolled;
   const Vec3 towards_viewer = direction_to_viewer(outcome, level);
   view.turn = frame_facing(towards_viewer);
   if (towards_viewer.z() < 1.0 - 1e-12) view.origin = vertex_nearest_to_centroid(*outcome.surface);

@@ -20,6 +20,7 @@ struct View {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< rows: to the right, upwards, towards the viewer
   Vec3 origin = Vec3::Zero();                          ///< metres
   bool flat = true;
+  bool in_chart = false;                                                   ///< of tissue laid flat
   double left_mm = 0.0, bottom_mm = 0.0, width_mm = 0.0, height_mm = 0.0;  ///< what is visible, with a small margin
   double front_mm = 0.0, back_mm = 0.0;                                    ///< depth of the tissue along the line of sight
   std::vector<std::array<Vec3, 2>> rim_mm;                                 ///< the border of the tissue, side by side, in the view

@@ -52,6 +52,7 @@ Outcome unrolled_where_folded(Outcome outcome) {
     points->InsertNextPoint(u->GetComponent(i, 0), v->GetComponent(i, 0), 0.0);
   }
   outcome.surface->SetPoints(points);
+  outcome.unrolled = true;
   return outcome;
 }
 

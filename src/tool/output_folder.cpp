@@ -65,6 +65,11 @@ json place_json(const TumourPart& part) {
 
 json part_json(const TumourPart& part, const Surface& surface) {
   json result = place_json(part);
+  const Points2& uv = surface.chart().uv;
+  Eigen::Index nearest = 0;
+  (uv.rowwise() - part.centroid_m.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  const Vec3 position = surface.vertex(static_cast<int>(nearest));
+  result["position_mm"] = {position.x() * kMm, position.y() * kMm, position.z() * kMm};  // of the vertex nearest to the centroid
   result["probability"] = part.probability;
   result["touches_border"] = part.touches_border;
   result["holes"] = json::array();
@@ -105,13 +110,18 @@ std::string waypoint_csv(const std::vector<Waypoint>& waypoints) {
   std::string text =
       "index,x,y,z,approach_x,approach_y,approach_z,indented_x,indented_y,indented_z,normal_x,normal_y,normal_z,qx,qy,qz,qw,expected_force_"
       "n\n";
+  Eigen::Vector4d last = Eigen::Vector4d::Zero();
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const Waypoint& waypoint = waypoints[i];
+    // Of the two quaternions of a pose the one nearer to the last: who filters them must not see them jump.
+    Eigen::Vector4d turn = quaternion(waypoint.rotation);
+    if (turn.dot(last) < 0.0) turn = -turn;
+    last = turn;
     text += std::to_string(i);
     for (const Vec3& triple : {waypoint.position, waypoint.approach, waypoint.indented, waypoint.normal}) {
       for (double coordinate : triple) text += "," + text_of(coordinate);
     }
-    for (double coefficient : quaternion(waypoint.rotation)) text += "," + text_of(coefficient);
+    for (double coefficient : turn) text += "," + text_of(coefficient);
     text += "," + text_of(waypoint.expected_force_n) + "\n";
   }
   return text;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "palpation/base/error.h"
+#include "palpation/geometry/clearance.h"
 #include "palpation/geometry/make_plane.h"
 #include "palpation/geometry/patch.h"
 #include "palpation/io/read_mesh.h"
@@ -166,9 +167,24 @@ KernelFamily kernel_family(const std::string& name) {
   return KernelFamily::SquaredExponential;
 }
 
+/// Nobody asked, but an approach must not lead through the tissue.
+void warn_of_hidden_tissue(const Scene& scene, Tissue& tissue) {
+  const double standoff_m = scene.metres("robot.standoff_mm");
+  if (tissue.surface.is_planar() || standoff_m == 0.0) return;
+  const std::vector<bool> clear = clear_vertices(tissue.surface, standoff_m);
+  double hidden_m2 = 0.0;
+  for (int vertex = 0; vertex < tissue.surface.vertex_count(); ++vertex)
+    hidden_m2 += clear[vertex] ? 0.0 : tissue.surface.vertex_areas()[vertex];
+  const double percent = 100.0 * hidden_m2 / tissue.surface.area();
+  if (percent > 0.05)
+    tissue.warnings.push_back(scene.name() + ": over " + fixed(percent, 1) +
+                              " % of the tissue the way down from robot.standoff_mm leads through another part of it. Give "
+                              "robot.clearance_mm to keep the probe away from there.");
+}
+
 void warn_of_reach(const Scene& scene, Tissue& tissue) {
   const std::optional<std::vector<int>> reached = reachable_of(scene, tissue.surface);
-  if (!reached) return;
+  if (!reached) return warn_of_hidden_tissue(scene, tissue);
   double reached_m2 = 0.0;
   for (const int vertex : *reached) reached_m2 += tissue.surface.vertex_areas()[vertex];
   const double percent = 100.0 * (1.0 - reached_m2 / tissue.surface.area());

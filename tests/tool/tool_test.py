@@ -333,6 +333,7 @@ class Tool(unittest.TestCase):
         self.assertLess(abs(summary["area_mm2"] - 2 * math.pi * radius ** 2 * (1 - math.cos(5 / radius))), 8.0, words)
         self.assertLess(summary["error"]["symmetric_difference_mm2"], 12.0, words)
         self.assertAlmostEqual(sum(part["area_mm2"] for part in summary["parts"]), summary["area_mm2"], 6)
+        self.assertLess(math.dist(summary["parts"][0]["position_mm"], [0, 0, radius]), 1.0)
 
 
 if __name__ == "__main__":
