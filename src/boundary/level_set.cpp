@@ -10,7 +10,9 @@
 #include "boundary/reproducer.h"
 #include "boundary/simple_loops.h"
 #include "boundary/tissue_area.h"
+#include "palpation/base/careful_sum.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/chart_place.h"
 
 namespace palpation {
 
@@ -50,13 +52,6 @@ void sort_by_length(const Surface& surface, std::vector<LevelLoop>& loops) {
   loops = std::move(sorted);
 }
 
-Vec2 place_in_chart(const Surface& surface, const Chart& chart, const SurfacePoint& point) {
-  const Eigen::Vector3i triangle = surface.triangle(point.face);
-  Vec2 place = Vec2::Zero();
-  for (int corner = 0; corner < 3; ++corner) place += point.barycentric[corner] * chart.uv.row(triangle[corner]).transpose();
-  return place;
-}
-
 /// How much of a triangle is inside, by the values at its corners less the level. Seen from its apex, a corner alone on its side, each edge
 /// is cut at v / (v - w), and the tip cut off has the product of the two as its share.
 double share_inside(const Vec3& above) {
@@ -68,20 +63,16 @@ double share_inside(const Vec3& above) {
   return inside[apex] ? tip_share : 1.0 - tip_share;
 }
 
-/// Of the faces' shares inside, times what `area_of_face` says (Neumaier's sum: what each step rounds away is kept apart).
+/// Of the faces' shares inside, times what `area_of_face` says.
 template <typename AreaOfFace>
 double sum_inside(const Surface& surface, const Field& field, double level, AreaOfFace area_of_face) {
-  double sum = 0.0;
-  double lost = 0.0;
+  CarefulSum sum;
   for (int face = 0; face < surface.face_count(); ++face) {
     const double share = share_inside(above_level(surface, field, level, face));
     if (share == 0.0) continue;
-    const double term = share * area_of_face(face);
-    const double next = sum + term;
-    lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
-    sum = next;
+    sum.add(share * area_of_face(face));
   }
-  return sum + lost;
+  return sum.value();
 }
 
 /// Rounding may move each corner of the rings by some of its last places, and each triangle's area by some of its edges' products.
@@ -116,11 +107,10 @@ std::vector<LevelLoop> level_loops(const Surface& surface, const Field& field, d
 }
 
 Region superlevel_region(const Surface& surface, const Field& field, double level) {
-  const Chart& chart = surface.chart();
   std::vector<Ring> rings;
   for (const LevelLoop& loop : level_loops(surface, field, level)) {
     Ring& ring = rings.emplace_back();
-    for (const SurfacePoint& point : loop.points) ring.push_back(place_in_chart(surface, chart, point));
+    for (const SurfacePoint& point : loop.points) ring.push_back(chart_place(surface, point));
   }
   Region region = Region::even_odd(rings);
   require_area_of_triangles(surface, field, level, rings, region.area());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "boundary/convex.h"
+#include "palpation/base/careful_sum.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
@@ -96,14 +97,9 @@ double tissue_area(const Surface& surface, const Region& region) {
       parts[face] = columns.covered(a, b, c) / (0.5 * cross(b - a, c - a)) * surface.face_area(face);
     }
   });
-  // Neumaier's sum: what each step rounds away is kept apart.
-  double sum = 0.0, lost = 0.0;
-  for (const double part : parts) {
-    const double next = sum + part;
-    lost += std::abs(sum) >= std::abs(part) ? (sum - next) + part : (part - next) + sum;
-    sum = next;
-  }
-  return sum + lost;
+  CarefulSum sum;
+  for (const double part : parts) sum.add(part);
+  return sum.value();
 }
 
 }  // namespace palpation

@@ -1,5 +1,7 @@
 #include "palpation/certainty/layout.h"
 
+#include "palpation/geometry/chart_place.h"
+
 namespace palpation {
 
 Layout::Layout(const Prior& prior)
@@ -13,10 +15,8 @@ Vec3 Layout::at(int vertex) const {
 
 Vec3 Layout::at(const SurfacePoint& point) const {
   if (!in_chart_) return surface_.position(point);
-  const Eigen::Vector3i corners = surface_.triangle(point.face);
-  Vec3 place = Vec3::Zero();
-  for (int corner = 0; corner < 3; ++corner) place += point.barycentric[corner] * at(corners[corner]);
-  return place;
+  const Vec2 uv = chart_place(surface_, point);
+  return {uv.x(), uv.y(), 0.0};
 }
 
 std::vector<Vec3> Layout::vertices() const {

@@ -2,12 +2,7 @@
 
 #include <cstring>
 
-// One source for several instruction sets, as in base/tile.cpp, and the same digits on all.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define PALPATION_TARGETS __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define PALPATION_TARGETS
-#endif
+#include "palpation/base/targets.h"
 
 namespace palpation {
 namespace {

@@ -2,28 +2,15 @@
 
 #define CGAL_EIGEN3_ENABLED 1  // its solver
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
 #include <algorithm>
 
+#include "geometry/cgal_mesh.h"
+
 namespace palpation {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-CgalMesh copy_of(const TriangleMesh& mesh) {
-  CgalMesh copy;
-  for (const auto& vertex : mesh.vertices.rowwise()) copy.add_vertex(Kernel::Point_3(vertex.x(), vertex.y(), vertex.z()));
-  for (const auto& corner : mesh.triangles.rowwise()) {
-    const auto index = [&](int i) { return CgalMesh::Vertex_index(static_cast<CgalMesh::size_type>(corner[i])); };
-    copy.add_face(index(0), index(1), index(2));
-  }
-  return copy;
-}
 
 double twice_area(const Triangles& triangles, const Points2& uv) {
   double twice = 0.0;
@@ -41,7 +28,7 @@ std::optional<Points2> conformal_map(const TriangleMesh& mesh) try {
   CgalMesh copy = copy_of(mesh);
   const auto edges = copy.halfedges();
   const auto border = *std::find_if(edges.begin(), edges.end(), [&](const auto& edge) { return copy.is_border(edge); });
-  const auto places = copy.add_property_map<CgalMesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  const auto places = copy.add_property_map<CgalMesh::Vertex_index, CgalKernel::Point_2>("v:uv").first;
   if (Parameterization::parameterize(copy, Parameterization::LSCM_parameterizer_3<CgalMesh>(), border, places) != Parameterization::OK)
     return std::nullopt;
   Points2 uv(mesh.vertices.rows(), 2);

@@ -11,6 +11,7 @@
 #include "geometry/plane.h"
 #include "geometry/surface_state.h"
 #include "geometry/topology.h"
+#include "palpation/base/careful_sum.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -28,15 +29,10 @@ Field face_areas_of(const TriangleMesh& mesh) {
   return areas;
 }
 
-/// Neumaier's sum: what each step rounds away is kept apart, or a fine mesh would lose an area of some of its faces.
-double sum_in_order(const Field& terms) {
-  double sum = 0.0, lost = 0.0;
-  for (const double term : terms) {
-    const double next = sum + term;
-    lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
-    sum = next;
-  }
-  return sum + lost;
+double sum_of(const Field& terms) {
+  CarefulSum sum;
+  for (const double term : terms) sum.add(term);
+  return sum.value();
 }
 
 double diameter_of(const TriangleMesh& mesh) { return (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm(); }
@@ -112,7 +108,7 @@ Surface::Surface(TriangleMesh mesh) {
   state->border_loops = walk_borders(state->half_edges);
   state->topology = count_topology(state->half_edges, state->connectivity.neighbours, static_cast<int>(state->border_loops.size()));
   state->face_areas = face_areas_of(state->mesh);
-  state->area = sum_in_order(state->face_areas);
+  state->area = sum_of(state->face_areas);
   state->diameter = diameter_of(state->mesh);
   state->plane = find_plane(state->mesh, state->diameter);
   state_ = std::move(state);

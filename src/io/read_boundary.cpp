@@ -10,6 +10,7 @@
 #include "io/mesh_source.h"
 #include "io/vtp_file.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/chart_place.h"
 #include "palpation/io/atomic_file.h"
 
 namespace palpation {
@@ -17,13 +18,6 @@ namespace {
 
 constexpr double kFarthestBeside_m = 0.005;
 const std::string kEstimate = "estimate";
-
-Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
-  Vec2 place = Vec2::Zero();
-  for (int corner = 0; corner < 3; ++corner)
-    place += point.barycentric[corner] * surface.chart().uv.row(surface.triangle(point.face)[corner]).transpose();
-  return place;
-}
 
 /// The kind of every cell, or nothing where the file does not tell.
 std::vector<std::string> kinds_of(VtpFile& file, const VtpPiece& piece) {

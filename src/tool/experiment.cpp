@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <mutex>
 
 #include "palpation/base/error.h"
@@ -74,6 +75,13 @@ Statistics statistics(std::span<const double> values) {
   for (double value : values) square += (value - result.mean) * (value - result.mean);
   if (n > 1.0) result.standard_error = std::sqrt(square / (n - 1.0) / n);
   return result;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
 std::string in_words(const Statistics& result) {

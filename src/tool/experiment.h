@@ -55,6 +55,9 @@ struct Statistics {
 };
 Statistics statistics(std::span<const double> values);
 
+/// NaN of none.
+double median(std::vector<double> values);
+
 /// "  0.063 +- 0.002", or "-" in place of an error that is not known.
 std::string in_words(const Statistics& result);
 /// "0.063", or "  -  " where there is no value.

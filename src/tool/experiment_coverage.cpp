@@ -117,13 +117,6 @@ std::string csv_of(const std::vector<Run>& runs) {
   return csv;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 /// One line of the report, over some of the runs. Widths and expectations are of the runs where something was found.
 void report_row(const std::string& name, const std::vector<Run>& runs) {
   double error_ratio = 0.0, worst = 0.0, width = 0.0, bound_width = 0.0;

@@ -98,12 +98,6 @@ struct Outcome {
   double batch_s = 0.0;             ///< the median
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 /// From a mesh to the first prior of the metric, chart or spectrum included.
 double seconds_to_prepare(const TriangleMesh& mesh, const Scene& scene) {
   const Surface fresh(mesh);

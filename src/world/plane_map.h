@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "palpation/geometry/chart_place.h"
 #include "palpation/geometry/surface.h"
 
 namespace palpation {
@@ -28,5 +29,8 @@ inline Vec2 snapped(const Vec2& place) {
   const auto snap = [](double coordinate_m) { return std::round(coordinate_m * 0x1p40) * 0x1p-40; };
   return {snap(place.x()), snap(place.y())};
 }
+
+/// Where a point of the surface lies in its chart, snapped.
+inline Vec2 snapped_place(const Surface& surface, const SurfacePoint& point) { return snapped(chart_place(surface, point)); }
 
 }  // namespace palpation

@@ -38,14 +38,6 @@ Vec3 mean_direction(const Points& positions) {
   return steps == 0 ? sum : Vec3(sum / steps);
 }
 
-Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
-  const Points2& uv = surface.chart().uv;
-  const Eigen::Vector3i corners = surface.triangle(point.face);
-  Vec2 place = Vec2::Zero();
-  for (int i = 0; i < 3; ++i) place += point.barycentric[i] * uv.row(corners[i]).transpose();
-  return snapped(place);
-}
-
 std::vector<bool> border_vertices(const Surface& surface) {
   std::vector<bool> on_border(static_cast<std::size_t>(surface.vertex_count()), false);
   for (const std::vector<int>& loop : surface.border_loops()) {
@@ -93,7 +85,7 @@ ChartReadings on_curved(const Surface& surface, const RecordedReadings& recordin
     const Vec3 position = recording.positions.row(i);
     const SurfacePoint closest = surface.project(position);
     if (beyond_border_m(surface, border, position, closest) > reach_m) continue;
-    kept.places.row(count) = chart_place(surface, closest);
+    kept.places.row(count) = snapped_place(surface, closest);
     kept.values[count++] = recording.readings[i];
   }
   kept.places.conservativeResize(count, 2);
@@ -123,7 +115,7 @@ std::optional<Palpation> RecordedWorld::touch(const SurfacePoint& where, const V
   const Vec3 direction = travel.stableNormalized();
   const auto fits_worse = [&](const Vec3& a, const Vec3& b) { return a.dot(direction) < b.dot(direction); };
   const auto best = std::max_element(travels_.begin(), travels_.end(), fits_worse) - travels_.begin();
-  const std::optional<double> reading = fields_[best].at(chart_place(surface_, where), reach_m_);
+  const std::optional<double> reading = fields_[best].at(snapped_place(surface_, where), reach_m_);
   if (!reading) return std::nullopt;
   Palpation palpation;
   palpation.where = where;
@@ -135,7 +127,7 @@ std::optional<Palpation> RecordedWorld::touch(const SurfacePoint& where, const V
 Field RecordedWorld::map(double low) const {
   Field field(surface_.vertex_count());
   for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) {
-    field[vertex] = fields_.front().at(chart_place(surface_, surface_.at_vertex(vertex)), reach_m_).value_or(low);
+    field[vertex] = fields_.front().at(snapped_place(surface_, surface_.at_vertex(vertex)), reach_m_).value_or(low);
   }
   return field;
 }
@@ -143,7 +135,7 @@ Field RecordedWorld::map(double low) const {
 std::vector<bool> RecordedWorld::in_contact() const {
   std::vector<bool> contact(surface_.vertex_count());
   for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) {
-    const Vec2 place = chart_place(surface_, surface_.at_vertex(vertex));
+    const Vec2 place = snapped_place(surface_, surface_.at_vertex(vertex));
     const auto answers = [&](const ScatteredField& field) { return field.at(place, reach_m_).has_value(); };
     contact[vertex] = std::all_of(fields_.begin(), fields_.end(), answers);
   }

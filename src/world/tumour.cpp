@@ -205,16 +205,9 @@ Field distance_inside(const Surface& surface, const Horseshoe& horseshoe, const 
   return horseshoe.half_width_m - distance_from(surface, arc_on(surface, horseshoe, centre, name)).array();
 }
 
-Vec2 chart_place(const Surface& surface, const SurfacePoint& point) {
-  const Eigen::Vector3i corners = surface.triangle(point.face);
-  Vec2 place = Vec2::Zero();
-  for (int i = 0; i < 3; ++i) place += point.barycentric[i] * surface.chart().uv.row(corners[i]).transpose();
-  return snapped(place);
-}
-
 std::vector<SurfacePoint> corners_on(const Surface& surface, const Outline& outline, const Name& name) {
   std::vector<SurfacePoint> corners;
-  const auto are_one = [&](const SurfacePoint& a, const SurfacePoint& b) { return chart_place(surface, a) == chart_place(surface, b); };
+  const auto are_one = [&](const SurfacePoint& a, const SurfacePoint& b) { return snapped_place(surface, a) == snapped_place(surface, b); };
   for (const Vec3& point : outline.points_m) {
     const SurfacePoint corner = centre_on(surface, point, name);
     if (corners.empty() || !are_one(corner, corners.back())) corners.push_back(corner);
@@ -236,7 +229,7 @@ Field distance_inside(const Surface& surface, const Outline& outline, const Name
     std::vector<SurfacePoint> side = way_between(surface, corners[i], next, step_m);
     side.insert(side.begin(), corners[i]);
     for (const SurfacePoint& place : side) {
-      line.push_back(chart_place(surface, place));
+      line.push_back(snapped_place(surface, place));
       side_of.push_back(static_cast<int>(i) + 1);
     }
   }

@@ -1,31 +1,18 @@
 #include "geometry/geodesics.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_shortest_path.h>
 
 #include <array>
 #include <limits>
 #include <string>
 
+#include "geometry/cgal_mesh.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using ShortestPaths = CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<Kernel, CgalMesh>>;
-
-CgalMesh copy_of(const TriangleMesh& mesh) {
-  CgalMesh copy;
-  for (const auto& vertex : mesh.vertices.rowwise()) copy.add_vertex(Kernel::Point_3(vertex.x(), vertex.y(), vertex.z()));
-  for (const auto& corner : mesh.triangles.rowwise()) {
-    const auto index = [&](int i) { return CgalMesh::Vertex_index(static_cast<CgalMesh::size_type>(corner[i])); };
-    copy.add_face(index(0), index(1), index(2));
-  }
-  return copy;
-}
+using ShortestPaths = CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<CgalKernel, CgalMesh>>;
 
 /// CGAL counts corners from the target of the face's own half-edge, wherever that is.
 ShortestPaths::Barycentric_coordinates cgal_weights(const CgalMesh& copy, const TriangleMesh& mesh, const SurfacePoint& point) {
