@@ -113,11 +113,14 @@ Eigen::MatrixXd Prior::covariance(std::span<const SurfacePoint> rows, std::span<
     const double variance = kernel_.signal_sd * kernel_.signal_sd;
     return variance * (unit_features(*this, rows) * unit_features(*this, columns).transpose());
   }
+  std::vector<Vec3> places;
+  places.reserve(rows.size());
+  for (const SurfacePoint& row : rows) places.push_back(coordinates(row));
   Eigen::MatrixXd result(rows.size(), columns.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vec3 x = coordinates(rows[i]);
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      result(i, j) = kernel_.signal_sd * kernel_.signal_sd * correlation(kernel_, x - coordinates(columns[j]));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const Vec3 x = coordinates(columns[j]);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      result(i, j) = kernel_.signal_sd * kernel_.signal_sd * correlation(kernel_, places[i] - x);
     }
   }
   return result;

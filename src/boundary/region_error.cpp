@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "boundary/nearest_segment.h"
 #include "boundary/tissue_area.h"
 #include "boundary/tissue_ruler.h"
 #include "palpation/base/error.h"
+#include "palpation/geometry/nearest_segment.h"
 
 namespace palpation {
 
@@ -15,12 +15,12 @@ namespace {
 
 constexpr int kSamples = 4000;
 
-void add_segments(const Ring& ring, std::vector<Segment>& segments) {
+void add_segments(const Ring& ring, std::vector<Segment<2>>& segments) {
   for (std::size_t i = 0; i < ring.size(); ++i) segments.push_back({ring[i], ring[(i + 1) % ring.size()]});
 }
 
-std::vector<Segment> boundary_of(const Region& region) {
-  std::vector<Segment> segments;
+std::vector<Segment<2>> boundary_of(const Region& region) {
+  std::vector<Segment<2>> segments;
   for (const PolygonWithHoles& polygon : region.polygons()) {
     add_segments(polygon.outer, segments);
     for (const Ring& hole : polygon.holes) add_segments(hole, segments);
@@ -38,26 +38,26 @@ struct Gap {
 /// Lengths where the chart keeps them.
 struct InChart {
   double length(const Vec2& from, const Vec2& to) const { return (to - from).norm(); }
-  double distance(const Vec2& place, const NearestSegment& boundary, int& hint) const { return boundary.distance(place, hint); }
+  double distance(const Vec2& place, const NearestSegment<2>& boundary, int& hint) const { return boundary.distance(place, hint); }
 };
 
 /// Lengths on tissue that the chart stretches: the nearest place by the stretch where one is, then the way there through all faces.
 struct OnTissue {
   TissueRuler ruler;
   double length(const Vec2& from, const Vec2& to) const { return ruler.length(from, to); }
-  double distance(const Vec2& place, const NearestSegment& boundary, int& hint) const {
+  double distance(const Vec2& place, const NearestSegment<2>& boundary, int& hint) const {
     return ruler.length(place, boundary.nearest(place, ruler.stretch_at(place), hint));
   }
 };
 
 /// Each segment in equal pieces, none longer than asked; the integral by the trapezoidal rule.
 template <typename Measure>
-Gap gap(const std::vector<Segment>& boundary, const NearestSegment& other, const Measure& measure) {
+Gap gap(const std::vector<Segment<2>>& boundary, const NearestSegment<2>& other, const Measure& measure) {
   Gap total;
-  for (const Segment& segment : boundary) total.length += measure.length(segment.from, segment.to);
+  for (const Segment<2>& segment : boundary) total.length += measure.length(segment.from, segment.to);
   const double piece_length = std::max(total.length / kSamples, std::numeric_limits<double>::min());
   int hint = 0;
-  for (const Segment& segment : boundary) {
+  for (const Segment<2>& segment : boundary) {
     const double length = measure.length(segment.from, segment.to);
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / piece_length)));
     double last = measure.distance(segment.from, other, hint);
@@ -75,10 +75,10 @@ Gap gap(const std::vector<Segment>& boundary, const NearestSegment& other, const
 
 template <typename Measure>
 void add_distances(const Region& estimate, const Region& truth, const Measure& measure, RegionError& error) {
-  const std::vector<Segment> a = boundary_of(estimate);
-  const std::vector<Segment> b = boundary_of(truth);
-  const Gap from_a = gap(a, NearestSegment(b), measure);
-  const Gap from_b = gap(b, NearestSegment(a), measure);
+  const std::vector<Segment<2>> a = boundary_of(estimate);
+  const std::vector<Segment<2>> b = boundary_of(truth);
+  const Gap from_a = gap(a, NearestSegment<2>(b), measure);
+  const Gap from_b = gap(b, NearestSegment<2>(a), measure);
   error.hausdorff_m = std::max(from_a.greatest, from_b.greatest);
   // Rounded to doubles, the tiniest of regions has a boundary of no length: then there is one distance only.
   const double length = from_a.length + from_b.length;

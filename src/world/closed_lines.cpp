@@ -10,13 +10,6 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double squared_distance(const Vec2& place, const Vec2& from, const Vec2& to) {
-  const Vec2 along = to - from;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp(along.dot(place - from) / length2, 0.0, 1.0) : 0.0;
-  return (place - from - t * along).squaredNorm();
-}
-
 /// Whether a ray from the place along u crosses a side; half open, so that a corner on the ray counts once.
 bool ray_crosses(const Vec2& place, const Vec2& from, const Vec2& to) {
   if ((from.y() > place.y()) == (to.y() > place.y())) return false;
@@ -50,8 +43,8 @@ ClosedLines::ClosedLines(std::vector<std::vector<Vec2>> lines) {
 double ClosedLines::signed_distance(const Vec2& place) const {
   double least = std::numeric_limits<double>::infinity();
   bool is_inside = false;
-  for (const Segment& segment : segments_) {
-    least = std::min(least, squared_distance(place, segment.from, segment.to));
+  for (const Segment<2>& segment : segments_) {
+    least = std::min(least, segment.squared_distance(place));
     is_inside ^= ray_crosses(place, segment.from, segment.to);
   }
   return is_inside ? std::sqrt(least) : -std::sqrt(least);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palpation/base/types.h"
+#include "palpation/geometry/nearest_segment.h"
 
 namespace palpation {
 
@@ -18,10 +19,7 @@ class ClosedLines {
   double signed_distance(const Vec2& place) const;
 
  private:
-  struct Segment {
-    Vec2 from, to;
-  };
-  std::vector<Segment> segments_;
+  std::vector<Segment<2>> segments_;
 };
 
 /// Two sides of a closed line (side i begins at point i) that meet elsewhere than at the point which neighbours share.

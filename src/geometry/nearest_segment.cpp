@@ -1,6 +1,6 @@
-#include "boundary/nearest_segment.h"
+#include "palpation/geometry/nearest_segment.h"
 
-#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -14,21 +14,27 @@ int boxes_needed(int segments) { return segments <= kSegmentsPerLeaf ? 1 : 1 + 2
 
 }  // namespace
 
-double Segment::nearest_part(const Vec2& place) const {
-  const Vec2 along = to - from;
+template <int dimension>
+double Segment<dimension>::nearest_part(const Point& place) const {
+  const Point along = to - from;
   const double squared_length = along.squaredNorm();
   return squared_length > 0.0 ? std::clamp((place - from).dot(along) / squared_length, 0.0, 1.0) : 0.0;
 }
 
-double Segment::squared_distance(const Vec2& place) const { return (place - from - nearest_part(place) * (to - from)).squaredNorm(); }
+template <int dimension>
+double Segment<dimension>::squared_distance(const Point& place) const {
+  return (place - from - nearest_part(place) * (to - from)).squaredNorm();
+}
 
-NearestSegment::NearestSegment(std::vector<Segment> segments) : segments_(std::move(segments)) {
+template <int dimension>
+NearestSegment<dimension>::NearestSegment(std::vector<Segment<dimension>> segments) : segments_(std::move(segments)) {
   const int count = static_cast<int>(segments_.size());
   boxes_.resize(boxes_needed(count));
   build(0, 0, count);
 }
 
-void NearestSegment::build(int node, int first, int last) {
+template <int dimension>
+void NearestSegment<dimension>::build(int node, int first, int last) {
   if (last - first <= kSegmentsPerLeaf) {
     for (int i = first; i < last; ++i) boxes_[node].extend(segments_[i].from).extend(segments_[i].to);
     return;
@@ -39,9 +45,10 @@ void NearestSegment::build(int node, int first, int last) {
   boxes_[node] = boxes_[2 * node + 1].merged(boxes_[2 * node + 2]);
 }
 
+template <int dimension>
 template <typename SquaredDistance>
-void NearestSegment::search(const Vec2& place, double shrink, const SquaredDistance& squared_distance, int node, int first, int last,
-                            double& best, int& nearest) const {
+void NearestSegment<dimension>::search(const Point& place, double shrink, const SquaredDistance& squared_distance, int node, int first,
+                                       int last, double& best, int& nearest) const {
   if (last - first <= kSegmentsPerLeaf) {
     for (int i = first; i < last; ++i) {
       const double distance = squared_distance(segments_[i]);
@@ -60,24 +67,31 @@ void NearestSegment::search(const Vec2& place, double shrink, const SquaredDista
   if (!left_first && left < best) search(place, shrink, squared_distance, 2 * node + 1, first, middle, best, nearest);
 }
 
-double NearestSegment::distance(const Vec2& place, int& hint) const {
-  const auto squared_distance = [&](const Segment& segment) { return segment.squared_distance(place); };
+template <int dimension>
+double NearestSegment<dimension>::distance(const Point& place, int& hint) const {
+  const auto squared_distance = [&](const Segment<dimension>& segment) { return segment.squared_distance(place); };
   double best = squared_distance(segments_[hint]);
   search(place, 1.0, squared_distance, 0, 0, static_cast<int>(segments_.size()), best, hint);
   return std::sqrt(best);
 }
 
-Vec2 NearestSegment::nearest(const Vec2& place, const Eigen::Matrix2d& stretch, int& hint) const {
-  const auto stretched = [&](const Segment& segment) { return Segment{stretch * (segment.from - place), stretch * (segment.to - place)}; };
-  const auto squared_distance = [&](const Segment& segment) { return stretched(segment).squared_distance(Vec2::Zero()); };
-  // The least singular value, squared, from the sum and the product of both.
-  const double half_sum = 0.5 * stretch.squaredNorm(), product = stretch.determinant();
-  const double shrink = std::max(0.0, half_sum - std::sqrt(std::max(0.0, half_sum * half_sum - product * product)));
+template <int dimension>
+typename NearestSegment<dimension>::Point NearestSegment<dimension>::nearest(const Point& place, const Square& stretch, int& hint) const {
+  const auto stretched = [&](const Segment<dimension>& segment) {
+    return Segment<dimension>{stretch * (segment.from - place), stretch * (segment.to - place)};
+  };
+  const auto squared_distance = [&](const Segment<dimension>& segment) { return stretched(segment).squared_distance(Point::Zero()); };
+  const double least_stretch = Eigen::JacobiSVD<Square>(stretch).singularValues()[dimension - 1];
   double best = squared_distance(segments_[hint]);
-  search(place, (1.0 - 1e-9) * shrink, squared_distance, 0, 0, static_cast<int>(segments_.size()), best, hint);
-  const Segment& found = segments_[hint];
-  const double part = stretched(found).nearest_part(Vec2::Zero());
+  search(place, (1.0 - 1e-9) * least_stretch * least_stretch, squared_distance, 0, 0, static_cast<int>(segments_.size()), best, hint);
+  const Segment<dimension>& found = segments_[hint];
+  const double part = stretched(found).nearest_part(Point::Zero());
   return found.from + part * (found.to - found.from);
 }
+
+template struct Segment<2>;
+template struct Segment<3>;
+template class NearestSegment<2>;
+template class NearestSegment<3>;
 
 }  // namespace palpation
