@@ -1,8 +1,10 @@
 #include "palpation/certainty/edge_belief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "certainty/boundary_nodes.h"
 #include "certainty/depth.h"
@@ -35,6 +37,13 @@ constexpr double kHeavierTail = 0.3;
 /// same way).
 constexpr double kSmoother = 0.45;
 constexpr double kNoisePart = 0.2;
+
+/// Gauss and Hermite's five nodes for the mean over a standard normal variable.
+constexpr std::array<std::pair<double, double>, 5> kNormalNodes = {{{-2.856970013872806, 0.011257411327720691},
+                                                                    {-1.355626179974266, 0.22207592200561266},
+                                                                    {0.0, 8.0 / 15.0},
+                                                                    {1.355626179974266, 0.22207592200561266},
+                                                                    {2.856970013872806, 0.011257411327720691}}};
 
 /// One reading per place, of those that are used.
 EdgeData gathered(const Belief& belief) {
@@ -148,11 +157,14 @@ EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_co
 
 }  // namespace
 
+double learned_noise_log_sd(int readings) { return readings > 0 ? 1.0 / std::sqrt(2.0 * readings) : 0.0; }
+
 EdgeBelief::EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit) : surface_(std::move(surface)), fit_(std::move(fit)) {}
 
 std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
-                                             double fraction, const ShapePrior& shape) {
+                                             double fraction, const ShapePrior& shape, double noise_log_sd) {
   require(fraction > 0.0 && fraction < 1.0, "EdgeBelief", "fraction = " + text_of(fraction), "must lie in (0, 1)");
+  require(noise_log_sd >= 0.0, "EdgeBelief", "noise_log_sd = " + text_of(noise_log_sd), "must not be negative");
   const Surface& surface = belief.prior().surface();
   EdgeData all = gathered(belief);
   const double least = component.mean.minCoeff(), range = component.mean.maxCoeff() - least;
@@ -190,6 +202,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   const EdgeFit edge = with_scatter(std::move(best->edge), best->data, best->prior_covariance, profile);
   EdgeBelief made(surface,
                   std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance * edge.scatter, best->data.places, edge}));
+  made.noise_log_sd_ = noise_log_sd;
   made.profile_ = made.fit_->edge_profile();
   made.depth_ = made.fit_->depth_at_vertices(best->distance);
   made.survey_boundary();
@@ -216,8 +229,13 @@ void EdgeBelief::survey_boundary() {
 }
 
 double EdgeBelief::band_score(double probability) const {
-  const auto misses = [&](double q) {
+  const auto misses_at = [&](double q) {
     return 2.0 * (1.0 - normal_probability(q)) + 2.0 * turn_ / (2.0 * std::numbers::pi) * std::exp(-0.5 * q * q);
+  };
+  const auto misses = [&](double q) {
+    double sum = 0.0;
+    for (const auto& [z, weight] : kNormalNodes) sum += weight * misses_at(q * std::exp(noise_log_sd_ * z));
+    return sum;
   };
   double below = 0.0, above = 40.0;
   for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {

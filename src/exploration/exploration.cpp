@@ -187,7 +187,8 @@ void Exploration::estimate_boundary() {
   if (const auto plateaus = two_plateaus(used_readings(belief_.detrended_palpations()))) {
     first_levels.push_back(plateaus->low + level_rule_.fraction * (plateaus->high - plateaus->low));
   }
-  edge_ = EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction);
+  const double noise_log_sd = field_.learn_noise ? learned_noise_log_sd(belief_.site_count()) : 0.0;
+  edge_ = EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction, {}, noise_log_sd);
   if (edge_) level_ = edge_->level();
   // Where contact fades no profile fits: its plateau may run away, and with it the level.
   if (level_->value <= component_.mean.minCoeff() || level_->value >= component_.mean.maxCoeff()) {

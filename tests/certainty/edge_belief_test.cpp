@@ -139,6 +139,22 @@ TEST(EdgeBelief, BandWidensWithItsProbability) {
   EXPECT_GT(sure.band_score, 2.5758);
 }
 
+TEST(EdgeBelief, BandWidensWithWhatIsNotKnownOfTheNoise) {
+  const Surface surface = tissue();
+  Random random(6);
+  const Belief belief = belief_of_disk(surface, 0.1, 80, random);
+  const auto score_with = [&](double noise_log_sd) {
+    return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5, {}, noise_log_sd)->band_score(0.95);
+  };
+  const double known = score_with(0.0), of_many = score_with(learned_noise_log_sd(105)), of_few = score_with(learned_noise_log_sd(15));
+  EXPECT_DOUBLE_EQ(score_with(1e-9), known);
+  // As Student's distribution is wider than the normal one, three standard deviations out: 2 to 4 % with 105 readings.
+  EXPECT_GT(of_many, 1.015 * known);
+  EXPECT_LT(of_many, 1.045 * known);
+  EXPECT_GT(of_few, 1.1 * known);
+  EXPECT_THROW(score_with(-1.0), InvalidInput);
+}
+
 TEST(EdgeBelief, IsNothingWhereNoBoundaryCanBeDrawn) {
   const Surface surface = tissue();
   const Belief blank(Prior(surface, Metric::Chart, Kernel{}), {.noise_sd = 0.1});

@@ -29,14 +29,17 @@ struct ShapePrior {
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
 };
 
+/// What is not known of a noise that `readings` readings taught: the standard deviation of the logarithm of its own, 1 / sqrt(2 readings).
+double learned_noise_log_sd(int readings);
+
 class EdgeBelief {
  public:
   /// Around the boundary { mean = first_level } of the belief's field, for the first level that makes the readings most probable.
   /// `component`: what the level cuts, at the vertices (the field, or the detrended one). Nothing where no boundary can be drawn at any of
   /// them, or no reading is left to place it. Throws InvalidInput for a fraction outside (0, 1), NumericalError if the readings' covariance
-  /// is not positive definite.
+  /// is not positive definite. `noise_log_sd`: how unsure the belief's noise is; 0, known.
   static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
-                                          double fraction, const ShapePrior& shape = {});
+                                          double fraction, const ShapePrior& shape = {}, double noise_log_sd = 0.0);
 
   /// Depth at the vertices in metres, zero at the boundary. Farther from the first boundary than any correction reaches it is the distance.
   const Field& depth() const { return depth_; }
@@ -50,7 +53,8 @@ class EdgeBelief {
   /// less what the prior of corrections overstates where readings are sharp.
   double expected_error_m2() const { return expected_error_m2_; }
   /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
-  /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary, widened for the tails of an unsure edge.
+  /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary, the noise integrated out; widened for the tails
+  /// of an unsure edge.
   double band_score(double probability) const;
 
   /// Where touches would tell the most: one after the other, the candidate whose reading lowers the depth's expected error along the
@@ -71,7 +75,8 @@ class EdgeBelief {
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
   double mean_part_of_edge_ = 0.0;  // the offset's standard deviation over the edge's width, 1 / slope
-  double turn_ = 0.0;               // of the standardized offset along the boundary, on the unit sphere
+  double noise_log_sd_ = 0.0;
+  double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
 };
 
 }  // namespace palpation
