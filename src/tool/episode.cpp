@@ -5,14 +5,21 @@
 #include <utility>
 
 #include "palpation/base/error.h"
-#include "palpation/certainty/detection.h"
 #include "palpation/decision/baseline.h"
+#include "palpation/exploration/coarse_run.h"
 #include "palpation/geometry/path.h"
 #include "tool/setup.h"
 #include "tool/stopwatch.h"
 
 namespace palpation::tool {
 namespace {
+
+RegionError error_of(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  if (!episode.plain_truth || !exploration.level()) return compare(exploration.surface(), episode.estimate, *episode.truth);
+  const Contour contour = exploration.contour();
+  return compare(exploration.surface(), Superlevel{contour.field, contour.level}, *episode.plain_truth);
+}
 
 /// The estimate and its error as they follow from the exploration's state, and a row of the trace.
 void restate(Episode& episode) {
@@ -30,39 +37,10 @@ void restate(Episode& episode) {
       const Contour contour = exploration.contour();
       episode.estimate = superlevel_region(exploration.surface(), contour.field, contour.level);
     }
-    if (episode.truth) episode.error = compare(exploration.surface(), episode.estimate, *episode.truth);
+    if (episode.truth) episode.error = error_of(episode);
     row.error = episode.error;
   }
   episode.trace.push_back(row);
-}
-
-/// Standard deviation; 0 for readings that are all alike.
-double scatter(const std::vector<double>& readings) {
-  const double count = static_cast<double>(readings.size());
-  double mean = 0.0, square = 0.0;
-  for (const double reading : readings) mean += reading / count;
-  for (const double reading : readings) square += (reading - mean) * (reading - mean) / count;
-  return std::sqrt(square);
-}
-
-/// The tissue outside of what was found.
-struct Healthy {
-  std::vector<int> vertices;
-  double mean = 0.0;  ///< of the field over it
-};
-
-Healthy healthy_part(const Exploration& exploration) {
-  Healthy healthy;
-  double area = 0.0;
-  for (int vertex = 0; vertex < exploration.surface().vertex_count(); ++vertex) {
-    if (exploration.certainty()->score[vertex] >= 0.0) continue;
-    healthy.vertices.push_back(vertex);
-    const double share = exploration.surface().vertex_areas()[vertex];
-    healthy.mean += share * exploration.component().mean[vertex];
-    area += share;
-  }
-  if (area > 0.0) healthy.mean /= area;
-  return healthy;
 }
 
 /// What can be touched, of what the robot reaches.
@@ -91,6 +69,7 @@ Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach giv
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
   Episode episode = started(scene, surface, std::move(plan), world.reach);
   episode.truth = superlevel_region(surface, world.truth, world.true_level);
+  if (scene.word("error.arithmetic") == "plain") episode.plain_truth = Superlevel{world.truth, world.true_level};
   return episode;
 }
 
@@ -122,6 +101,55 @@ void add_tour(Episode& episode, const Tour& tour) {
   episode.path_m += tour.length_m;
 }
 
+double way_step_m(const Scene& scene) { return scene.truth("plan.readings_along_path") ? kWayStep_m : 0.0; }
+
+/// What the coarse mesh can be touched at.
+Reach coarse_reach(const Scene& scene, const Surface& surface, const CoarseMesh& coarse, const Reach& given) {
+  const Reach fine = within_reach(scene, surface, given);
+  Reach reach{.touch_once = fine.touch_once};
+  if (fine.vertices.empty()) return reach;
+  reach.vertices = on_coarse(coarse, fine.vertices);
+  if (reach.vertices.empty()) scene.refuse_value("plan.explore_mm", "finer: none of the vertices that are left can be touched");
+  return reach;
+}
+
+/// Plans on a coarse mesh; when all is felt, concludes on the whole one.
+Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
+  Stopwatch stopwatch;
+  const CoarseMesh coarse = coarsen(surface, scene.metres("plan.explore_mm"));
+  const Plan plan = plan_of(scene);
+  if (std::max(plan.initial_count, plan.batch.size) > static_cast<int>(coarse.vertices.size()))
+    scene.refuse_value("plan.explore_mm",
+                       "finer: it leaves " + std::to_string(coarse.vertices.size()) + " vertices, fewer than a batch touches");
+  Exploration planner(Surface(coarse.mesh), field_of(scene), level_rule_of(scene), plan, scene.seed(),
+                      coarse_reach(scene, surface, coarse, world.reach));
+  Plan nothing = plan;
+  nothing.initial_count = nothing.batches = 0;
+  Episode episode = started(scene, surface, world, nothing);
+  std::vector<int> planned = planner.next();
+  const auto finish_batch = [&](const Tour& tour) {
+    for (const int stop : planned) episode.stops.push_back(coarse.vertices[static_cast<std::size_t>(stop)]);
+    planned = planner.next();
+    add_tour(episode, tour);
+    TraceRow row;
+    row.batch = planner.batch() - 1;
+    row.measurements = static_cast<int>(planner.palpations().size());
+    row.path_m = episode.path_m;
+    if (planner.level()) row.level = planner.level()->value;
+    if (planner.certainty()) row.expected_error_m2 = planner.certainty()->expected.symmetric_difference_m2();
+    if (!planned.empty()) episode.trace.push_back(row);  // the last one is of the conclusion
+    episode.batch_seconds.push_back(stopwatch.seconds());
+    stopwatch = Stopwatch();
+  };
+  episode.exploration.take_up(
+      run_coarsely(planner, coarse, surface, CountingProbe(scene, planner, world.probe), finish_batch, way_step_m(scene)));
+  episode.coarse_stop_reason = planner.stop_reason();
+  restate(episode);
+  episode.conclusion_seconds = stopwatch.seconds();
+  if (after_batch) after_batch(episode);
+  return episode;
+}
+
 Episode run_exploration(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
   Episode episode = started(scene, surface, world, plan_of(scene));
   Stopwatch stopwatch;
@@ -135,8 +163,7 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
     if (after_batch) after_batch(episode);
     stopwatch = Stopwatch();
   };
-  run(episode.exploration, CountingProbe(scene, episode.exploration, world.probe), finish_batch,
-      scene.truth("plan.readings_along_path") ? kWayStep_m : 0.0);
+  run(episode.exploration, CountingProbe(scene, episode.exploration, world.probe), finish_batch, way_step_m(scene));
   return episode;
 }
 
@@ -233,7 +260,9 @@ bool is_scan(const Scene& scene) {
 
 Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
   return with_advice(scene, [&] {
-    return is_scan(scene) ? run_scan(scene, surface, world, after_batch) : run_exploration(scene, surface, world, after_batch);
+    if (is_scan(scene)) return run_scan(scene, surface, world, after_batch);
+    const bool is_coarse = scene.has("plan.explore_mm") && scene.metres("plan.explore_mm") > 0.0;
+    return is_coarse ? run_coarse_exploration(scene, surface, world, after_batch) : run_exploration(scene, surface, world, after_batch);
   });
 }
 
@@ -245,40 +274,6 @@ Episode episode_from(const Scene& scene, const Surface& surface, std::span<const
     restate(episode);
     return episode;
   });
-}
-
-namespace {
-
-/// A tumour wider than the tissue is none to rule out.
-std::optional<double> within(const Surface& surface, const std::optional<double>& diameter_m) {
-  return diameter_m && *diameter_m < surface.diameter() ? diameter_m : std::nullopt;
-}
-
-}  // namespace
-
-std::optional<double> diameter_ruled_out_m(const Episode& episode) {
-  const Exploration& exploration = episode.exploration;
-  const Surface& surface = exploration.surface();
-  if (exploration.belief().site_count() == 0) return std::nullopt;
-  const Layout layout(exploration.belief().prior());
-  std::vector<Vec3> places;
-  std::vector<double> readings;
-  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
-    if (!palpation.set_aside.empty()) continue;
-    places.push_back(layout.at(palpation.where));
-    readings.push_back(palpation.reading);
-  }
-  Sought sought{.probability = episode.band_probability};
-  if (!exploration.level()) {
-    if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
-    return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));
-  }
-  const Healthy healthy = healthy_part(exploration);
-  if (healthy.vertices.empty() || episode.estimate.empty()) return std::nullopt;
-  const double contrast = episode.assumed_contrast.value_or((exploration.level()->value - healthy.mean) / episode.level_fraction);
-  sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
-  if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;
-  return within(surface, palpation::diameter_ruled_out_m(layout, places, sought, healthy.vertices));
 }
 
 Snapshot snapshot(const Episode& episode) {

@@ -37,6 +37,7 @@ struct Episode {
   Exploration exploration;
   Region estimate{};
   std::optional<Region> truth{};
+  std::optional<Superlevel> plain_truth{};  ///< where errors are asked for in plain arithmetic
   std::optional<RegionError> error{};
   Trace trace{};
   std::vector<int> stops{};         ///< all planned stops, in the order of travel
@@ -47,6 +48,11 @@ struct Episode {
   double level_fraction = 0.5;
   std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
   std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
+  double conclusion_seconds = 0.0;           ///< where plans were made on a coarse mesh: from its last batch to the boundary
+  std::optional<std::string> coarse_stop_reason{};
+
+  /// Why nothing more is to be touched.
+  const std::string& stop_reason() const { return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason(); }
 };
 
 using AfterBatch = std::function<void(const Episode&)>;

@@ -204,7 +204,7 @@ json OutputFolder::summary(const Episode& episode) const {
                    {"signal_sd", exploration.belief().signal_sd()},
                    {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
                  {"warnings", warnings},
-                 {"stop_reason", exploration.stop_reason().empty() ? json(nullptr) : json(exploration.stop_reason())},
+                 {"stop_reason", episode.stop_reason().empty() ? json(nullptr) : json(episode.stop_reason())},
                  {"chart_hash", surface_.chart().hash()}};
   if (field_of(scene_).lag.is_modelled()) {
     result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);

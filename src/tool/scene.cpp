@@ -9,6 +9,7 @@
 #include "palpation/io/atomic_file.h"
 #include "tool/scene_json.h"
 #include "tool/scene_schema.h"
+#include "tool/speed.h"
 
 namespace palpation::tool {
 namespace {
@@ -174,6 +175,8 @@ std::vector<std::string> Scene::warnings() const {
   warn("surface.patch.within_deg", gives("surface.patch.facing"), "there is no surface.patch.facing");
   warn("robot.cone_deg", gives("robot.shaft_direction"), "there is no robot.shaft_direction");
   warn("surface.unit", gives("surface.mesh"), "there is no surface.mesh");
+  warn("plan.explore_mm", word("plan.acquisition") != "raster" && word("plan.acquisition") != "refinement",
+       "plan.acquisition is " + word("plan.acquisition"));
   warn("surface.weld", gives("surface.mesh"), "there is no surface.mesh");
   return warnings;
 }
@@ -181,15 +184,26 @@ std::vector<std::string> Scene::warnings() const {
 const json& Scene::value(const std::string& path) const {
   const auto pointer = pointer_to(path);
   if (given_.contains(pointer)) return given_.at(pointer);
+  if (const json* of_speed = value_of_speed(path)) return *of_speed;
   const SceneKey* key = find_key(path);
   require(key != nullptr, "Scene", path, "is not in the schema");
   if (key->standard.is_null()) refuse(path, "is needed here: " + key->meaning);
   return key->standard;
 }
 
+/// What the scene's speed says of a key that is not given; or nothing.
+const json* Scene::value_of_speed(const std::string& path) const {
+  const auto speed = given_.find("speed");
+  if (speed == given_.end() || !speed->is_string()) return nullptr;
+  for (const SpeedPart& part : speed_parts(speed->get<std::string>())) {
+    if (part.path == path) return &part.value;
+  }
+  return nullptr;
+}
+
 bool Scene::has(const std::string& path) const {
   const SceneKey* key = find_key(path);
-  return gives(path) || (key != nullptr && !key->standard.is_null());
+  return gives(path) || value_of_speed(path) != nullptr || (key != nullptr && !key->standard.is_null());
 }
 
 bool Scene::gives(const std::string& path) const { return given_.contains(pointer_to(path)); }
@@ -212,7 +226,7 @@ const json& Scene::tumours() const { return value("probe.tumours"); }
 json Scene::complete() const {
   json all = given_;
   for (const SceneKey& key : scene_keys()) {
-    if (!key.standard.is_null() && !all.contains(pointer_to(key.path))) all[pointer_to(key.path)] = key.standard;
+    if (has(key.path)) all[pointer_to(key.path)] = value(key.path);
   }
   return all;
 }

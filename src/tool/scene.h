@@ -58,6 +58,7 @@ class Scene {
 
  private:
   const nlohmann::json& value(const std::string& path) const;
+  const nlohmann::json* value_of_speed(const std::string& path) const;
   void check_members(const nlohmann::json& object, const std::string& prefix) const;
   void check_together() const;
 

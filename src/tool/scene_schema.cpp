@@ -101,6 +101,9 @@ std::vector<SceneKey> make_scene_keys() {
   const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   return {
       integer("version", kSceneVersion, kSceneVersion, kSceneVersion, "of this format"),
+      word("speed", {"exact", "fast", "draft"}, "exact",
+           "a choice of plan.explore_mm and error.arithmetic, each of which can be given by itself; palpate experiment tradeoff tells what "
+           "they cost on a scene"),
       text("surface.mesh",
            "the tissue: an OBJ, OFF, STL, PLY or VTP file, relative to the scene, or where there is none to where palpate runs"),
       word("surface.unit", {"mm", "cm", "m"}, nullptr, "of the mesh's coordinates; needed with surface.mesh"),
@@ -188,6 +191,10 @@ std::vector<SceneKey> make_scene_keys() {
           "plan.assumed_contrast", "reading", kLeastReading, kMostReading, nullptr,
           "by which a tumour that must not be missed stands out, at least: for the answer that there is none wider than so much; left out: "
           "four times the readings' scatter"),
+      or_zero(number(
+          "plan.explore_mm", "mm", 0.05, 3.0, 0.0,
+          "plan on a coarser mesh with edges of this length, and conclude on the whole one when all is felt; 0: all on the whole one; "
+          "without effect on palpate plan and boundary, and on scans")),
       number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0,
              "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
       word("probe.kind", {"simulated"}, "simulated", "where readings come from in `palpate simulate`"),
@@ -214,6 +221,8 @@ std::vector<SceneKey> make_scene_keys() {
       number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0, "how near: the greatest angle between the two"),
       number("robot.clearance_mm", "mm", 0.0, 1000.0, 0.0,
              "tissue is touched only where a line of this length along its normal does not meet tissue again; 0: everywhere"),
+      word("error.arithmetic", {"exact", "plain"}, "exact",
+           "of the error against a known truth: exact Booleans of polygons, with distances; or areas summed triangle by triangle, without"),
       integer("seed", 0, kMostSeed, 1, "of all that is random"),
   };
 }

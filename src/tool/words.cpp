@@ -197,14 +197,14 @@ std::string episode_words(const Episode& episode) {
   std::string words = counted(readings, "reading");
   if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
   words += ".\n";
-  if (!episode.stops.empty()) words += stop_words(episode.exploration.stop_reason());
+  if (!episode.stops.empty()) words += stop_words(episode.stop_reason());
   words += found_words(episode);
   if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area());
   return words;
 }
 
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m) {
-  if (stops.empty()) return "Nothing more to touch: " + episode.exploration.stop_reason() + ".\n";
+  if (stops.empty()) return "Nothing more to touch: " + episode.stop_reason() + ".\n";
   std::string words = "Touch next, in this order (" + fixed(path_m * 1e3, 0) + " mm to travel), in the robot's frame [mm]:\n";
   for (const Waypoint& stop : stops) {
     words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) + "  " +

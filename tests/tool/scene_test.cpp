@@ -9,6 +9,7 @@
 #include "palpation/base/error.h"
 #include "tool/scene_schema.h"
 #include "tool/setup.h"
+#include "tool/speed.h"
 
 namespace palpation::tool {
 namespace {
@@ -37,6 +38,20 @@ TEST(Scene, TakesOverrides) {
 TEST(Scene, WarnsOfNothingWhereEverythingHasAnEffect) {
   EXPECT_TRUE(Scene::parse(R"({"level": {"estimate": "known", "value": 8}})", "test", ".").warnings().empty());
   EXPECT_TRUE(Scene(json::object(), "test", ".").warnings().empty());
+}
+
+TEST(Scene, SpeedStandsForItsPartsWhereTheyAreNotGiven) {
+  const Scene draft = Scene::parse(R"({"speed": "draft"})", "test", ".");
+  EXPECT_GT(draft.number("plan.explore_mm"), 0.0);
+  EXPECT_EQ(draft.word("error.arithmetic"), "plain");
+  EXPECT_EQ(draft.complete().at("plan").at("explore_mm"), draft.number("plan.explore_mm"));
+  const Scene but_exact = Scene::parse(R"({"speed": "draft", "plan": {"explore_mm": 0}})", "test", ".");
+  EXPECT_EQ(but_exact.number("plan.explore_mm"), 0.0);
+  EXPECT_EQ(but_exact.word("error.arithmetic"), "plain");
+  for (const std::string tier : {"exact", "fast", "draft"}) {
+    for (const SpeedPart& part : speed_parts(tier)) EXPECT_NO_THROW(Scene(json::object(), "test", ".").with(part.path, part.value));
+  }
+  EXPECT_THROW(Scene::parse(R"({"speed": "fastest"})", "test", "."), IoError);
 }
 
 TEST(SceneHelp, ExplainsEveryKey) {
