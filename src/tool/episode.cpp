@@ -96,6 +96,18 @@ class CountingProbe {
   int felt_ = 0;  // in this batch
 };
 
+struct BatchStopwatch {
+  Stopwatch wall;
+  CpuStopwatch cpu;
+};
+
+/// Of a batch that ends; the next one begins.
+void note_time(Episode& episode, BatchStopwatch& stopwatch) {
+  episode.batch_seconds.push_back(stopwatch.wall.seconds());
+  episode.batch_cpu_seconds.push_back(stopwatch.cpu.seconds());
+  stopwatch = BatchStopwatch();
+}
+
 void add_tour(Episode& episode, const Tour& tour) {
   episode.way.insert(episode.way.end(), tour.way.begin(), tour.way.end());
   episode.path_m += tour.length_m;
@@ -115,7 +127,7 @@ Reach coarse_reach(const Scene& scene, const Surface& surface, const CoarseMesh&
 
 /// Plans on a coarse mesh; when all is felt, concludes on the whole one.
 Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
-  Stopwatch stopwatch;
+  BatchStopwatch stopwatch;
   const CoarseMesh coarse = coarsen(surface, scene.metres("plan.explore_mm"));
   const Plan plan = plan_of(scene);
   if (std::max(plan.initial_count, plan.batch.size) > static_cast<int>(coarse.vertices.size()))
@@ -138,30 +150,29 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
     if (planner.level()) row.level = planner.level()->value;
     if (planner.certainty()) row.expected_error_m2 = planner.certainty()->expected.symmetric_difference_m2();
     if (!planned.empty()) episode.trace.push_back(row);  // the last one is of the conclusion
-    episode.batch_seconds.push_back(stopwatch.seconds());
-    stopwatch = Stopwatch();
+    note_time(episode, stopwatch);
   };
   episode.exploration.take_up(
       run_coarsely(planner, coarse, surface, CountingProbe(scene, planner, world.probe), finish_batch, way_step_m(scene)));
   episode.coarse_stop_reason = planner.stop_reason();
   restate(episode);
-  episode.conclusion_seconds = stopwatch.seconds();
+  episode.conclusion_seconds = stopwatch.wall.seconds();
   if (after_batch) after_batch(episode);
   return episode;
 }
 
 Episode run_exploration(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
   Episode episode = started(scene, surface, world, plan_of(scene));
-  Stopwatch stopwatch;
+  BatchStopwatch stopwatch;
   std::vector<int> planned = episode.exploration.next();
   const auto finish_batch = [&](const Tour& tour) {
     episode.stops.insert(episode.stops.end(), planned.begin(), planned.end());
     planned = episode.exploration.next();
     add_tour(episode, tour);
     restate(episode);
-    episode.batch_seconds.push_back(stopwatch.seconds());
+    note_time(episode, stopwatch);
     if (after_batch) after_batch(episode);
-    stopwatch = Stopwatch();
+    stopwatch = BatchStopwatch();
   };
   run(episode.exploration, CountingProbe(scene, episode.exploration, world.probe), finish_batch, way_step_m(scene));
   return episode;
@@ -211,13 +222,13 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
   Episode episode = started(scene, surface, world, nothing);
   const double spacing = scene.metres("plan.row_spacing_mm");
   std::vector<Palpation> felt;
-  const auto finish_stage = [&](const Stopwatch& stopwatch) {
+  const auto finish_stage = [&](BatchStopwatch stopwatch) {
     restate(episode);
-    episode.batch_seconds.push_back(stopwatch.seconds());
+    note_time(episode, stopwatch);
     if (after_batch) after_batch(episode);
   };
   if (scene.word("plan.acquisition") == "raster") {
-    const Stopwatch stopwatch;
+    const BatchStopwatch stopwatch;
     const auto places = planned_scan(scene, [&] { return raster_scan(surface, spacing, kWayStep_m); });
     check_count(scene, episode.exploration, places.size());
     scan(episode, places, world.probe, felt);
@@ -226,7 +237,7 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
   }
   RecursiveRefinement refinement = planned_scan(scene, [&] { return RecursiveRefinement(surface, 4.0 * spacing, 0.25 * spacing); });
   for (auto places = refinement.next(0.0); !places.empty();) {
-    const Stopwatch stopwatch;
+    const BatchStopwatch stopwatch;
     check_count(scene, episode.exploration, places.size());
     const std::size_t before = felt.size();
     scan(episode, places, world.probe, felt);

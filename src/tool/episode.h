@@ -48,6 +48,7 @@ struct Episode {
   double level_fraction = 0.5;
   std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
   std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
+  std::vector<double> batch_cpu_seconds{};   ///< the same, of this thread's processor
   double conclusion_seconds = 0.0;           ///< where plans were made on a coarse mesh: from its last batch to the boundary
   std::optional<std::string> coarse_stop_reason{};
 

@@ -22,6 +22,7 @@ void coverage(const ExperimentArguments& arguments);
 void detection(const ExperimentArguments& arguments);
 void curved(const ExperimentArguments& arguments);
 void acquisitions(const ExperimentArguments& arguments);
+void tradeoff(const ExperimentArguments& arguments);
 
 /// The search area of Garg et al. 2016, section VII, with vertices half a millimetre apart and no tumour yet; all else is as by default.
 nlohmann::json random_tumours_scene();

@@ -133,7 +133,7 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials");
   command->add_option("NAME", arguments.experiment.name, "which")->required()->check(CLI::IsMember(experiment_names()));
   command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
-  command->add_option("--trials", arguments.experiment.trials, "per cell")->check(whole(1, kMostTrials));
+  command->add_option("--trials", arguments.experiment.trials, "per cell; left out: 5, of tradeoff 20")->check(whole(1, kMostTrials));
   command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following")
       ->check(whole(0, kMostSeed - kMostTrials));
   command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")

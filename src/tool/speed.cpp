@@ -1,6 +1,12 @@
 #include "tool/speed.h"
 
+#include <algorithm>
+
+#include "tool/scene_schema.h"
+
 namespace palpation::tool {
+
+const nlohmann::json& exact_value(const std::string& path) { return std::ranges::find(scene_keys(), path, &SceneKey::path)->standard; }
 
 const std::vector<SpeedPart>& speed_parts(const std::string& speed) {
   static const std::vector<SpeedPart> exact = {};

@@ -14,6 +14,9 @@ struct SpeedPart {
   nlohmann::json value;
 };
 
+/// Of a part's key: what exact has.
+const nlohmann::json& exact_value(const std::string& path);
+
 /// The parts of exact (none), fast and draft.
 const std::vector<SpeedPart>& speed_parts(const std::string& speed);
 
