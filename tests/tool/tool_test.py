@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tool as a person meets it: exit codes, messages, files. Usage: tool_test.py PALPATE PROJECT_ROOT (Python 3, standard library only)."""
+"""The tool as a person meets it: exit codes, messages, files. Usage: tool_test.py PALPATE PROJECT_ROOT [Tool.test_...] (Python 3, standard library only)."""
 
 import json
 import math
@@ -142,6 +142,28 @@ class Tool(unittest.TestCase):
         self.assertIn("Healthy tissue: nothing found", words)
         kinds = [row.split(",")[0] for row in (self.folder / "detection.csv").read_text().splitlines()[1:]]
         self.assertEqual((kinds.count("healthy"), kinds.count("two")), (4, 3))
+
+    def test_tradeoff_advises_what_its_table_supports(self):
+        words = self.done("experiment", "tradeoff", self.scene, "--trials", 3, "--quiet", "--out", self.folder)
+        header, *rows = (self.folder / "tradeoff.csv").read_text().splitlines()
+        table = {row["choice"]: row for row in (dict(zip(header.split(","), row.split(","))) for row in rows)}
+        self.assertTrue({"exact", "fast", "draft", "plan on 1.0 mm", "plain arithmetic"} <= set(table))
+        self.assertEqual(float(table["exact"]["from_exact_mm2"]), 0.0)
+        self.assertEqual(float(table["plain arithmetic"]["from_exact_mm2"]), 0.0, "the boundary is the same, only its error is summed otherwise")
+        self.assertAlmostEqual(float(table["plain arithmetic"]["error_mm2"]), float(table["exact"]["error_mm2"]), delta=1e-6)
+        self.assertLess(float(table["draft"]["run_s"]), float(table["exact"]["run_s"]))
+        advised = words.strip().splitlines()[-1]
+        if advised.startswith("Take "):
+            self.assertLess(float(table[advised[5:advised.index(" (")]]["of_exact"]), 1.0)
+        self.assertIn("needs a scene", self.refused(3, "experiment", "tradeoff"))
+
+    def test_speed_leaves_the_conclusion_on_the_whole_mesh(self):
+        summary = json.loads(self.summary_of("simulate", "--set", "speed=draft"))
+        self.assertEqual(summary["options"]["plan"]["explore_mm"], 1.0)
+        self.assertIsNotNone(summary["stop_reason"])
+        self.assertIsNone(summary["error"]["mean_distance_mm"])
+        self.assertLess(summary["error"]["symmetric_difference_mm2"], 15.0)
+        self.refused(3, "simulate", self.scene, "--set", "plan.explore_mm=3", "--set", "plan.batch=500")
 
     def test_a_hole_is_listed_with_its_part(self):
         ring = '[{"shape": "horseshoe", "centre_mm": [12, 25, 0], "arc_radius_mm": 8, "half_width_mm": 2.5, "arc_deg": 360}]'
@@ -338,4 +360,4 @@ class Tool(unittest.TestCase):
 
 if __name__ == "__main__":
     os.environ.pop("DISPLAY", None)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
