@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -46,25 +47,32 @@ TissueRuler::TissueRuler(const Surface& surface) {
   bin_m_ = std::max(std::sqrt(extent.x() * extent.y() / surface.face_count()), extent.maxCoeff() / 4096.0);
   columns_ = static_cast<int>(extent.x() / bin_m_) + 1;
   rows_ = static_cast<int>(extent.y() / bin_m_) + 1;
-  std::vector<std::pair<int, int>> entries;
+  faces_.reserve(static_cast<std::size_t>(surface.face_count()));
   for (int face = 0; face < surface.face_count(); ++face) {
     const Eigen::Vector3i t = surface.triangle(face);
     const std::array<Vec2, 3> at = {uv.row(t[0]), uv.row(t[1]), uv.row(t[2])};
     Eigen::Matrix2d in_chart;
     in_chart << at[1] - at[0], at[2] - at[0];
     faces_.push_back({at, edges_on_tissue(surface.vertex(t[0]), surface.vertex(t[1]), surface.vertex(t[2])) * in_chart.inverse()});
+  }
+  first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  for_each_bin([&](int bin, int) { ++first_[bin + 1]; });
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  numbers_.resize(static_cast<std::size_t>(first_.back()));
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for_each_bin([&](int bin, int face) { numbers_[next[bin]++] = face; });
+}
+
+/// Calls what(bin, face) for every bin that a face's box touches, in the order of faces.
+template <typename What>
+void TissueRuler::for_each_bin(const What& what) const {
+  for (std::size_t face = 0; face < faces_.size(); ++face) {
+    const std::array<Vec2, 3>& at = faces_[face].corners;
     const Bins bins = bins_of(at[0].cwiseMin(at[1]).cwiseMin(at[2]), at[0].cwiseMax(at[1]).cwiseMax(at[2]));
     for (int row = bins.first_row; row <= bins.last_row; ++row) {
-      for (int column = bins.first_column; column <= bins.last_column; ++column) entries.emplace_back(row * columns_ + column, face);
+      for (int column = bins.first_column; column <= bins.last_column; ++column) what(row * columns_ + column, static_cast<int>(face));
     }
   }
-  std::sort(entries.begin(), entries.end());
-  first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
-  for (const auto& [bin, face] : entries) {
-    ++first_[bin + 1];
-    numbers_.push_back(face);
-  }
-  for (std::size_t bin = 1; bin < first_.size(); ++bin) first_[bin] += first_[bin - 1];
 }
 
 TissueRuler::Bins TissueRuler::bins_of(const Vec2& low, const Vec2& high) const {

@@ -29,6 +29,8 @@ class TissueRuler {
     int first_column, last_column, first_row, last_row;
   };
   Bins bins_of(const Vec2& low, const Vec2& high) const;
+  template <typename What>
+  void for_each_bin(const What& what) const;
 
   std::vector<Face> faces_;
   Vec2 lower_;
