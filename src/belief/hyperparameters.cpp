@@ -201,8 +201,8 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
     for (std::vector<double>* x : {&from_prior, &from_start}) {
       for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] = std::clamp((*x)[i], lower[i], upper[i]);
     }
-    climb(objective, from_prior, lower, upper);
-    if (from_start != from_prior) climb(objective, from_start, lower, upper);
+    climb(objective, from_start, lower, upper);
+    if (!options.likelihood_alone && from_prior != from_start) climb(objective, from_prior, lower, upper);
   }
   const Optimum& best = objective.best;
   if (!std::isfinite(best.value)) {

@@ -2,10 +2,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "belief/correlations.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
+#include "palpation/base/positive_definite.h"
 #include "palpation/belief/hyperparameters.h"
 
 namespace palpation {
@@ -66,13 +69,11 @@ LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site>
   // S = signal^2 K + D;  P = S^-1 - S^-1 1 1' S^-1 / (1' S^-1 1 + 1 / constant_sd^2).
   Eigen::MatrixXd s = signal_variance * k;
   s.diagonal() += variances;
-  const Eigen::LLT<Eigen::MatrixXd> factor(s);
-  const auto diagonal = factor.matrixLLT().diagonal().array();
-  if (factor.info() != Eigen::Success || !diagonal.isFinite().all() || !(diagonal > 0.0).all()) {
+  Eigen::MatrixXd p = std::move(s);
+  const std::optional<double> log_determinant = invert_positive_definite(p);
+  if (!log_determinant)
     throw NumericalError("likelihood_gradient: the covariance is not positive definite at length " + text_of(at.length_m));
-  }
-  Eigen::MatrixXd p = factor.solve(Eigen::MatrixXd::Identity(n, n));
-  result.value -= diagonal.log().sum();
+  result.value -= 0.5 * *log_determinant;
   double free_readings = static_cast<double>(n);
   const double constant_sd = prior.constant().sd;
   if (constant_sd > 0.0) {

@@ -29,7 +29,7 @@ struct LearnOptions {
   std::optional<double> noise_sd{};   ///< fixed
   double length_median_m = 0.0035;    ///< of the length's prior
   double length_spread = 0.4;         ///< standard deviation of log length
-  bool likelihood_alone = false;      ///< no priors, and a signal of any size: what other programs maximize
+  bool likelihood_alone = false;      ///< no priors, a signal of any size, one start: what other programs do
 };
 
 struct Learned {
