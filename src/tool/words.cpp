@@ -9,6 +9,7 @@
 #include "palpation/belief/screening.h"
 #include "palpation/boundary/level_remarks.h"
 #include "palpation/boundary/level_set.h"
+#include "palpation/certainty/reference_bound.h"
 #include "tool/parts.h"
 
 namespace palpation::tool {
@@ -20,6 +21,7 @@ constexpr double kMuchUntouched = 0.05;  // of the tissue
 
 /// Expected wrong area beyond this part of the area found is told: the boundary is then hardly better than a guess.
 constexpr double kLargeShare = 0.25;
+constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
 
 std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
@@ -118,6 +120,35 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
   return remarks;
 }
 
+double perimeter_m(const Region& region) {
+  double sum = 0.0;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) sum += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+  };
+  for (const PolygonWithHoles& polygon : region.polygons()) {
+    add(polygon.outer);
+    for (const Ring& hole : polygon.holes) add(hole);
+  }
+  return sum;
+}
+
+/// How many times as wrong the boundary is expected to be as one of that length by that many readings can be; nothing where its edge is
+/// not known.
+std::optional<double> over_reachable(const Episode& episode) {
+  const std::optional<EdgeBelief>& edge = episode.exploration.edge();
+  const double length_m = perimeter_m(episode.estimate);
+  if (!edge || length_m == 0.0) return std::nullopt;
+  const Belief& belief = episode.exploration.belief();
+  const double contrast = std::abs(edge->profile().high - edge->profile().low);
+  const ReferenceBound reachable = reference_bound({.perimeter_m = length_m,
+                                                    .slope_per_m = edge->profile().slope_per_m,
+                                                    .noise = std::sqrt(belief.noise_variance()) / contrast,
+                                                    .readings = static_cast<int>(belief.palpations().size()),
+                                                    .fraction = episode.level_fraction});
+  if (!(reachable.expected_error_m2 > 0.0)) return std::nullopt;
+  return episode.exploration.certainty()->expected.symmetric_difference_m2() / reachable.expected_error_m2;
+}
+
 }  // namespace
 
 std::string fixed(double value, int digits) {
@@ -164,6 +195,10 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   if (!parts.empty() && certainty && certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
     remarks.push_back("The area expected to be wrong is " + percent(certainty->expected.symmetric_difference_m2() / found_m2) +
                       " of the area found: more readings are needed.");
+  if (const std::optional<double> times = over_reachable(episode); times && *times > kMuchOverReachable)
+    remarks.push_back("The boundary is expected to be wrong by " + fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) +
+                      " mm2, " + fixed(*times, 0) +
+                      " times what as many readings with so little noise can reach at best: more batches would pay.");
   return remarks;
 }
 
