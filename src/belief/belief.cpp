@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "belief/correlations.h"
+#include "belief/reduced.h"
 #include "belief/rows.h"
+#include "belief/seen.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 
@@ -18,8 +20,8 @@ namespace palpation {
 namespace {
 
 constexpr int kTilesAtOnce = 64;
-/// Below this noise 1 - v'v loses digits at a site that the form of site_variance keeps.
-constexpr double kSmallNoise = 1e-4;
+/// Rows of L alone then take 3 GB.
+constexpr std::size_t kMostSites = 20000;
 
 int tile_count(const Surface& surface) { return (surface.vertex_count() + kLanes - 1) / kLanes; }
 
@@ -41,6 +43,9 @@ Eigen::VectorXd used_readings(std::span<const Palpation> palpations) {
 Belief::Belief(Prior prior, const BeliefOptions& options) : prior_(std::move(prior)), options_(options) {
   require(std::isfinite(options.noise_sd) && options.noise_sd >= 0.0, "Belief", "noise_sd = " + text_of(options.noise_sd),
           "must be finite and not negative");
+  const double tolerance = options.reduced_rank_tolerance;
+  require(tolerance == 0.0 || (tolerance >= 1e-13 && tolerance <= 1e-4), "Belief", "reduced_rank_tolerance = " + text_of(tolerance),
+          "must be 0 or from 1e-13 to 1e-4");
   restate_readings();
   keep_rows(0);
   restate_constant();
@@ -54,11 +59,15 @@ double Belief::noise_variance() const {
   return sd * sd;
 }
 
+int Belief::site_count() const { return reduced_ ? reduced_->site_count : static_cast<int>(sites_.size()); }
+
 int Belief::row_count() const { return rows_.empty() ? 0 : rows_.back()->first + rows_.back()->count; }
 
 Belief Belief::condition_on(std::span<const Palpation> more) const {
   Belief next = *this;
   next.palpations_.insert(next.palpations_.end(), more.begin(), more.end());
+  if (next.reduce(more.size())) return next;
+  if (reduced_) next.keep_rows(0);
   next.restate_readings();
   int unchanged = 0;
   const int known = std::min(row_count(), next.site_count());
@@ -67,20 +76,32 @@ Belief Belief::condition_on(std::span<const Palpation> more) const {
   }
   if (unchanged < row_count()) next.keep_rows(unchanged);
   next.append_rows();
+  next.sharpen();
   next.restate_constant();
   next.restate_slope();
   return next;
 }
 
+void Belief::restate_spread() {
+  if (!options_.standardize) return;
+  const Eigen::VectorXd readings = used_readings(palpations_);
+  if (readings.size() == 0) return;
+  centre_ = mean_of(readings);
+  const double spread = std::sqrt((readings.array() - centre_).square().mean());
+  spread_ = spread > 0.0 ? spread : 1.0;
+}
+
+/// What readings are counted from where a constant takes up the difference.
+void Belief::state_origin(std::span<const Site> sites) {
+  if (!sites.empty()) origin_ = options_.standardize || prior_.constant().sd > 0.0 ? merge(sites.front(), noise_variance()).mean : 0.0;
+}
+
 /// Sites, their merged readings and the diagonal D.
 void Belief::restate_readings() {
   sites_ = gather_sites(prior_, palpations_);
-  if (options_.standardize && !sites_.empty()) {
-    const Eigen::VectorXd readings = used_readings(palpations_);
-    centre_ = mean_of(readings);
-    const double spread = std::sqrt((readings.array() - centre_).square().mean());
-    spread_ = spread > 0.0 ? spread : 1.0;
-  }
+  require(sites_.size() <= kMostSites, "Belief", std::to_string(sites_.size()) + " places touched",
+          "must be at most " + std::to_string(kMostSites) + " for an exact belief; one of reduced rank takes more");
+  restate_spread();
   const double signal_variance = signal_sd() * signal_sd();
   const double plain_ratio = options_.noise_is_relative ? options_.noise_sd * options_.noise_sd : noise_variance() / signal_variance;
   readings_.clear();
@@ -90,9 +111,7 @@ void Belief::restate_readings() {
     readings_.push_back(merged.mean);
     diagonal_.push_back(site.known.empty() ? plain_ratio / static_cast<double>(site.plain.size()) : merged.variance / signal_variance);
   }
-  if (row_count() == 0 && !sites_.empty()) {
-    origin_ = options_.standardize || prior_.constant().sd > 0.0 ? readings_.front() : 0.0;
-  }
+  if (row_count() == 0) state_origin(sites_);
 }
 
 /// Forgets the rows from the first one that does not lie in a block before `count`, and restates the sums over the rest.
@@ -269,29 +288,16 @@ Eigen::VectorXd Belief::solve_lower(Eigen::VectorXd right_side) const {
   return right_side;
 }
 
-/// 1 - v'v at a site without its cancellation: d (1 - d |L^-1 e|^2), d the site's noise.
-double Belief::site_variance(int site) const {
-  const double d = diagonal_[site];
-  return d * (1.0 - d * solve_lower(Eigen::VectorXd::Unit(site_count(), site)).squaredNorm());
-}
-
 Marginals Belief::at_vertices(Part part) const {
   const int vertices = prior_.surface().vertex_count();
-  Eigen::VectorXd unexplained = 1.0 - explained_.array();
-  for (int site = 0; site < site_count(); ++site) {
-    if (diagonal_[site] >= kSmallNoise) continue;
-    for (int corner = 0; corner < 3; ++corner) {
-      if (sites_[site].where.barycentric[corner] != 1.0) continue;
-      unexplained[prior_.surface().triangle(sites_[site].where.face)[corner]] = site_variance(site);
-    }
-  }
   // Since K >= k k', the variance is at least s / (s + |k|^2).
   const double least_noise = diagonal_.empty() ? 1.0 : *std::min_element(diagonal_.begin(), diagonal_.end());
   const double signal_variance = signal_sd() * signal_sd();
   Marginals result{Eigen::VectorXd(vertices), Eigen::VectorXd(vertices)};
   for (int vertex = 0; vertex < vertices; ++vertex) {
-    const double floor = site_count() == 0 ? 1.0 : least_noise > 0.0 ? least_noise / (least_noise + covered_[vertex]) : 0.0;
-    double variance = std::clamp(unexplained[vertex], floor, 1.0);
+    double floor = site_count() == 0 ? 1.0 : least_noise > 0.0 ? least_noise / (least_noise + covered_[vertex]) : 0.0;
+    if (reduced_) floor = 1.0 / (1.0 + reduced_->precision);
+    double variance = std::clamp(sharp_.size() == 0 ? 1.0 - explained_[vertex] : sharp_[vertex], floor, 1.0);
     const double residual = 1.0 - v_ones_[vertex];
     if (constant_is_unsure()) variance += residual * residual / constant_precision_;
     result.variance[vertex] = signal_variance * variance;
@@ -312,19 +318,14 @@ Marginals Belief::at(std::span<const SurfacePoint> points, Part part) const {
   for_ranges(count, 16, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Place place = prior_.place(points[i]);
-      int same_site = -1;
-      for (int site = 0; site < site_count(); ++site) {
-        if (place == sites_[site].place) same_site = site;
-      }
-      const Eigen::VectorXd v = solve_lower(correlations_with(prior_, place, sites_));
-      double variance = std::clamp(1.0 - v.squaredNorm(), 0.0, 1.0);
-      if (same_site >= 0 && diagonal_[same_site] < kSmallNoise) variance = site_variance(same_site);
-      const double residual = 1.0 - v.dot(ones_);
+      const Seen seen = look_at(place);
+      double variance = std::clamp(seen.unexplained, 0.0, 1.0);
+      const double residual = 1.0 - seen.ones;
       if (constant_is_unsure()) variance += residual * residual / constant_precision_;
       result.variance[i] = signal_variance * variance;
-      result.mean[i] = constant_ + (v.dot(whitened_) - (constant_ - origin_) * v.dot(ones_));
+      result.mean[i] = constant_ + (seen.whitened - (constant_ - origin_) * seen.ones);
       if (prior_.has_slope()) {
-        const Vec3 tilt = tilt_residual(place.coordinates, tilts_.transpose() * v, residual, part);
+        const Vec3 tilt = tilt_residual(place.coordinates, seen.tilts, residual, part);
         result.variance[i] += signal_variance * tilt.dot(tilt_covariance_ * tilt);
         result.mean[i] += tilt_.dot(tilt);
       }
@@ -339,6 +340,7 @@ double Belief::log_marginal_likelihood() const {
   if (n == 0) return 0.0;
   const double prior_sd = prior_.constant().sd * (options_.standardize ? spread_ : 1.0);
   double log_determinant = n * std::log(signal_variance);
+  if (reduced_) log_determinant += reduced_->weights.log_determinant();
   for (const auto& rows : rows_) {
     for (int row = 0; row < rows->count; ++row) log_determinant += 2.0 * std::log(rows->factor(row, rows->first + row));
   }
@@ -362,6 +364,7 @@ double Belief::log_marginal_likelihood() const {
     log_determinant -= std::log(tilt_covariance_.determinant()) + 3.0 * std::log(prior_.kernel().signal_sd * prior_.kernel().signal_sd);
   }
   double result = -0.5 * (square / signal_variance + log_determinant + free_readings * std::log(2.0 * std::numbers::pi));
+  if (reduced_) result += reduced_->scatter;
   for (const Site& site : sites_) result += scatter_log_likelihood(site, noise_variance());
   return result;
 }
@@ -370,7 +373,10 @@ CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belie
   require(vertex >= 0 && vertex < belief.prior_.surface().vertex_count(), "CovarianceWith", "vertex " + std::to_string(vertex),
           "is not on the surface");
   correlations_ = std::make_shared<const TileCorrelations>(belief.prior_, vertex);
-  column_.reserve(static_cast<std::size_t>(belief.site_count()));
+  if (belief.reduced_) {
+    const Eigen::VectorXd known = belief.reduced_->weights.explained(belief.reduced_->features->at_vertex(vertex));
+    column_.assign(known.begin(), known.end());
+  }
   for (const auto& rows : belief.rows_) {
     for (int row = 0; row < rows->count; ++row) column_.push_back(rows->value(row, vertex));
   }
@@ -391,6 +397,8 @@ void CovarianceWith::operator()(int first, int count, double* out) const {
     for (const auto& rows : belief_.rows_) {
       subtract_product(column_.data() + rows->first, 0, rows->tile(tile), rows->count, covariance, 1);
     }
+    if (belief_.reduced_)
+      subtract_product(column_.data(), 0, belief_.reduced_->features->tile(tile), static_cast<int>(column_.size()), covariance, 1);
     for (int lane = 0; lane < kLanes; ++lane) {
       const int vertex = tile * kLanes + lane;
       if (vertex < first || vertex >= first + count) continue;

@@ -14,6 +14,16 @@
 /// "suppose I touched there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point
 /// operations.
 ///
+/// Of reduced rank, where that is asked for: once the readings are so many that M < n features tell the prior apart from itself by no more
+/// than a tolerance of its variance at every vertex and every site, readings are taken in by their features f alone (weight_space.h),
+///
+///     variance = signal^2 (1 - |f|^2 + f' A^-1 f),  A = I + sum f f' / d,
+///
+/// so that m more cost 2 m M N operations whatever n is. Smooth kernels need few features (for a squared exponential some hundreds over
+/// fifteen lengths at 1e-12), rough ones too many, and stay exact. reduced_rank() bounds what is lost: the bound grows like the tolerance
+/// over the noise. Readings whose noise is below a hundred thousand tolerances of the signal's variance are not
+/// reduced.
+///
 /// Laws: (1) the order of readings does not matter beyond rounding; (2) variance never grows by conditioning, and does not depend on the
 /// readings unless they are standardized; (3) variance is that of the field, never containing noise, and never below s / (s + |k|^2)
 /// signal^2, s the least noise in D. Without any reading the answer is the prior's: mean 0 (or the constant's mean), variance of the field
@@ -21,6 +31,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,17 +55,29 @@ struct BeliefOptions {
   bool noise_is_relative = false;  ///< noise_sd is a fraction of the kernel's signal_sd
   bool standardize = false;        ///< the kernel's signal_sd, the constant's sd and the slope's are multiples of the readings' standard
                                    ///< deviation, and the constant's mean is the readings' mean: outputs z-scored, as GPy does
+  double reduced_rank_tolerance = 0.0;  ///< of the prior's variance, the part that may be left out so that many readings cost no more than
+                                        ///< a few hundred (see below); 0: none
+};
+
+/// Of a belief of reduced rank.
+struct ReducedRank {
+  int rank = 0;                 ///< features in place of readings
+  double mean_error = 0.0;      ///< from the exact belief at a vertex, reading units: not more than this, by proof ...
+  double variance_error = 0.0;  ///< ... nor this, reading units squared. Rounding comes on top
 };
 
 class Belief {
  public:
-  /// Throws InvalidInput unless noise_sd is finite and not negative.
+  /// Throws InvalidInput unless noise_sd is finite and not negative, and reduced_rank_tolerance 0 or from 1e-13 to 1e-4.
   Belief(Prior prior, const BeliefOptions& options);
 
   const Prior& prior() const { return prior_; }
   const BeliefOptions& options() const { return options_; }
   const std::vector<Palpation>& palpations() const { return palpations_; }
-  int site_count() const { return static_cast<int>(sites_.size()); }
+  /// Places touched; where the rank is reduced, a place touched again later counts again.
+  int site_count() const;
+  /// Nothing where the belief is exact.
+  std::optional<ReducedRank> reduced_rank() const;
 
   /// The belief after more touches. Throws as gather_sites and merge, and NumericalError naming the site and its pivot where K + D is not
   /// positive definite in double precision (two sites all but coincide, without noise).
@@ -79,10 +102,15 @@ class Belief {
 
  private:
   friend class CovarianceWith;
-  struct Rows;  // consecutive rows of L and V
+  struct Rows;        // consecutive rows of L and V
+  struct Reduced;     // what stands in their place
+  struct Regressors;  // and is fed with
+  struct Seen;
 
   int row_count() const;
   Eigen::VectorXd solve_lower(Eigen::VectorXd right_side) const;
+  void restate_spread();
+  void state_origin(std::span<const Site> sites);
   void restate_readings();
   void keep_rows(int count);
   void append_rows();
@@ -91,7 +119,16 @@ class Belief {
   void restate_slope();
   bool constant_is_unsure() const;
   Vec3 tilt_residual(const Vec3& x, const Vec3& v_tilts, double residual_ones, Part part) const;
-  double site_variance(int site) const;
+  Seen look_at(const Place& place) const;
+  void sharpen();
+
+  bool reduce(std::size_t more);
+  bool reduce_all();
+  bool append_to_reduced(const std::vector<Site>& sites);
+  Regressors regressors(std::span<const Site> sites) const;
+  void restate_reduced();
+  void see_all();
+  void see(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& rows);
 
   Prior prior_;
   BeliefOptions options_;
@@ -102,11 +139,15 @@ class Belief {
   double spread_ = 1.0;           // of the readings, if standardized
   double centre_ = 0.0;           // prior mean of the constant
 
+  std::shared_ptr<const Reduced> reduced_;  // null: exact
+  int reduction_tried_at_ = 0;              // sites, in vain
+
   std::vector<std::shared_ptr<const Rows>> rows_;
   Eigen::VectorXd ones_;      // L^-1 1
   Eigen::VectorXd whitened_;  // L^-1 (y - origin)
   double origin_ = 0.0;
   Field explained_;                  // sum V^2 at the vertices
+  Field sharp_;                      // 1 - explained_ with its digits kept, or empty where none are in danger
   Field covered_;                    // |k|^2: squared correlations with the sites
   Field v_ones_;                     // V' L^-1 1
   Field v_whitened_;                 // V' L^-1 (y - origin)

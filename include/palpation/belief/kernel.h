@@ -14,7 +14,8 @@ struct Kernel {
   double period_m = 0.0;   ///< of the periodic kernel, the same along both axes of the chart
 };
 
-/// Throws InvalidInput unless length and signal (and the period, where there is one) are positive and finite.
+/// Throws InvalidInput unless length and signal (and the period, where there is one) are positive and finite, and the signal's standard
+/// deviation is from 1e-150 to 1e150: its square must be a number.
 void check(const Kernel& kernel);
 
 /// Correlation of the field at two places `difference` apart, in [0, 1]; 1 at zero. With r = |difference| / length:
@@ -22,6 +23,12 @@ void check(const Kernel& kernel);
 ///   r; periodic: the squared exponential of the chord (period/pi) sin(pi d / period) in place of each coordinate d, a product over u and
 ///   v.
 double correlation(const Kernel& kernel, const Vec3& difference);
+
+/// 1 - correlation to the last digits, however small it is.
+double decorrelation(const Kernel& kernel, const Vec3& difference);
+
+/// correlation(difference + step) - correlation(difference), to the last digits of the step.
+double correlation_change(const Kernel& kernel, const Vec3& difference, const Vec3& step);
 
 /// d correlation / d log(length).
 double correlation_slope(const Kernel& kernel, const Vec3& difference);

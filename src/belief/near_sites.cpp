@@ -1,0 +1,119 @@
+// Variances that are all but nothing: at a site that was read with little noise, and beside it. There 1 - v'v is a difference of equals.
+// With e the site's unit vector, g = L^-1 e and d its noise, the posterior covariance of the field at the site with anything of prior
+// covariance k is d g'(L^-1 k), so that without a difference
+//
+//     variance at the site = d (1 - d g'g),
+//     variance beside it   = that + 2 d g'w + 2 (1 - k(x, p)) - w'w,  w = L^-1 (k(., x) - k(., p)),
+//
+// the second from the increment f(x) - f(p), whose own prior variance 2 (1 - k) and covariances are small from the start.
+
+#include <algorithm>
+#include <cmath>
+
+#include "belief/correlations.h"
+#include "belief/reduced.h"
+#include "belief/rows.h"
+#include "belief/seen.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+/// With more noise 1 - v'v is good to eleven digits at the site too.
+constexpr double kSmallNoise = 1e-4;
+/// An increment is small where a correlation is above this: within 0.3 lengths for the squared exponential.
+constexpr double kBeside = 0.95;
+/// Vertices of less variance than this are looked at again.
+constexpr double kSmallVariance = 1e-4;
+
+int vertex_at(const Surface& surface, const SurfacePoint& point) {
+  for (int corner = 0; corner < 3; ++corner) {
+    if (point.barycentric[corner] == 1.0) return surface.triangle(point.face)[corner];
+  }
+  return -1;
+}
+
+double at_site(double d, double square, double plain) {
+  const double known = d * square;
+  return d < kSmallNoise || known < 0.5 ? d * (1.0 - known) : plain;
+}
+
+}  // namespace
+
+/// Of any place. Where the belief is exact, with all the digits that its coordinates have.
+Belief::Seen Belief::look_at(const Place& place) const {
+  if (reduced_) {
+    const Eigen::VectorXd f = reduced_->features->at(prior_, place);
+    const auto& weights = reduced_->weights.weights();
+    const Eigen::Matrix<double, 5, 1> sums = weights.transpose() * f;
+    return {1.0 - f.dot(reduced_->weights.explained(f)), sums[0], sums[1], sums.tail<3>()};
+  }
+  const Eigen::VectorXd k = correlations_with(prior_, place, sites_);
+  const Eigen::VectorXd v = solve_lower(k);
+  Seen seen{1.0 - v.squaredNorm(), v.dot(ones_), v.dot(whitened_), Vec3::Zero()};
+  if (prior_.has_slope()) seen.tilts = tilts_.transpose() * v;
+  if (sites_.empty()) return seen;
+  Eigen::Index site = 0;
+  if (k.maxCoeff(&site) < kBeside) return seen;
+  const double d = diagonal_[site];
+  const bool same = place == sites_[site].place;
+  if (!same && (prior_.metric() == Metric::Intrinsic || seen.unexplained > 0.01)) return seen;
+  const Eigen::VectorXd g = solve_lower(Eigen::VectorXd::Unit(k.size(), site));
+  const double there = at_site(d, g.squaredNorm(), seen.unexplained);
+  if (same) {
+    seen.unexplained = there;
+    return seen;
+  }
+  if (d >= kSmallNoise) return seen;
+  const Vec3& p = sites_[site].place.coordinates;
+  Eigen::VectorXd change(k.size());
+  for (Eigen::Index i = 0; i < k.size(); ++i)
+    change[i] = correlation_change(prior_.kernel(), p - sites_[i].place.coordinates, place.coordinates - p);
+  const Eigen::VectorXd w = solve_lower(std::move(change));
+  seen.unexplained = there + 2.0 * d * g.dot(w) + 2.0 * decorrelation(prior_.kernel(), place.coordinates - p) - w.squaredNorm();
+  return seen;
+}
+
+/// 1 - sum V^2 at the vertices, restated where too few of its digits are left; empty where all have enough.
+void Belief::sharpen() {
+  sharp_.resize(0);
+  if (sites_.empty() || *std::min_element(diagonal_.begin(), diagonal_.end()) >= kSmallNoise) return;
+  sharp_ = 1.0 - explained_.array();
+  std::vector<Eigen::VectorXd> g(sites_.size()), v(sites_.size());
+  std::vector<double> there(sites_.size());
+  for_ranges(static_cast<int>(sites_.size()), 4, [&](int first, int last) {
+    for (int site = first; site < last; ++site) {
+      if (diagonal_[site] >= kSmallNoise) continue;
+      g[site] = solve_lower(Eigen::VectorXd::Unit(row_count(), site));
+      v[site] = solve_lower(correlations_with(prior_, sites_[site].place, sites_));
+      there[site] = at_site(diagonal_[site], g[site].squaredNorm(), 0.0);
+    }
+  });
+  for_ranges(static_cast<int>(sharp_.size()), 512, [&](int first, int last) {
+    for (int vertex = first; vertex < last && prior_.metric() != Metric::Intrinsic; ++vertex) {
+      if (sharp_[vertex] > kSmallVariance) continue;
+      const Vec3 x = prior_.coordinates(vertex);
+      std::size_t site = 0;
+      for (std::size_t i = 1; i < sites_.size(); ++i) {
+        if ((sites_[i].place.coordinates - x).squaredNorm() < (sites_[site].place.coordinates - x).squaredNorm()) site = i;
+      }
+      const double apart = decorrelation(prior_.kernel(), x - sites_[site].place.coordinates);
+      if (diagonal_[site] >= kSmallNoise || apart > 1.0 - kBeside) continue;
+      double along = 0.0, square = 0.0;
+      for (const auto& rows : rows_) {
+        for (int row = 0; row < rows->count; ++row) {
+          const double w = rows->value(row, vertex) - v[site][rows->first + row];
+          along += g[site][rows->first + row] * w;
+          square += w * w;
+        }
+      }
+      sharp_[vertex] = there[site] + 2.0 * diagonal_[site] * along + 2.0 * apart - square;
+    }
+  });
+  for (std::size_t site = 0; site < sites_.size(); ++site) {
+    const int vertex = vertex_at(prior_.surface(), sites_[site].where);
+    if (vertex >= 0 && diagonal_[site] < kSmallNoise) sharp_[vertex] = there[site];
+  }
+}
+
+}  // namespace palpation
