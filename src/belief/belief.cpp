@@ -88,6 +88,9 @@ void Belief::restate_spread() {
   if (readings.size() == 0) return;
   centre_ = mean_of(readings);
   const double spread = std::sqrt((readings.array() - centre_).square().mean());
+  require((spread > 1e-150 && spread < 1e150) || readings.minCoeff() == readings.maxCoeff(), "Belief",
+          "readings between " + text_of(readings.minCoeff()) + " and " + text_of(readings.maxCoeff()),
+          "cannot be standardized: the square of their spread must be a number");
   spread_ = spread > 0.0 ? spread : 1.0;
 }
 
@@ -369,7 +372,7 @@ double Belief::log_marginal_likelihood() const {
   return result;
 }
 
-CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belief) {
+CovarianceWith::CovarianceWith(const Belief& belief, int vertex) : belief_(belief), vertex_(vertex) {
   require(vertex >= 0 && vertex < belief.prior_.surface().vertex_count(), "CovarianceWith", "vertex " + std::to_string(vertex),
           "is not on the surface");
   correlations_ = std::make_shared<const TileCorrelations>(belief.prior_, vertex);
@@ -402,8 +405,12 @@ void CovarianceWith::operator()(int first, int count, double* out) const {
     for (int lane = 0; lane < kLanes; ++lane) {
       const int vertex = tile * kLanes + lane;
       if (vertex < first || vertex >= first + count) continue;
-      out[vertex - first] =
-          signal_variance * (prior_correlations[lane] + covariance[lane] + constant_share * (1.0 - belief_.v_ones_[vertex]));
+      double value = prior_correlations[lane] + covariance[lane];
+      if (belief_.sharp_.size() > 0) {  // no more than the variances allow
+        const double most = std::sqrt(belief_.sharp_[vertex_] * belief_.sharp_[vertex]);
+        value = vertex == vertex_ ? most : std::clamp(value, -most, most);
+      }
+      out[vertex - first] = signal_variance * (value + constant_share * (1.0 - belief_.v_ones_[vertex]));
       if (!prior.has_slope()) continue;
       const Vec3 tilt =
           belief_.tilt_residual(prior.coordinates(vertex), belief_.v_tilts_.row(vertex), 1.0 - belief_.v_ones_[vertex], Part::Whole);

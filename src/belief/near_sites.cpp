@@ -114,6 +114,9 @@ void Belief::sharpen() {
     const int vertex = vertex_at(prior_.surface(), sites_[site].where);
     if (vertex >= 0 && diagonal_[site] < kSmallNoise) sharp_[vertex] = there[site];
   }
+  const double least = *std::min_element(diagonal_.begin(), diagonal_.end());
+  if (least > 0.0) sharp_ = sharp_.array().max(least / (least + covered_.array()));
+  sharp_ = sharp_.array().max(0.0).min(1.0);
 }
 
 }  // namespace palpation

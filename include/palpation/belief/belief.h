@@ -176,6 +176,7 @@ class CovarianceWith {
 
  private:
   const Belief& belief_;
+  int vertex_;
   std::shared_ptr<const TileCorrelations> correlations_;
   std::vector<double> column_;        // of V
   double residual_ones_;              // 1 - V' L^-1 1
