@@ -71,6 +71,7 @@ bool Belief::reduce_all() {
   reduction_tried_at_ = static_cast<int>(sites.size());
   features = Features::of(prior_, sites, options_.reduced_rank_tolerance, most, features);
   if (!features) return false;
+  prior_.surface().note_computed("features");
 
   rows_.clear();
   sites_.clear();

@@ -148,6 +148,11 @@ std::vector<SceneKey> make_scene_keys() {
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
             "mean"),
+      or_zero(
+          number("field.reduced_rank", "", 1e-13, 1e-4, 0.0,
+                 "for readings by the thousand, as along paths: the part of the prior's variance that may be left out, 1e-10 say, so that "
+                 "a smooth field is modelled by some hundreds of features whatever the readings' number; bounded, and exact where that "
+                 "does not pay (rough kernels, few readings) or their noise is too small; 0: exact")),
       number("field.indenter_radius_mm", "mm", 0.0, 20.0, 0.0,
              "of the probe's round tip, which feels an edge by as much too early: the boundary is drawn that much inwards; 0: not at all"),
       truth("field.heavy_tails", false,

@@ -278,6 +278,7 @@ FieldModel field_of(const Scene& scene) {
   else if (scene.has("field.constant_sd"))
     field.constant.sd = scene.number("field.constant_sd");
   field.belief.standardize = scene.truth("field.standardize");
+  field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
   field.screening = scene.truth("field.screening");
   field.heavy_tails = scene.truth("field.heavy_tails");
   field.indenter_radius_m = scene.metres("field.indenter_radius_mm");

@@ -87,6 +87,17 @@ TEST(Setup, ReadsThePapersModel) {
   EXPECT_TRUE(field.belief.noise_is_relative);
   EXPECT_EQ(field.belief.noise_sd, 0.2);
   EXPECT_EQ(field.constant.sd, 7.2);
+  EXPECT_EQ(field.belief.reduced_rank_tolerance, 0.0);
+}
+
+TEST(Setup, ReducesTheRankWhereThatIsAskedFor) {
+  const auto tolerance = [](double given) {
+    return field_of(Scene(json{{"field", {{"reduced_rank", given}}}}, "test", ".")).belief.reduced_rank_tolerance;
+  };
+  EXPECT_EQ(tolerance(1e-10), 1e-10);
+  EXPECT_EQ(tolerance(0.0), 0.0);
+  EXPECT_THROW(tolerance(1e-14), Error);  // less than rounding
+  EXPECT_THROW(tolerance(0.1), Error);
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ class Surface {
   /// The slow waves of the surface's Laplacian (spectrum.h), made once for each range that is asked for. Throws as spectrum_of.
   std::shared_ptr<const Spectrum> spectrum(const SpectrumRange& range) const;
 
-  /// What has been computed so far beyond the mesh itself, in alphabetical order: of "chart", "geodesics", "search tree", "spectrum".
+  /// What has been computed so far beyond the mesh itself, in alphabetical order: of "chart", "features", "geodesics", "search tree",
+  /// "spectrum".
   std::vector<std::string> computed() const;
   /// Says that something costly was computed for this surface (used by the functions of this folder).
   void note_computed(const std::string& what) const;
