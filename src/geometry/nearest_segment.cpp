@@ -1,6 +1,6 @@
 #include "palpation/geometry/nearest_segment.h"
 
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +81,9 @@ typename NearestSegment<dimension>::Point NearestSegment<dimension>::nearest(con
     return Segment<dimension>{stretch * (segment.from - place), stretch * (segment.to - place)};
   };
   const auto squared_distance = [&](const Segment<dimension>& segment) { return stretched(segment).squared_distance(Point::Zero()); };
-  const double least_stretch = Eigen::JacobiSVD<Square>(stretch).singularValues()[dimension - 1];
+  // The least singular value is no less than this, by the norm of Frobenius; nothing is pruned where the stretch has no inverse.
+  const double inverse_norm = stretch.inverse().norm();
+  const double least_stretch = std::isfinite(inverse_norm) ? 1.0 / inverse_norm : 0.0;
   double best = squared_distance(segments_[hint]);
   search(place, (1.0 - 1e-9) * least_stretch * least_stretch, squared_distance, 0, 0, static_cast<int>(segments_.size()), best, hint);
   const Segment<dimension>& found = segments_[hint];
