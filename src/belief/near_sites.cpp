@@ -23,8 +23,8 @@ namespace {
 constexpr double kSmallNoise = 1e-4;
 /// An increment is small where a correlation is above this: within 0.3 lengths for the squared exponential.
 constexpr double kBeside = 0.95;
-/// Vertices of less variance than this are looked at again.
-constexpr double kSmallVariance = 1e-4;
+/// Vertices of less variance than this are looked at again: above it 1 - v'v is good to eight digits.
+constexpr double kSmallVariance = 1e-6;
 
 int vertex_at(const Surface& surface, const SurfacePoint& point) {
   for (int corner = 0; corner < 3; ++corner) {
