@@ -70,9 +70,10 @@ Eigen::MatrixXd distances_between(const Surface& surface, std::span<const Surfac
   }
   if (surface.is_planar()) return distances;
   surface.note_computed("surface distances");
+  const Marching marching(surface);
   for_ranges(static_cast<int>(count), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
-      const std::vector<double> marched = marched_distances(surface, places[static_cast<std::size_t>(i)], places.subspan(i + 1));
+      const std::vector<double> marched = marching.distances(places[static_cast<std::size_t>(i)], places.subspan(i + 1));
       for (Eigen::Index j = i + 1; j < count; ++j)
         distances(i, j) = std::max(distances(i, j), marched[static_cast<std::size_t>(j - i - 1)]);
     }

@@ -37,7 +37,41 @@ SparseMatrix laplacian(const std::vector<FlatTriangle>& flat, const Triangles& t
   return matrix;
 }
 
-double dot(const Points2& a, const Points2& b) { return a.reshaped().dot(b.reshaped()); }
+/// In the order of memory.
+double dot(const Points2& a, const Points2& b) { return a.reshaped<Eigen::RowMajor>().dot(b.reshaped<Eigen::RowMajor>()); }
+
+/// A symmetric positive definite matrix, and its inverse for u and v in one go.
+class Factored {
+ public:
+  explicit Factored(const SparseMatrix& matrix) : ldlt_(matrix), over_diagonal_(ldlt_.vectorD().cwiseInverse()) {}
+
+  Points2 solve(const Eigen::Ref<const Points2>& right) const {
+    const SparseMatrix& lower = ldlt_.matrixL().nestedExpression();  // unit diagonal, which may be stored
+    Points2 x = ldlt_.permutationP() * right;
+    for (Eigen::Index column = 0; column < x.rows(); ++column) {
+      const double u = x(column, 0), v = x(column, 1);
+      for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+        if (entry.row() <= column) continue;
+        x(entry.row(), 0) -= entry.value() * u;
+        x(entry.row(), 1) -= entry.value() * v;
+      }
+    }
+    for (Eigen::Index column = x.rows(); column-- > 0;) {
+      double u = over_diagonal_[column] * x(column, 0), v = over_diagonal_[column] * x(column, 1);
+      for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+        if (entry.row() <= column) continue;
+        u -= entry.value() * x(entry.row(), 0);
+        v -= entry.value() * x(entry.row(), 1);
+      }
+      x.row(column) << u, v;
+    }
+    return ldlt_.permutationPinv() * x;
+  }
+
+ private:
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt_;
+  Eigen::VectorXd over_diagonal_;
+};
 
 /// What the last steps taught about the energy's second derivative.
 class Memory {
@@ -76,7 +110,7 @@ class Memory {
 
 Points2 descended(FlatEnergy energy, const TriangleMesh& mesh, Points2 start) {
   const std::vector<FlatTriangle> flat = flat_triangles(mesh);
-  const Eigen::SimplicialLDLT<SparseMatrix> factored(laplacian(flat, mesh.triangles, mesh.vertices.rows()));
+  const Factored factored(laplacian(flat, mesh.triangles, mesh.vertices.rows()));
   double area = 0.0;
   for (const FlatTriangle& triangle : flat) area += triangle.area;
   const auto solve = [&](const Points2& right) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/boundary_first.h"
 #include "geometry/chart_frame.h"
 #include "geometry/circle_map.h"
 #include "geometry/conformal.h"
@@ -38,9 +39,13 @@ std::optional<Eigen::Index> first_turned(const Triangles& triangles, const Point
 
 Points2 of_area(Points2 uv, const Triangles& triangles, double area) { return uv * std::sqrt(area / area_of(triangles, uv)); }
 
-/// The mesh measures about 1. Both starts are tried for the best map; only where each leads to triangles turned over, for a map that never
-/// turns one.
+/// The mesh measures about 1. Three starts are tried for the best map, the one that is closest and costs least first; only where each leads
+/// to triangles turned over, for a map that never turns one.
 Points2 flattened(const TriangleMesh& mesh, const std::vector<int>& border, double area) {
+  if (const std::optional<Points2> start = boundary_first_map(mesh, border)) {
+    Points2 rigid = descended(FlatEnergy::Rigid, mesh, of_area(*start, mesh.triangles, area));
+    if (!first_turned(mesh.triangles, rigid)) return rigid;
+  }
   const std::optional<Points2> conformal = conformal_map(mesh);
   const bool conformal_turns = !conformal || first_turned(mesh.triangles, *conformal);
   const Points2 start = of_area(conformal ? *conformal : circle_map(mesh, border), mesh.triangles, area);

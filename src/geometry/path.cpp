@@ -192,12 +192,29 @@ std::vector<SurfacePoint> projected_line(const Surface& surface, const SurfacePo
   return places;
 }
 
-/// The shortest path, looked for among ways not much longer than the fast estimate of its length first.
-std::optional<ShortestPath> shortest_path(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to) {
-  constexpr double kSlack = 1.02;
+double length_of(const Surface& surface, const std::vector<Piece>& pieces) {
+  double length = 0.0;
+  for (const Piece& piece : pieces)
+    length += (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from})).norm();
+  return length;
+}
+
+/// Not less than the length of the shortest path, and not much more: what a plane through both places and their normals cuts out where that
+/// is almost straight, else the fast estimate.
+double length_at_most(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to) {
+  constexpr double kAlmostStraight = 1.1, kRounding = 1.0 + 1e-9, kSlack = 1.02;
+  const double straight = (surface.position(to) - surface.position(from)).norm();
+  if (const auto pieces = SectionWalk(surface, from, to, InPlane::Front).walk(from)) {
+    const double length = length_of(surface, *pieces);
+    if (length <= kAlmostStraight * straight) return kRounding * length;
+  }
   const std::array<SurfacePoint, 2> ends = {from, to};
-  const double estimate = distances_between(surface, ends)(0, 1);
-  if (const auto path = unfolded_path(surface, from, to, kSlack * estimate)) return path;
+  return kSlack * distances_between(surface, ends)(0, 1);
+}
+
+/// The shortest path, looked for among ways not much longer first.
+std::optional<ShortestPath> shortest_path(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to) {
+  if (const auto path = unfolded_path(surface, from, to, length_at_most(surface, from, to))) return path;
   return unfolded_path(surface, from, to);
 }
 
