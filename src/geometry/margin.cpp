@@ -255,6 +255,19 @@ void add_rings(const Loop& loop, double first_width, double width, MetricBuilder
   }
 }
 
+/// Starts the loop where its edges change most, wherever its vertices' numbers begin: what is built on it then does not depend on those.
+void start_at_landmark(Loop& loop) {
+  const auto change = [&](std::size_t i) {
+    const double a = loop[before(loop, i)].length, b = loop[i].length;
+    return (b - a) / (a + b) + 0.1 * (loop[i].interior - kPi);
+  };
+  std::size_t landmark = 0;
+  for (std::size_t i = 1; i < loop.size(); ++i) {
+    if (change(i) > change(landmark)) landmark = i;
+  }
+  std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(landmark), loop.end());
+}
+
 /// The border as the mesh has it. `corner_sums`: the angles around each vertex.
 Loop loop_of(const MetricMesh& mesh, const std::vector<int>& vertices, const Field& corner_sums, const std::vector<int>& border_from) {
   Loop loop;
@@ -280,6 +293,7 @@ MetricMesh with_margin(const MetricMesh& mesh, const std::vector<std::vector<int
   MetricBuilder builder(mesh);
   for (const std::vector<int>& vertices : border_loops) {
     Loop loop = loop_of(mesh, vertices, corner_sums, border_from);
+    start_at_landmark(loop);
     double perimeter = 0.0;
     for (const Rim& rim : loop) perimeter += rim.length;
     const double first_width = std::min(perimeter / static_cast<double>(loop.size()), kCoarsest * width);
