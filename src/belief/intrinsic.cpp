@@ -8,8 +8,9 @@ namespace {
 
 constexpr double kLoss = 1e-4;         // of the variance, in the modes left out: squared exponential of the one length
 constexpr double kLossAtLeast = 1e-2;  // and at the least length of a range
-constexpr double kMatern52Loss = 1e-2;
-constexpr double kMatern32Loss = 4e-2;
+// The Materns of one length, and at the least length of a range; at the median of a range they lose as much as with one length.
+constexpr double kMatern52Loss = 1e-2, kMatern52LossAtLeast = 7e-2;
+constexpr double kMatern32Loss = 4e-2, kMatern32LossAtLeast = 0.15;
 constexpr double kMargin = 1.75;  // lengths; a range's most lengths have one
 
 double smoothness(KernelFamily family) { return family == KernelFamily::Matern32 ? 1.5 : 2.5; }
@@ -17,7 +18,9 @@ double smoothness(KernelFamily family) { return family == KernelFamily::Matern32
 /// length^2 lambda where the modes left out hold that part of the variance in the plane.
 double end_of_spectrum(KernelFamily family, bool one_length) {
   if (family == KernelFamily::SquaredExponential) return -2.0 * std::log(one_length ? kLoss : kLossAtLeast);
-  const double nu = smoothness(family), loss = family == KernelFamily::Matern32 ? kMatern32Loss : kMatern52Loss;
+  const double nu = smoothness(family);
+  const double loss = family == KernelFamily::Matern32 ? (one_length ? kMatern32Loss : kMatern32LossAtLeast)
+                                                       : (one_length ? kMatern52Loss : kMatern52LossAtLeast);
   return 2.0 * nu * (std::pow(loss, -1.0 / nu) - 1.0);
 }
 

@@ -14,8 +14,10 @@ std::vector<int> reachable_vertices(const Surface& surface, const Access& access
           "must lie in (0, pi]");
   require(std::isfinite(access.clearance_m) && access.clearance_m >= 0.0, "Access", "clearance_m = " + text_of(access.clearance_m),
           "must be finite and not negative");
+  require(std::isfinite(access.probe_radius_m) && access.probe_radius_m >= 0.0, "Access",
+          "probe_radius_m = " + text_of(access.probe_radius_m), "must be finite and not negative");
   std::vector<bool> is_clear;
-  if (access.clearance_m > 0.0) is_clear = clear_vertices(surface, access.clearance_m);
+  if (access.clearance_m > 0.0) is_clear = clear_vertices(surface, access.clearance_m, access.probe_radius_m);
   Vec3 shaft = Vec3::Zero();
   if (access.shaft_direction) {
     shaft = access.shaft_direction->stableNormalized();

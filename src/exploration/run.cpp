@@ -27,8 +27,8 @@ Tour travel(const Surface& surface, std::span<const int> stops, const std::optio
     if (felt->travel.isZero(0.0)) felt->travel = heading;
     tour.palpations.push_back(*felt);
   };
-  for (int stop : stops) {
-    const SurfacePoint target = surface.at_vertex(stop);
+  for (int leg = 0; leg < static_cast<int>(stops.size()); ++leg) {
+    const SurfacePoint target = surface.at_vertex(stops[static_cast<std::size_t>(leg)]);
     Vec3 heading = Vec3::Zero();
     if (here) {
       const Vec3 start = surface.position(*here);
@@ -36,6 +36,7 @@ Tour travel(const Surface& surface, std::span<const int> stops, const std::optio
       Vec3 previous = start;
       for (const SurfacePoint& place : way_between(surface, *here, target, kPathStep_m)) {
         tour.way.push_back(place);
+        tour.legs.push_back(leg);
         tour.length_m += (surface.position(place) - previous).norm();
         previous = surface.position(place);
       }

@@ -11,7 +11,8 @@
 namespace palpation {
 namespace {
 
-constexpr double kLeastArea = 1e-9;  // of the longest edge's square
+constexpr double kLeastArea = 1e-9;    // of the longest edge's square
+constexpr double kLumped = 3.0 / 8.0;  // of the mass; the rest is consistent
 
 /// Heron's formula as Kahan (1986) arranged it, which keeps its digits in slivers.
 double triangle_area(double x, double y, double z) {
@@ -159,9 +160,9 @@ Laplacian laplacian_of(const MetricMesh& mesh) {
       stiffness.emplace_back(end, end, weight);
       stiffness.emplace_back(start, end, -weight);
       stiffness.emplace_back(end, start, -weight);
-      mass.emplace_back(start, start, area / 4.0);
-      mass.emplace_back(start, end, area / 24.0);
-      mass.emplace_back(end, start, area / 24.0);
+      mass.emplace_back(start, start, kLumped * area / 3.0 + (1.0 - kLumped) * area / 6.0);
+      mass.emplace_back(start, end, (1.0 - kLumped) * area / 12.0);
+      mass.emplace_back(end, start, (1.0 - kLumped) * area / 12.0);
     }
   }
   Laplacian laplacian{Eigen::SparseMatrix<double>(mesh.vertex_count, mesh.vertex_count),

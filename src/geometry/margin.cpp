@@ -261,9 +261,10 @@ void start_at_landmark(Loop& loop) {
     const double a = loop[before(loop, i)].length, b = loop[i].length;
     return (b - a) / (a + b) + 0.1 * (loop[i].interior - kPi);
   };
+  constexpr double kRounding = 1e-9;
   std::size_t landmark = 0;
   for (std::size_t i = 1; i < loop.size(); ++i) {
-    if (change(i) > change(landmark)) landmark = i;
+    if (change(i) > change(landmark) + kRounding) landmark = i;
   }
   std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(landmark), loop.end());
 }

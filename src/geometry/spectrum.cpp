@@ -1,6 +1,5 @@
 #include "palpation/geometry/spectrum.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -8,12 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "geometry/block_solver.h"
 #include "geometry/margin.h"
+#include "geometry/slow_subspace.h"
 #include "geometry/surface_state.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
-#include "palpation/base/random.h"
 #include "palpation/base/tile.h"
 
 namespace palpation {
@@ -23,11 +21,8 @@ static_assert(Spectrum::kLanes == kLanes);
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-constexpr int kDense = 600;           // vertices that are solved as a whole
-constexpr double kShift = 0.2;        // of the greatest eigenvalue
-constexpr double kSpare = 1.2;        // block over the modes that are expected; the filter ends there, too
-constexpr int kSolves = 5;            // more in one go lose directions
-constexpr double kDependent = 1e-11;  // of a unit diagonal: directions that rounding made
+constexpr int kDense = 600;     // vertices that are solved as a whole
+constexpr double kSpare = 1.2;  // block over the modes that are expected; the filter ends there, too
 
 /// Stiffness and mass in the order of the factor's pivots, and that order.
 struct Ordered {
@@ -67,108 +62,16 @@ BlockFactor factor_of(const Sparse& matrix) {
   return factor;
 }
 
-/// Random signs, as if white over the surface.
-std::vector<Strip> random_block(const Sparse& mass, int strips) {
-  Random random(1);
-  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  std::vector<Strip> block(static_cast<std::size_t>(strips));
-  for (Strip& strip : block) {
-    strip.resize(static_cast<std::size_t>(mass.cols()) * kStrip);
-    for (Eigen::Index row = 0; row < mass.cols(); ++row) {
-      std::uint64_t bits = random.bits();
-      for (int lane = 0; lane < kStrip; ++lane, bits >>= 1)
-        strip[static_cast<std::size_t>(row * kStrip + lane)] = (bits & 1) ? scale[row] : -scale[row];
-    }
-  }
-  return block;
-}
-
-/// Y <- T_(q-1)(2 S / s - 1) S Y with S = c (G + c M)^-1 M, s its eigenvalue where the filter ends.
-void filter(std::vector<Strip>& block, const Ordered& ordered, double shift, double end) {
-  const BlockFactor factor = factor_of(ordered.stiffness + shift * ordered.mass);
-  const double s = 1.0 / (1.0 + end / shift);
-  for_ranges(static_cast<int>(block.size()), 1, [&](int first, int last) {
-    Strip product;
-    const auto apply = [&](const Strip& in) {
-      multiply(ordered.mass, in, product);
-      factor.solve(product);
-    };
-    for (int i = first; i < last; ++i) {
-      apply(block[i]);
-      Strip before = product;
-      combine(shift, before, 0.0, before, 0.0, before);  // T_0
-      apply(before);
-      Strip here = product;
-      combine(2.0 * shift / s, here, -1.0, before, 0.0, before);  // T_1
-      for (int q = 2; q < kSolves; ++q) {
-        apply(here);
-        combine(-1.0, before, 4.0 * shift / s, product, -2.0, here);
-        std::swap(before, here);
-      }
-      block[i] = std::move(here);
-    }
-  });
-}
-
-/// Y' A Y, by groups of strips whose products with A wait while all strips pass by.
-Eigen::MatrixXd gram(const std::vector<Strip>& block, const Sparse& a) {
-  constexpr int kGroup = 4;
-  constexpr long kRowsAtOnce = 128;
-  using Square = Eigen::Matrix<double, kStrip, kStrip, Eigen::RowMajor>;
-  const int strips = static_cast<int>(block.size());
-  Eigen::MatrixXd result(strips * kStrip, strips * kStrip);
-  for_ranges((strips + kGroup - 1) / kGroup, 1, [&](int first_group, int last_group) {
-    for (int start = first_group * kGroup; start < std::min(last_group * kGroup, strips); start += kGroup) {
-      const int end = std::min(start + kGroup, strips);
-      std::vector<Strip> products(static_cast<std::size_t>(end - start));
-      for (int j = start; j < end; ++j) multiply(a, block[j], products[j - start]);
-      std::vector<Square> sums(static_cast<std::size_t>((end - start) * strips), Square::Zero());
-      for (long row = 0; row < a.cols(); row += kRowsAtOnce) {
-        const long count = std::min<long>(kRowsAtOnce, a.cols() - row);
-        for (int i = start; i < strips; ++i) {
-          for (int j = start; j < end; ++j) {
-            add_gram(block[i].data() + row * kStrip, products[j - start].data() + row * kStrip, count,
-                     sums[(j - start) * strips + i].data());
-          }
-        }
-      }
-      for (int j = start; j < end; ++j) {
-        for (int i = j; i < strips; ++i) {
-          const Square& sum = sums[(j - start) * strips + i];
-          result.block<kStrip, kStrip>(j * kStrip, i * kStrip) = sum.transpose();
-          result.block<kStrip, kStrip>(i * kStrip, j * kStrip) = sum;
-        }
-      }
-    }
-  });
-  return 0.5 * (result + result.transpose());
-}
-
-struct Ritz {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd weights;  // of the block's vectors
-};
-
-/// The best modes within the block's span.
-Ritz ritz(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
-  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> whole(scale.asDiagonal() * mass * scale.asDiagonal());
-  Eigen::Index dependent = 0;
-  while (dependent < scale.size() && !(whole.eigenvalues()[dependent] > kDependent)) ++dependent;
-  const Eigen::Index kept = scale.size() - dependent;
-  const Eigen::MatrixXd basis =
-      scale.asDiagonal() * whole.eigenvectors().rightCols(kept) * whole.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd reduced = basis.transpose() * stiffness * basis;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (reduced + reduced.transpose()));
-  return {modes.eigenvalues(), basis * modes.eigenvectors()};
-}
-
 int count_up_to(const Eigen::VectorXd& values, double greatest) {
   return static_cast<int>(std::upper_bound(values.begin(), values.end(), greatest) - values.begin());
 }
 
 /// Eigenvalues below 0 are those of constants, rounded.
 Eigen::VectorXd not_negative(const Eigen::VectorXd& values) { return values.cwiseMax(0.0); }
+
+InvalidInput too_many(double modes) {
+  return InvalidInput("spectrum: about " + std::to_string(std::lround(modes)) + " modes must be at most " + std::to_string(kMostModes));
+}
 
 Spectrum solve_densely(const MetricMesh& mesh, double greatest, int kept) {
   const Laplacian laplacian = laplacian_of(mesh);
@@ -235,16 +138,16 @@ double expected_modes(const MetricMesh& mesh, double greatest) {
 Spectrum spectrum_of(const MetricMesh& mesh, double greatest, int kept) {
   if (mesh.vertex_count <= kDense) return solve_densely(mesh, greatest, kept);
   const double expected = expected_modes(mesh, greatest);
-  const auto too_many = [](double modes) {
-    return InvalidInput("spectrum: about " + std::to_string(std::lround(modes)) + " modes must be at most " + std::to_string(kMostModes));
-  };
   if (!(expected <= kMostModes)) throw too_many(expected);
   const Ordered ordered = in_order_of_elimination(laplacian_of(mesh));
+  const double shift = kShift * greatest;
+  const BlockFactor factor = factor_of(ordered.stiffness + shift * ordered.mass);
+  const ShiftedLaplacian laplacian{ordered.stiffness, ordered.mass, factor, shift};
   for (double wanted = kSpare * expected + kStrip;; wanted *= 1.4) {
     const int strips = static_cast<int>(std::ceil(wanted / kStrip));
     if (strips * kStrip * 2 > mesh.vertex_count) throw too_many(wanted);
-    std::vector<Strip> block = random_block(ordered.mass, strips);
-    filter(block, ordered, kShift * greatest, kSpare * greatest);
+    std::vector<Strip> block = start_block(laplacian, strips);
+    filter(block, laplacian, kSpare * greatest);
     const Ritz modes = ritz(gram(block, ordered.stiffness), gram(block, ordered.mass));
     const int rank = count_up_to(modes.values, greatest);
     if (rank * 1.08 < strips * kStrip) return SpectrumMaker::make(block, modes, std::max(rank, 1), ordered, kept);
@@ -255,6 +158,9 @@ std::shared_ptr<const Spectrum> Surface::spectrum(const SpectrumRange& range) co
   const std::lock_guard lock(state_->spectra_guard);
   std::shared_ptr<const Spectrum>& spectrum = state_->spectra[range];
   if (!spectrum) {
+    // A margin only adds modes, and for what is far too short a length it would be far too fine.
+    const double expected = vertex_count() > kDense ? expected_modes(metric_of(*this), range.greatest) : 0.0;
+    if (!(expected <= kMostModes)) throw too_many(expected);
     note_computed("spectrum");
     spectrum = std::make_shared<const Spectrum>(spectrum_of(extended(*this, range.margin_m), range.greatest, vertex_count()));
   }

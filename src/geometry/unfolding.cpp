@@ -76,7 +76,9 @@ class Trace {
       const double rise = place.y() - window.image.y();
       double along = place.x();
       if (rise > 0.0) along = window.image.x() - window.image.y() / rise * (place.x() - window.image.x());
-      const double share = std::clamp(along, window.from, window.to) / frame.length;
+      along = std::clamp(along, window.from, window.to);
+      const double share = along / frame.length;
+      const int parent = windows_.parent_at(number, along);
       Vec3 entry = Vec3::Zero();
       entry[corner] = 1.0 - share;
       entry[(corner + 1) % 3] = share;
@@ -85,11 +87,11 @@ class Trace {
       weights = Vec3::Zero();
       weights[across % 3] = share;
       weights[(across % 3 + 1) % 3] = 1.0 - share;
-      if (window.parent < 0) {
+      if (parent < 0) {
         back_to_origin(across / 3, weights, window.origin);
         return;
       }
-      number = window.parent;
+      number = parent;
     }
   }
 

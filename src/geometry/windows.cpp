@@ -14,6 +14,8 @@ constexpr double kOnEdge = 1e-12;
 /// Of an edge's length: light this close beside a corner still sees it, and windows this narrow are none.
 constexpr double kVisible = 1e-10;
 constexpr double kNarrow = 1e-13;
+/// Of a distance: images of one source that are nearer are one.
+constexpr double kSameImage = 1e-11;
 /// Of a distance: ways that differ by less are equally long, and both are kept.
 constexpr double kEqual = 1e-12;
 /// Light that bends at a vertex need not bend there anew for ways that are shorter by so little.
@@ -54,7 +56,8 @@ Windows::Windows(const Surface& surface, std::span<const SurfacePoint> sources, 
       radius_m_(radius_m),
       keeps_paths_(keeps_paths),
       reached_(static_cast<std::size_t>(surface.vertex_count())),
-      best_(3 * static_cast<std::size_t>(surface.face_count())) {}
+      best_(3 * static_cast<std::size_t>(surface.face_count())),
+      waiting_(3 * static_cast<std::size_t>(surface.face_count())) {}
 
 void Windows::aim_at(const SurfacePoint& target, double at_most_m) {
   is_aimed_ = true;
@@ -155,9 +158,46 @@ void Windows::reach_straight(int face, int corner, double distance, int origin, 
   reach(vertex, {true, distance + back.norm(), -1, origin, face, std::atan2(next.cross(back).norm(), next.dot(back))});
 }
 
-void Windows::add(const Window& window) {
+/// Every vertex splits the light that passes it. Where both parts come to one edge again and the first is still waiting, they are made one
+/// anew, or there would be a window for every vertex that light has passed (Mitchell, Mount and Papadimitriou 1987 keep windows whole).
+/// True if nothing is left to be added.
+bool Windows::joins(Window& window, double distance) {
+  const int number = waiting_[static_cast<std::size_t>(window.half_edge)] - 1;
+  if (number < 0) return false;
+  Window& other = windows_[static_cast<std::size_t>(number)];
+  if (other.origin != window.origin || other.sigma != window.sigma) return false;
+  const double size = other.image.norm() + std::max(other.to, window.to), slack = kVisible * std::max(other.to, window.to);
+  if ((other.image - window.image).norm() > kSameImage * size) return false;
+  if (std::abs(other.to - window.from) > slack && std::abs(window.to - other.from) > slack) return false;
+  const double from = std::min(other.from, window.from), to = std::max(other.to, window.to);
+  if (other.sigma + to_interval(other) > distance) {
+    other.half_edge = -1;  // done with when its turn comes
+    window = {window.half_edge, window.parent, window.origin, from, to, window.image, window.sigma, keeps_paths_ ? number : -1};
+    return false;
+  }
+  if (keeps_paths_) {
+    window.part = other.part;
+    windows_.push_back(window);
+  }
+  Window& grown = windows_[static_cast<std::size_t>(number)];
+  grown.from = from;
+  grown.to = to;
+  if (keeps_paths_) grown.part = static_cast<int>(windows_.size()) - 1;
+  return true;
+}
+
+int Windows::parent_at(int number, double along) const {
+  int parent = window(number).parent;
+  for (int part = window(number).part; part >= 0; part = window(part).part) {
+    if (along >= window(part).from && along <= window(part).to) parent = window(part).parent;
+  }
+  return parent;
+}
+
+void Windows::add(Window window) {
   const double distance = window.sigma + to_interval(window);
   if (is_too_far(distance, window.half_edge)) return;
+  if (joins(window, distance)) return;
   int number = static_cast<int>(windows_.size());
   if (free_.empty()) {
     windows_.push_back(window);
@@ -166,6 +206,7 @@ void Windows::add(const Window& window) {
     free_.pop_back();
     windows_[static_cast<std::size_t>(number)] = window;
   }
+  waiting_[static_cast<std::size_t>(window.half_edge)] = number + 1;
   events_.push({distance, number, -1});
 }
 
@@ -330,7 +371,12 @@ void Windows::spread() {
     if (event.window < 0) {
       if (event.distance <= known_distance(event.vertex) * (1.0 + kNews)) bend_at(event.vertex);  // else a shorter way was found
     } else {
-      cross(event.window);
+      const int half_edge = windows_[static_cast<std::size_t>(event.window)].half_edge;
+      if (half_edge >= 0) {
+        int& waiting = waiting_[static_cast<std::size_t>(half_edge)];
+        if (waiting == event.window + 1) waiting = 0;
+        cross(event.window);
+      }
       if (!keeps_paths_) free_.push_back(event.window);
     }
   }

@@ -26,6 +26,7 @@ struct Window {
   double from, to;
   Vec2 image;
   double sigma;
+  int part = -1;  // another window that was made one with this and keeps its own parent; it may have such a part in turn
 };
 
 /// How a vertex is reached.
@@ -49,6 +50,8 @@ class Windows {
   const Reached& vertex(int vertex) const { return reached_[static_cast<std::size_t>(vertex)]; }
   const Reached& target() const { return target_; }
   const Window& window(int number) const { return windows_[static_cast<std::size_t>(number)]; }
+  /// The window that the light at this place of a window's half-edge came through before.
+  int parent_at(int number, double along) const;
   const SurfacePoint& source(int number) const { return sources_[static_cast<std::size_t>(number)]; }
 
   EdgeFrame frame(int half_edge) const;
@@ -100,7 +103,8 @@ class Windows {
   bool light_bends_at(int vertex) const;
   bool is_shadowed(int half_edge, double from, double to, double to_from, double to_to, double length) const;
   bool is_too_far(double distance, int half_edge) const;
-  void add(const Window& window);
+  void add(Window window);
+  bool joins(Window& window, double distance);
 
   const Surface& surface_;
   const Points& vertices_;
@@ -115,6 +119,7 @@ class Windows {
   Reached target_{};
   ZeroedArray<Reached> reached_;
   ZeroedArray<Best> best_;
+  ZeroedArray<int> waiting_;  // 1 + the last window added to a half-edge that is still to be crossed
   std::vector<Window> windows_;
   std::vector<int> free_;
   mutable std::vector<Blade> fan_;

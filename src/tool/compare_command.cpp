@@ -60,7 +60,8 @@ void compare_boundaries(const SceneArguments& arguments, const std::filesystem::
   const Region truth = read_region(b, tissue.surface, warnings);
   tell(warnings);
   const RegionError error = compare(tissue.surface, estimate, truth);
-  if (!arguments.quiet) std::fputs(error_words(error, tissue.surface.area()).c_str(), stdout);
+  if (!arguments.quiet)
+    std::fputs(error_words(error, tissue.surface.area(), "With " + b.filename().string() + " taken for the truth").c_str(), stdout);
   if (arguments.out.empty()) return;
   OutputFolder output(arguments.out, scene, tissue.surface);
   for (const std::string& warning : warnings) output.warn(warning);

@@ -108,7 +108,9 @@ void note_time(Episode& episode, BatchStopwatch& stopwatch) {
   stopwatch = BatchStopwatch();
 }
 
-void add_tour(Episode& episode, const Tour& tour) {
+/// The tour of the last `stop_count` stops.
+void add_tour(Episode& episode, const Tour& tour, std::size_t stop_count) {
+  for (const int leg : tour.legs) episode.legs.push_back(static_cast<int>(episode.stops.size() - stop_count) + leg);
   episode.way.insert(episode.way.end(), tour.way.begin(), tour.way.end());
   episode.path_m += tour.length_m;
 }
@@ -141,8 +143,8 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
   std::vector<int> planned = planner.next();
   const auto finish_batch = [&](const Tour& tour) {
     for (const int stop : planned) episode.stops.push_back(coarse.vertices[static_cast<std::size_t>(stop)]);
+    add_tour(episode, tour, planned.size());
     planned = planner.next();
-    add_tour(episode, tour);
     TraceRow row;
     row.batch = planner.batch() - 1;
     row.measurements = static_cast<int>(planner.palpations().size());
@@ -167,8 +169,8 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
   std::vector<int> planned = episode.exploration.next();
   const auto finish_batch = [&](const Tour& tour) {
     episode.stops.insert(episode.stops.end(), planned.begin(), planned.end());
+    add_tour(episode, tour, planned.size());
     planned = episode.exploration.next();
-    add_tour(episode, tour);
     restate(episode);
     note_time(episode, stopwatch);
     if (after_batch) after_batch(episode);

@@ -42,6 +42,7 @@ struct Episode {
   Trace trace{};
   std::vector<int> stops{};         ///< all planned stops, in the order of travel
   std::vector<SurfacePoint> way{};  ///< the places between them
+  std::vector<int> legs{};          ///< the stop that each of these leads to, by its place among the stops
   double path_m = 0.0;
   double cut_risk = 0.05;  ///< of the cut line
   double band_probability = 0.95;

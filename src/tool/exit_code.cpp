@@ -15,6 +15,7 @@ bool is(const std::exception& error) {
 
 ExitCode exit_code_of(const std::exception& error) {
   if (is<Interrupted>(error)) return kInterrupted;
+  if (is<WrongUsage>(error)) return kWrongUsage;
   if (is<WriteError>(error) || is<NumericalError>(error)) return kMachineAtFault;
   return is<Error>(error) ? kInputAtFault : kMachineAtFault;
 }

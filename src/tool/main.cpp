@@ -86,7 +86,7 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
 
   CLI::App* comparing = scene_command(app, arguments, "compare", "The area between two boundaries");
   comparing->add_option("A", arguments.a, "the estimate: a .wkt or .vtp file")->required();
-  comparing->add_option("B", arguments.b, "the truth")->required();
+  comparing->add_option("B", arguments.b, "the truth, or what is taken for it")->required();
   comparing->callback([&] { compare_boundaries(arguments.scene, arguments.a, arguments.b); });
 }
 

@@ -1,8 +1,11 @@
 // mesh: phantoms.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <numbers>
 #include <optional>
+#include <string>
 
 #include "palpation/base/error.h"
 #include "palpation/geometry/make_phantom.h"
@@ -10,10 +13,25 @@
 #include "palpation/io/read_mesh.h"
 #include "palpation/io/recording.h"
 #include "tool/commands.h"
+#include "tool/exit_code.h"
 #include "tool/mesh_words.h"
 
 namespace palpation::tool {
 namespace {
+
+[[noreturn]] void refuse(const MeshArguments& arguments, const std::string& words) {
+  throw WrongUsage("mesh " + arguments.kind + ": " + words);
+}
+
+constexpr double kMostVertices = 16e6;
+constexpr double kLeastCells = 4.0;                             // across a shape, or it would not be that shape
+constexpr double kSteepest = 100.0 / (2.0 * std::numbers::pi);  // amplitude over wavelength: 100 is the greatest slope
+
+void check_count(double vertices, const MeshArguments& arguments) {
+  if (vertices > kMostVertices)
+    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " would take " + text_of(std::round(vertices * 1e-6)) +
+                          " million vertices, but at most 16 million are made: take longer edges");
+}
 
 TriangleMesh plane_of(const MeshArguments& arguments) {
   PlaneOptions options{.jitter = arguments.jitter};
@@ -22,13 +40,12 @@ TriangleMesh plane_of(const MeshArguments& arguments) {
     options.columns = arguments.vertices[0];
     options.rows = arguments.vertices[1];
   } else {
-    require(arguments.edge_mm > 0.0, "mesh", "--edge-mm " + text_of(arguments.edge_mm), "must be positive");
     const RecordedReadings recording = read_recording(arguments.around);
     const Vec2 margin = Vec2::Constant(arguments.margin_mm / 1000.0);
     options.corner_m = recording.positions.leftCols<2>().colwise().minCoeff().transpose() - margin;
     options.size_m = recording.positions.leftCols<2>().colwise().maxCoeff().transpose() + margin - options.corner_m;
     const Vec2 cells = (options.size_m * 1000.0 / arguments.edge_mm).array().ceil();
-    require(cells.maxCoeff() < 1e5, "mesh", "--edge-mm " + text_of(arguments.edge_mm), "is too fine for this recording");
+    check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
     options.columns = static_cast<int>(cells.x()) + 1;
     options.rows = static_cast<int>(cells.y()) + 1;
   }
@@ -77,7 +94,7 @@ void check_options(const MeshArguments& arguments) {
     return std::any_of(kinds.begin(), kinds.end(), [&](const char* kind) { return arguments.kind == kind; });
   };
   const auto check = [&](const char* option, bool given, bool belongs) {
-    require(!given || belongs, "mesh " + arguments.kind, option, "is not among its options");
+    if (given && !belongs) refuse(arguments, std::string(option) + " is not among its options");
   };
   check("--around", !arguments.around.empty(), is_one_of({"plane"}));
   check("--vertices", arguments.gives_vertices, is_one_of({"plane"}));
@@ -90,9 +107,39 @@ void check_options(const MeshArguments& arguments) {
   check("--flank-mm", arguments.flank_mm.has_value(), is_one_of({"folded"}));
 }
 
+/// What the shapes ask of their sizes, in the words of the options.
+void check_sizes(const MeshArguments& arguments) {
+  constexpr double kPi = std::numbers::pi;
+  const auto at_most = [&](const std::string& option, double value_mm, double most_mm, const std::string& why) {
+    if (value_mm >= most_mm) refuse(arguments, option + " " + text_of(value_mm) + " must be less than " + text_of(most_mm) + ", " + why);
+  };
+  if (arguments.kind == "cylinder") {
+    const double radius_mm = arguments.radius_mm.value_or(CylinderOptions().radius_m * 1000.0);
+    at_most("--size-mm", arguments.size_mm[0], 2.0 * kPi * radius_mm, "once around a cylinder of --radius-mm " + text_of(radius_mm));
+  }
+  if (arguments.kind == "dome") {
+    const double radius_mm = arguments.radius_mm.value_or(DomeOptions().radius_m * 1000.0);
+    at_most("--reach-mm", arguments.reach_mm.value_or(DomeOptions().reach_m * 1000.0), kPi * radius_mm,
+            "half way around a sphere of --radius-mm " + text_of(radius_mm));
+  }
+  if (arguments.kind == "wave") {
+    const double wavelength_mm = arguments.wavelength_mm.value_or(WaveOptions().wavelength_m * 1000.0);
+    at_most("--amplitude-mm", arguments.amplitude_mm.value_or(WaveOptions().amplitude_m * 1000.0), kSteepest * wavelength_mm,
+            "as steep as --wavelength-mm " + text_of(wavelength_mm) + " allows");
+  }
+}
+
 TriangleMesh curved_of(const MeshArguments& arguments) {
+  check_sizes(arguments);
+  const Sheet sheet = sheet_of(arguments);
+  const double edge_m = arguments.edge_mm / 1000.0;
+  const Vec2 cells = sheet.size_m / edge_m;
+  check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
+  if (cells.minCoeff() < kLeastCells)
+    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " is too long for what is " + text_of(sheet.size_m.minCoeff() * 1000.0) +
+                          " mm wide: take at most a quarter of that");
   Random random(arguments.seed);
-  return make_phantom(sheet_of(arguments), arguments.edge_mm / 1000.0, arguments.jitter, random).mesh;
+  return make_phantom(sheet, edge_m, arguments.jitter, random).mesh;
 }
 
 }  // namespace

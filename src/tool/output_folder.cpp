@@ -106,10 +106,12 @@ std::string trace_csv(const Trace& trace, double search_area_m2) {
   return text;
 }
 
-std::string waypoint_csv(const std::vector<Waypoint>& waypoints) {
+/// `legs`: for places on the way, which stop each leads to.
+std::string waypoint_csv(const std::vector<Waypoint>& waypoints, const std::vector<int>* legs = nullptr) {
   std::string text =
       "index,x,y,z,approach_x,approach_y,approach_z,indented_x,indented_y,indented_z,normal_x,normal_y,normal_z,qx,qy,qz,qw,expected_force_"
-      "n\n";
+      "n";
+  text += legs != nullptr ? ",leg\n" : "\n";
   Eigen::Vector4d last = Eigen::Vector4d::Zero();
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const Waypoint& waypoint = waypoints[i];
@@ -122,7 +124,9 @@ std::string waypoint_csv(const std::vector<Waypoint>& waypoints) {
       for (double coordinate : triple) text += "," + text_of(coordinate);
     }
     for (double coefficient : turn) text += "," + text_of(coefficient);
-    text += "," + text_of(waypoint.expected_force_n) + "\n";
+    text += "," + text_of(waypoint.expected_force_n);
+    if (legs != nullptr) text += "," + std::to_string((*legs)[i]);
+    text += "\n";
   }
   return text;
 }
@@ -269,10 +273,10 @@ void OutputFolder::write(const Episode& episode, const World* world, const json&
   write_atomically(folder_ / "summary.json", document(summary(episode)));
 }
 
-void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way) {
+void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way, const std::vector<int>& legs) {
   begin();
   write_atomically(folder_ / "waypoints.csv", waypoint_csv(stops));
-  write_atomically(folder_ / "path.csv", waypoint_csv(way));
+  write_atomically(folder_ / "path.csv", waypoint_csv(way, &legs));
   has_waypoints_ = true;
 }
 

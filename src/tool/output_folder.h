@@ -28,7 +28,7 @@ class OutputFolder {
   void write(const Episode& episode, const World* world, const nlohmann::json& timings);
 
   /// waypoints.csv and path.csv: the stops, and the places between them. Before write().
-  void write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way);
+  void write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way, const std::vector<int>& legs);
 
   /// summary.json of two boundaries that were compared.
   void write_comparison(const RegionError& error);

@@ -65,7 +65,7 @@ void run_and_report(const SceneArguments& arguments, const Scene& scene, const T
   const Robot robot = robot_of(scene);
   std::vector<SurfacePoint> stops;
   for (int stop : episode.stops) stops.push_back(tissue.surface.at_vertex(stop));
-  output->write_waypoints(waypoints(tissue.surface, stops, robot), waypoints(tissue.surface, episode.way, robot));
+  output->write_waypoints(waypoints(tissue.surface, stops, robot), waypoints(tissue.surface, episode.way, robot), episode.legs);
   output->write(
       episode, &world,
       {{"prepare_s", prepared_seconds}, {"run_s", running_seconds}, {"batches_s", episode.batch_seconds}, {"write_s", writing.seconds()}});
@@ -134,7 +134,7 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   OutputFolder output(arguments.out, scene, tissue.surface);
   warn(output, tissue.warnings);
   warn(output, measured.warnings);
-  output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot));
+  output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);
   output.write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(output, arguments.quiet);
 }

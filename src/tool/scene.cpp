@@ -174,6 +174,7 @@ std::vector<std::string> Scene::warnings() const {
   warn("field.length_prior_mm", word("field.length_mm") == "learn", "field.length_mm is given");
   warn("surface.patch.within_deg", gives("surface.patch.facing"), "there is no surface.patch.facing");
   warn("robot.cone_deg", gives("robot.shaft_direction"), "there is no robot.shaft_direction");
+  warn("robot.probe_radius_mm", metres("robot.clearance_mm") > 0.0, "there is no robot.clearance_mm");
   warn("surface.unit", gives("surface.mesh"), "there is no surface.mesh");
   warn("plan.explore_mm", word("plan.acquisition") != "raster" && word("plan.acquisition") != "refinement",
        "plan.acquisition is " + word("plan.acquisition"));

@@ -226,6 +226,8 @@ std::vector<SceneKey> make_scene_keys() {
       number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0, "how near: the greatest angle between the two"),
       number("robot.clearance_mm", "mm", 0.0, 1000.0, 0.0,
              "tissue is touched only where a line of this length along its normal does not meet tissue again; 0: everywhere"),
+      number("robot.probe_radius_mm", "mm", 0.0, 100.0, 0.0,
+             "of the probe, whose tip is round: over robot.clearance_mm it must have room as well; 0: a line"),
       word("error.arithmetic", {"exact", "plain"}, "exact",
            "of the error against a known truth: exact Booleans of polygons, with distances; or areas summed triangle by triangle, without"),
       integer("seed", 0, kMostSeed, 1, "of all that is random"),

@@ -204,6 +204,15 @@ void check_chart(const Scene& scene, const Surface& surface) {
   }
 }
 
+/// Waves longer than the tissue are all alike: the field would be one value and whatever the trend leaves.
+std::string length_warning(const Scene& scene, const Surface& surface) {
+  if (scene.word("field.metric") != "intrinsic" || scene.word("field.length_mm") == "learn") return "";
+  const double length_m = scene.metres("field.length_mm");
+  if (length_m <= 0.5 * surface.diameter()) return "";
+  return scene.name() + ": field.length_mm " + fixed(length_m * 1000.0, 1) + " is long for tissue that is " +
+         fixed(surface.diameter() * 1000.0, 1) + " mm across: with field.metric intrinsic the field can hardly vary over it.";
+}
+
 /// Where lengths in the chart are not those on the tissue, a metric that takes them for it misleads.
 std::string stretch_warning(const Scene& scene, const Surface& surface) {
   const Distortion& distortion = surface.chart().distortion;
@@ -242,7 +251,9 @@ Tissue tissue_of(const Scene& scene) {
   check_chart(scene, tissue.surface);
   check_size(scene, tissue.surface);
   warn_of_reach(scene, tissue);
-  if (const std::string warning = stretch_warning(scene, tissue.surface); !warning.empty()) tissue.warnings.push_back(warning);
+  for (const std::string& warning : {stretch_warning(scene, tissue.surface), length_warning(scene, tissue.surface)}) {
+    if (!warning.empty()) tissue.warnings.push_back(warning);
+  }
   return tissue;
 }
 
@@ -337,6 +348,7 @@ Access access_of(const Scene& scene) {
   }
   access.cone_rad = scene.number("robot.cone_deg") * std::numbers::pi / 180.0;
   access.clearance_m = scene.metres("robot.clearance_mm");
+  access.probe_radius_m = scene.metres("robot.probe_radius_mm");
   return access;
 }
 

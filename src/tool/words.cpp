@@ -206,8 +206,8 @@ void tell(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "palpate: %s\n", warning.c_str());
 }
 
-std::string error_words(const RegionError& error, double search_area_m2) {
-  std::string words = "Against the truth: " + fixed(error.symmetric_difference_m2 * 1e6, 2) + " mm2 wrong (" +
+std::string error_words(const RegionError& error, double search_area_m2, const std::string& against) {
+  std::string words = against + ": " + fixed(error.symmetric_difference_m2 * 1e6, 2) + " mm2 wrong (" +
                       fixed(error.symmetric_difference_m2 * 1e4, 3) + " cm2, " +
                       fixed(100.0 * error.symmetric_difference_m2 / search_area_m2, 3) +
                       " % of the search area): " + fixed(error.missed_m2 * 1e6, 2) + " missed, " + fixed(error.extra_m2 * 1e6, 2) +

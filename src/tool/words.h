@@ -26,8 +26,8 @@ std::string episode_words(const Episode& episode);
 std::vector<std::string> boundary_remarks(const Episode& episode);
 /// Warnings, to the error stream.
 void tell(const std::vector<std::string>& warnings);
-/// How wrong an estimate is.
-std::string error_words(const RegionError& error, double search_area_m2);
+/// How wrong an estimate is; the sentence starts with what it is compared with.
+std::string error_words(const RegionError& error, double search_area_m2, const std::string& against = "Against the truth");
 /// The next stops.
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m);
 

@@ -56,11 +56,34 @@ TEST(Reach, LeavesOutWhatAFacingFlankCovers) {
   }
 }
 
+// In a wave of 2 mm over 20 mm the valleys are round with a radius of wavelength^2 / (4 pi^2 amplitude), 5.1 mm: a probe of 4 mm has room
+// in them, one of 12 mm has none, but on the crests.
+TEST(Reach, LeavesOutValleysThatAreNarrowerThanTheProbe) {
+  const Surface wave = phantom(wave_sheet());
+  const auto reached = [&](double radius_m) { return reachable_vertices(wave, {.clearance_m = 0.010, .probe_radius_m = radius_m}); };
+  EXPECT_EQ(reached(0.0).size(), static_cast<std::size_t>(wave.vertex_count()));
+  EXPECT_EQ(reached(0.004).size(), static_cast<std::size_t>(wave.vertex_count()));
+  const std::vector<int> left = reached(0.012);
+  EXPECT_LT(left.size(), static_cast<std::size_t>(wave.vertex_count()));
+  std::vector<bool> is_left(static_cast<std::size_t>(wave.vertex_count()), false);
+  for (const int vertex : left) is_left[static_cast<std::size_t>(vertex)] = true;
+  for (int vertex = 0; vertex < wave.vertex_count(); ++vertex) {
+    if (wave.vertex(vertex).z() > 0.001) {
+      EXPECT_TRUE(is_left[static_cast<std::size_t>(vertex)]) << vertex;
+    }
+    const bool in_an_inner_valley = wave.vertex(vertex).z() < -0.0019 && std::abs(wave.vertex(vertex).y() - 0.025) < 0.015;
+    if (in_an_inner_valley) {
+      EXPECT_FALSE(is_left[static_cast<std::size_t>(vertex)]) << vertex;
+    }
+  }
+}
+
 TEST(Reach, RefusesWhatIsNoCone) {
   const Surface dome = phantom(dome_sheet());
   EXPECT_THROW(reachable_vertices(dome, {.shaft_direction = Vec3::Zero()}), InvalidInput);
   EXPECT_THROW(reachable_vertices(dome, {.cone_rad = 0.0}), InvalidInput);
   EXPECT_THROW(reachable_vertices(dome, {.clearance_m = -1.0}), InvalidInput);
+  EXPECT_THROW(reachable_vertices(dome, {.clearance_m = 1.0, .probe_radius_m = -1.0}), InvalidInput);
 }
 
 }  // namespace

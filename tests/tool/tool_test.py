@@ -88,7 +88,13 @@ class Tool(unittest.TestCase):
         self.assertLess(summary["error"]["percent_of_search_area"], 2.0)
         self.assertAlmostEqual(summary["error"]["missed_mm2"] + summary["error"]["extra_mm2"], summary["error"]["symmetric_difference_mm2"], delta=1e-9)
         self.assertEqual(len((out / "trace.csv").read_text().splitlines()), 1 + 5)
-        self.assertEqual(len((out / "waypoints.csv").read_text().splitlines()), 1 + 56)
+        stops = (out / "waypoints.csv").read_text().splitlines()
+        self.assertEqual(len(stops), 1 + 56)
+        way = (out / "path.csv").read_text().splitlines()
+        self.assertEqual(way[0], stops[0] + ",leg", "places on the way tell which stop they lead to")
+        legs = [int(line.rsplit(",", 1)[1]) for line in way[1:]]
+        self.assertEqual(legs, sorted(legs))
+        self.assertTrue(0 < legs[0] and legs[-1] == 55, "no way leads to the first stop")
 
     def summary_of(self, command, *arguments):
         out = self.folder / "other"
@@ -241,6 +247,7 @@ class Tool(unittest.TestCase):
         a = self.write("a.wkt", "MULTIPOLYGON (((0.005 0.01, 0.015 0.01, 0.015 0.02, 0.005 0.02, 0.005 0.01)))")
         b = self.write("b.wkt", "POLYGON ((0.005 0.01, 0.015 0.01, 0.015 0.03, 0.005 0.03, 0.005 0.01))")
         self.assertIn("100.00 mm2 wrong", self.done("compare", self.scene, a, b))
+        self.assertIn(f"With {b.name} taken for the truth", self.done("compare", self.scene, a, b))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", self.scene, a, a))
         millimetres = self.write("mm.wkt", "POLYGON ((10 10, 20 10, 20 20, 10 10))")
         self.assertIn("off the tissue", self.refused(3, "compare", self.scene, a, millimetres))
@@ -265,8 +272,13 @@ class Tool(unittest.TestCase):
             words = self.done("info", made, "--unit", "mm")
             self.assertIn("Curved", words)
             self.assertAlmostEqual(float(words.split("Area: ")[1].split()[0]), area, delta=0.15, msg=kind)
-        self.assertIn("--reach-mm", self.refused(3, "mesh", "wave", "--reach-mm", 3, self.folder / "x.ply"))
-        self.assertIn("--vertices", self.refused(3, "mesh", "dome", "--vertices", 30, 30, self.folder / "x.ply"))
+        self.assertIn("--reach-mm", self.refused(2, "mesh", "wave", "--reach-mm", 3, self.folder / "x.ply"))
+        self.assertIn("--vertices", self.refused(2, "mesh", "dome", "--vertices", 30, 30, self.folder / "x.ply"))
+        for kind, option, value in [("dome", "--edge-mm", 0.001), ("dome", "--edge-mm", 1000), ("dome", "--reach-mm", 90), ("wave", "--amplitude-mm", 400)]:
+            words = self.refused(2, "mesh", kind, option, value, self.folder / "x.ply")
+            self.assertIn(option, words)
+            self.assertNotIn("_m ", words, "an option is named, not what the library calls it")
+        self.assertIn("--size-mm", self.refused(2, "mesh", "cylinder", "--size-mm", 200, 20, self.folder / "x.ply"))
 
     def test_the_robot_touches_only_what_it_reaches(self):
         reached = ["--set", "robot.shaft_direction=[0,0,1]", "--set", "robot.clearance_mm=3"]

@@ -197,6 +197,7 @@ using Probe = std::function<std::optional<Palpation>(const SurfacePoint& where, 
 struct Tour {
   std::vector<Palpation> palpations;  ///< in order
   std::vector<SurfacePoint> way;      ///< the places between the stops, one per mm
+  std::vector<int> legs;              ///< for each of these, which of the stops it leads to: its place among them
   double length_m = 0.0;
 };
 Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe,

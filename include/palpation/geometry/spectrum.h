@@ -1,9 +1,11 @@
 /// The slow waves of a surface: eigenfunctions of its Laplacian, G phi = lambda M phi, up to a greatest eigenvalue.
 ///
-/// Found by a filtered, randomized subspace (Halko, Martinsson and Tropp 2011; Zhou and Saad 2007): a block of random signs, filtered by a
-/// Chebyshev polynomial in c (G + c M)^-1 M, whose one real factor serves all, then one dense Rayleigh-Ritz step. Small meshes are solved
-/// densely as a whole. The surface is extended by a margin beyond its borders first (a flat continuation, see the class below), so that
-/// kernels made of these waves do not feel the border.
+/// Found by a filtered, randomized subspace (Halko, Martinsson and Tropp 2011; Zhou and Saad 2007): a block of vectors that look white over
+/// the surface and follow from its shape alone, filtered by a Chebyshev polynomial in c (G + c M)^-1 M, whose one real factor serves all,
+/// then one dense Rayleigh-Ritz step. So the kernels move with an irregular mesh to rounding, whatever its place, scale and numbers; on a
+/// mesh so regular that neighbours are alike, numbers of vertices tell them apart, and matter as much as what the modes left out hold.
+/// Small meshes are solved densely as a whole. The surface is extended by a margin beyond its borders first (a flat continuation, see the
+/// class below), so that kernels made of these waves do not feel the border.
 #pragma once
 
 #include <memory>
