@@ -17,7 +17,7 @@ constexpr std::size_t kMoreCandidates = 512;  // and places that they then turn 
 constexpr int kMostRounds = 6;
 constexpr int kLookAhead = 7;  // tiles: the first round looks at one of them
 /// Candidates are brought this far below the tolerance, since there is something between them.
-constexpr double kMargin = 0.25;
+constexpr double kMargin = 0.1;
 
 Site site_at(const Prior& prior, const SurfacePoint& where) { return {where, prior.place(where), {}, {}, {}}; }
 
