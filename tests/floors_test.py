@@ -40,7 +40,7 @@ EIGEN = re.compile(r"Eigen/\w+$")
 
 # The standard library's headers have no dot. The machine's own may be used in sources, never in a public header.
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")
-OF_THE_MACHINE = re.compile(r"(unistd|fcntl|dlfcn|errno|signal|spawn|poll|termios|immintrin|x86intrin|cpuid)\.h$|sys/\w+\.h$")
+OF_THE_MACHINE = re.compile(r"(unistd|fcntl|dlfcn|errno|signal|spawn|poll|malloc|termios|immintrin|x86intrin|cpuid)\.h$|sys/\w+\.h$")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)$', re.MULTILINE)
 NAMED = re.compile(r'(?:"([^"]+)"|<([^>]+)>)')
