@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "belief/intrinsic.h"
+#include "belief/vertex_tiles.h"
 #include "palpation/base/parallel.h"
+#include "palpation/base/targets.h"
 
 namespace palpation {
 namespace {
@@ -23,6 +25,50 @@ Eigen::MatrixXd modes_of(const Spectrum& spectrum, std::span<const Site> sites) 
   Eigen::MatrixXd modes(sites.size(), spectrum.rank());
   for (std::size_t i = 0; i < sites.size(); ++i) modes.row(static_cast<Eigen::Index>(i)) = sites[i].place.modes;
   return modes;
+}
+
+constexpr int kRowsAtOnce = 16;
+/// Farther than this e^-s is 0, and times a polynomial of infinity nothing.
+constexpr double kFar = 800.0;
+
+/// Lengths whose square is far from the least and the greatest number: for others (d / length)^2 is not d^2 / length^2.
+constexpr double kLeastLength_m = 1e-100, kMostLength_m = 1e100;
+
+/// rows[r] = scale |x - place r|^2, x the tile's eight places.
+PALPATION_TARGETS void squared_distances(const double* __restrict x, const double* __restrict places, int count, double scale,
+                                         double* __restrict rows) {
+  for (int row = 0; row < count; ++row) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double u = x[lane] - places[row * 3];
+      const double v = x[kLanes + lane] - places[row * 3 + 1];
+      const double w = x[2 * kLanes + lane] - places[row * 3 + 2];
+      rows[row * kLanes + lane] = scale * (u * u + v * v + w * w);
+    }
+  }
+}
+
+/// s^2 over |difference / length|^2.
+double matern_scale(KernelFamily family) {
+  if (family == KernelFamily::Matern12) return 1.0;
+  return family == KernelFamily::Matern32 ? 3.0 : 5.0;
+}
+
+/// values = s, opposites = -s for values = s^2.
+PALPATION_TARGETS void roots_and_opposites(double* __restrict values, double* __restrict opposites, int count) {
+  for (int i = 0; i < count; ++i) {
+    const double root = std::sqrt(values[i]);
+    values[i] = root < kFar ? root : kFar;
+    opposites[i] = -values[i];
+  }
+}
+
+/// values = the Matern family's polynomial of s = values, times its decay e^-s.
+void times_polynomial(KernelFamily family, const double* decay, int count, double* values) {
+  for (int i = 0; i < count; ++i) {
+    const double s = values[i];
+    const double polynomial = family == KernelFamily::Matern12 ? 1.0 : family == KernelFamily::Matern32 ? 1.0 + s : 1.0 + s + s * s / 3.0;
+    values[i] = polynomial * decay[i];
+  }
 }
 
 }  // namespace
@@ -111,7 +157,7 @@ Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::s
 
 TileCorrelations::TileCorrelations(const Prior& prior, std::span<const Site> sites) : prior_(prior) {
   if (prior.metric() != Metric::Intrinsic) {
-    for (const Site& site : sites) coordinates_.push_back(site.place.coordinates);
+    for (const Site& site : sites) coordinates_.insert(coordinates_.end(), site.place.coordinates.begin(), site.place.coordinates.end());
     return;
   }
   minus_rows_.resize(static_cast<Eigen::Index>(sites.size()), prior.spectrum().rank());
@@ -120,7 +166,8 @@ TileCorrelations::TileCorrelations(const Prior& prior, std::span<const Site> sit
 
 TileCorrelations::TileCorrelations(const Prior& prior, int vertex) : prior_(prior) {
   if (prior.metric() != Metric::Intrinsic) {
-    coordinates_.push_back(prior.coordinates(vertex));
+    const Vec3 x = prior.coordinates(vertex);
+    coordinates_.assign(x.begin(), x.end());
     return;
   }
   minus_rows_.resize(1, prior.spectrum().rank());
@@ -130,6 +177,28 @@ TileCorrelations::TileCorrelations(const Prior& prior, int vertex) : prior_(prio
 void TileCorrelations::weigh(int row, const Eigen::VectorXd& modes) {
   const Eigen::VectorXd weighted = modes.cwiseProduct(prior_.norms().weights);
   minus_rows_.row(row) = -inverse_root(modes.dot(weighted)) * weighted;
+}
+
+/// As correlation() has them, several rows at a time.
+void TileCorrelations::of_distances(const double* coordinates, double* rows) const {
+  const int places = static_cast<int>(coordinates_.size()) / 3;
+  const KernelFamily family = prior_.kernel().family;
+  const double inverse_square = 1.0 / (prior_.kernel().length_m * prior_.kernel().length_m);
+  if (family == KernelFamily::SquaredExponential) {
+    squared_distances(coordinates, coordinates_.data(), places, -0.5 * inverse_square, rows);
+    exponentials(rows, static_cast<long>(places) * kLanes);
+    return;
+  }
+  alignas(64) double decay[kRowsAtOnce * kLanes];
+  for (int first = 0; first < places; first += kRowsAtOnce) {
+    const int count = std::min(kRowsAtOnce, places - first);
+    double* target = rows + static_cast<long>(first) * kLanes;
+    squared_distances(coordinates, coordinates_.data() + static_cast<long>(first) * 3, count, matern_scale(family) * inverse_square,
+                      target);
+    roots_and_opposites(target, decay, count * kLanes);
+    exponentials(decay, count * kLanes);
+    times_polynomial(family, decay, count * kLanes, target);
+  }
 }
 
 void TileCorrelations::operator()(int tile, double* rows) const {
@@ -143,11 +212,14 @@ void TileCorrelations::operator()(int tile, double* rows) const {
     }
     return;
   }
-  const int last = prior_.surface().vertex_count() - 1;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const Vec3 x = prior_.coordinates(std::min(tile * kLanes + lane, last));
-    for (std::size_t row = 0; row < coordinates_.size(); ++row) {
-      rows[static_cast<int>(row) * kLanes + lane] = correlation(prior_.kernel(), x - coordinates_[row]);
+  const double* coordinates = prior_.tiles().coordinates(tile);
+  const Kernel& kernel = prior_.kernel();
+  const bool is_usual = kernel.length_m > kLeastLength_m && kernel.length_m < kMostLength_m;
+  if (kernel.family != KernelFamily::Periodic && is_usual) return of_distances(coordinates, rows);
+  for (std::size_t row = 0; row * 3 < coordinates_.size(); ++row) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Vec3 x(coordinates[lane], coordinates[kLanes + lane], coordinates[2 * kLanes + lane]);
+      rows[row * kLanes + lane] = correlation(kernel, x - Eigen::Map<const Vec3>(coordinates_.data() + row * 3));
     }
   }
 }

@@ -38,7 +38,7 @@ CorrelationSlopes correlation_slopes(const Prior& prior, const Kernel& kernel, s
 /// Of a place with sites.
 Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::span<const Site> sites);
 
-/// Of places with the vertices, a tile of eight at a time.
+/// Of places with the vertices, a tile of eight at a time (vertex_tiles.h).
 class TileCorrelations {
  public:
   /// Keeps a reference to the prior.
@@ -50,9 +50,10 @@ class TileCorrelations {
 
  private:
   void weigh(int row, const Eigen::VectorXd& modes);
+  void of_distances(const double* coordinates, double* rows) const;
 
   const Prior& prior_;
-  std::vector<Vec3> coordinates_;                                                      // or:
+  std::vector<double> coordinates_;                                                    // three of each place, or:
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> minus_rows_;  // places x modes: -phi s / |f|
 };
 

@@ -87,22 +87,22 @@ bool Features::choose_pivots(const Prior& prior, std::span<const Site> candidate
 
 /// Features and residuals at every vertex, or the residuals alone in one tile of `step`.
 void Features::visit_vertices(const Prior& prior, int step) {
-  const int vertices = prior.surface().vertex_count();
-  const int tiles = (vertices + kLanes - 1) / kLanes;
+  tiles_ = &prior.tiles();
+  const int vertices = tiles_->vertex_count(), tiles = tiles_->count();
   const bool keeps = step == 1;
-  if (keeps) rows_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(tiles) * rank() * kLanes);
+  if (keeps) rows_ = aligned_doubles(static_cast<std::size_t>(tiles) * rank() * kLanes);
   const TileCorrelations correlations(prior, pivots_);
   residuals_ = Field::Zero(vertices);
   for_ranges((tiles + step - 1) / step, kTilesAtOnce, [&](int first, int last) {
-    std::vector<double> scratch(keeps ? 0 : static_cast<std::size_t>(rank()) * kLanes);
+    const AlignedDoubles scratch = aligned_doubles(keeps ? 0 : static_cast<std::size_t>(rank()) * kLanes);
     for (int number = first * step; number < std::min(last * step, tiles); number += step) {
-      double* tile = keeps ? rows_.get() + static_cast<long>(number) * rank() * kLanes : scratch.data();
+      double* tile = keeps ? rows_.get() + static_cast<long>(number) * rank() * kLanes : scratch.get();
       correlations(number, tile);
       solve_triangle(factor_.data(), rank(), tile, rank());
-      for (int lane = 0; lane < kLanes && number * kLanes + lane < vertices; ++lane) {
+      for (int lane = 0; lane < tiles_->lanes(number); ++lane) {
         double square = 0.0;
         for (int row = 0; row < rank(); ++row) square += tile[row * kLanes + lane] * tile[row * kLanes + lane];
-        residuals_[number * kLanes + lane] = 1.0 - square;
+        residuals_[tiles_->vertices(number)[lane]] = 1.0 - square;
       }
     }
   });
@@ -143,7 +143,8 @@ std::shared_ptr<const Features> Features::of(const Prior& prior, std::span<const
 }
 
 Eigen::VectorXd Features::at_vertex(int vertex) const {
-  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<kLanes>>(tile(vertex / kLanes) + vertex % kLanes, rank());
+  const int place = tiles_->place(vertex);
+  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<kLanes>>(tile(place / kLanes) + place % kLanes, rank());
 }
 
 Eigen::VectorXd Features::at(const Prior& prior, const Place& place) const {

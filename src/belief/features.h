@@ -13,7 +13,9 @@
 #include <span>
 #include <vector>
 
+#include "belief/aligned.h"
 #include "belief/correlations.h"
+#include "belief/vertex_tiles.h"
 #include "palpation/base/tile.h"
 
 namespace palpation {
@@ -30,6 +32,7 @@ class Features {
   double residual() const { return residual_; }
   /// rank() rows of kLanes: the features of eight vertices.
   const double* tile(int number) const { return rows_.get() + static_cast<long>(number) * rank() * kLanes; }
+  TileRows rows() const { return {rows_.get(), static_cast<long>(rank()) * kLanes, rank()}; }
   Eigen::VectorXd at_vertex(int vertex) const;
   /// One column for each site, rank() rows.
   Eigen::MatrixXd at(const Prior& prior, std::span<const Site> sites) const;
@@ -42,8 +45,9 @@ class Features {
   void visit_vertices(const Prior& prior, int step);
 
   std::vector<Site> pivots_;
-  Factor factor_;  // L
-  std::unique_ptr<double[]> rows_;
+  Factor factor_;                       // L
+  const VertexTiles* tiles_ = nullptr;  // the prior's, shared by all that look at the features
+  AlignedDoubles rows_;
   Field residuals_;
   double residual_ = 0.0;
 };

@@ -14,13 +14,12 @@
 #include "belief/reduced.h"
 #include "belief/rows.h"
 #include "belief/seen.h"
+#include "belief/vertex_tiles.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
 namespace {
 
-/// With more noise 1 - v'v is good to eleven digits at the site too.
-constexpr double kSmallNoise = 1e-4;
 /// An increment is small where a correlation is above this: within 0.3 lengths for the squared exponential.
 constexpr double kBeside = 0.95;
 /// Vertices of less variance than this are looked at again: above it 1 - v'v is good to eight digits.
@@ -33,9 +32,10 @@ int vertex_at(const Surface& surface, const SurfacePoint& point) {
   return -1;
 }
 
-double at_site(double d, double square, double plain) {
+/// `is_small`: the noise d.
+double at_site(double d, bool is_small, double square, double plain) {
   const double known = d * square;
-  return d < kSmallNoise || known < 0.5 ? d * (1.0 - known) : plain;
+  return is_small || known < 0.5 ? d * (1.0 - known) : plain;
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ Belief::Seen Belief::look_at(const Place& place) const {
   const bool same = place == sites_[site].place;
   if (!same && (prior_.metric() == Metric::Intrinsic || seen.unexplained > 0.01)) return seen;
   const Eigen::VectorXd g = solve_lower(Eigen::VectorXd::Unit(k.size(), site));
-  const double there = at_site(d, g.squaredNorm(), seen.unexplained);
+  const double there = at_site(d, d < kSmallNoise, g.squaredNorm(), seen.unexplained);
   if (same) {
     seen.unexplained = there;
     return seen;
@@ -78,7 +78,13 @@ Belief::Seen Belief::look_at(const Place& place) const {
 void Belief::sharpen() {
   sharp_.resize(0);
   if (sites_.empty() || *std::min_element(diagonal_.begin(), diagonal_.end()) >= kSmallNoise) return;
-  sharp_ = 1.0 - explained_.array();
+  const VertexTiles& tiles = prior_.tiles();
+  sharp_.resize(tiles.vertex_count());
+  Field covered(tiles.vertex_count());
+  for (int vertex = 0; vertex < tiles.vertex_count(); ++vertex) {
+    sharp_[vertex] = 1.0 - sums_->at(tiles.place(vertex), Sums::kExplained);
+    covered[vertex] = sums_->at(tiles.place(vertex), sums_->covered());
+  }
   std::vector<Eigen::VectorXd> g(sites_.size()), v(sites_.size());
   std::vector<double> there(sites_.size());
   for_ranges(static_cast<int>(sites_.size()), 4, [&](int first, int last) {
@@ -86,7 +92,7 @@ void Belief::sharpen() {
       if (diagonal_[site] >= kSmallNoise) continue;
       g[site] = solve_lower(Eigen::VectorXd::Unit(row_count(), site));
       v[site] = solve_lower(correlations_with(prior_, sites_[site].place, sites_));
-      there[site] = at_site(diagonal_[site], g[site].squaredNorm(), 0.0);
+      there[site] = at_site(diagonal_[site], true, g[site].squaredNorm(), 0.0);
     }
   });
   for_ranges(static_cast<int>(sharp_.size()), 512, [&](int first, int last) {
@@ -102,7 +108,7 @@ void Belief::sharpen() {
       double along = 0.0, square = 0.0;
       for (const auto& rows : rows_) {
         for (int row = 0; row < rows->count; ++row) {
-          const double w = rows->value(row, vertex) - v[site][rows->first + row];
+          const double w = rows->value(row, tiles.place(vertex)) - v[site][rows->first + row];
           along += g[site][rows->first + row] * w;
           square += w * w;
         }
@@ -115,7 +121,7 @@ void Belief::sharpen() {
     if (vertex >= 0 && diagonal_[site] < kSmallNoise) sharp_[vertex] = there[site];
   }
   const double least = *std::min_element(diagonal_.begin(), diagonal_.end());
-  if (least > 0.0) sharp_ = sharp_.array().max(least / (least + covered_.array()));
+  if (least > 0.0) sharp_ = sharp_.array().max(least / (least + covered.array()));
   sharp_ = sharp_.array().max(0.0).min(1.0);
 }
 

@@ -8,6 +8,7 @@
 
 #include "belief/correlations.h"
 #include "belief/intrinsic.h"
+#include "belief/vertex_tiles.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -34,8 +35,20 @@ std::shared_ptr<const Spectrum> spectrum_for(const Surface& surface, KernelFamil
 
 }  // namespace
 
+/// Made at first use, shared by the priors of all hyperparameters.
+struct Prior::LazyTiles {
+  std::once_flag once;
+  std::unique_ptr<const VertexTiles> tiles;
+};
+
 Prior::Prior(Surface surface, Metric metric, const Kernel& kernel, Constant constant, const Slope& slope, LengthRange lengths)
-    : surface_(std::move(surface)), metric_(metric), kernel_(kernel), constant_(constant), slope_(slope), lengths_(lengths) {
+    : surface_(std::move(surface)),
+      metric_(metric),
+      kernel_(kernel),
+      constant_(constant),
+      slope_(slope),
+      lengths_(lengths),
+      tiles_(std::make_shared<LazyTiles>()) {
   if (lengths_.most_m == 0.0) lengths_ = {kernel.length_m, kernel.length_m};
   check_all();
   if (metric == Metric::Chart) surface_.chart();
@@ -78,6 +91,11 @@ const Prior::Norms& Prior::norms() const {
     norms_->inverse = inverse_norms(*spectrum_, norms_->weights);
   });
   return *norms_;
+}
+
+const VertexTiles& Prior::tiles() const {
+  std::call_once(tiles_->once, [this] { tiles_->tiles = std::make_unique<const VertexTiles>(*this); });
+  return *tiles_->tiles;
 }
 
 Field Prior::raw_variance() const {

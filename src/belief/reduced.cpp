@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "belief/rows.h"
+#include "belief/vertex_tiles.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
@@ -14,8 +16,6 @@ constexpr int kFewSites = 64;        // are never worth reducing
 constexpr int kMostFeatures = 3000;  // nor are more features than these
 /// The bound on what is lost grows with the tolerance over the noise: readings sharper than this are left to the exact belief.
 constexpr double kLeastNoise = 1e5;  // times the tolerance
-
-int tile_count(const Surface& surface) { return (surface.vertex_count() + kLanes - 1) / kLanes; }
 
 }  // namespace
 
@@ -119,58 +119,46 @@ void Belief::restate_reduced() {
 /// The sums over the vertices, from the features alone: |f|^2 - f' A^-1 f and f.w.
 void Belief::see_all() {
   const Features& features = *reduced_->features;
-  const int rank = features.rank(), vertices = prior_.surface().vertex_count();
+  const int rank = features.rank(), tile_count = prior_.tiles().count(), weight_count = sum_rows() - 2;
   const WeightSpace::Rows factor = reduced_->weights.factor();
   const Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor> minus_weights = -reduced_->weights.weights().transpose();
-  explained_ = covered_ = v_ones_ = v_whitened_ = Field::Zero(vertices);
-  if (prior_.has_slope()) v_tilts_ = Tilts::Zero(vertices, 3);
-  for_ranges(tile_count(prior_.surface()), kTilesAtOnce, [&](int first, int last) {
-    std::vector<double> solved(static_cast<std::size_t>(rank) * kLanes);
+  auto sums = std::make_shared<Sums>(tile_count, sum_rows());
+  for_ranges(tile_count, kTilesAtOnce, [&](int first, int last) {
+    const AlignedDoubles solved = aligned_doubles(static_cast<std::size_t>(rank) * kLanes);
     for (int number = first; number < last; ++number) {
       const double* tile = features.tile(number);
-      double sums[5 * kLanes] = {};
-      subtract_product(minus_weights.data(), rank, tile, rank, sums, 5);
-      std::copy_n(tile, rank * kLanes, solved.data());
-      solve_triangle(factor.data(), rank, solved.data(), rank);
-      double explained[kLanes] = {};
+      double* sum = sums->tile(number);
+      std::fill_n(sum, sums->width * kLanes, 0.0);
+      subtract_product(minus_weights.data(), rank, tile, rank, sum + Sums::kOnes * kLanes, weight_count);
+      std::copy_n(tile, rank * kLanes, solved.get());
+      solve_triangle(factor.data(), rank, solved.get(), rank);
+      double* explained = sum + Sums::kExplained * kLanes;
       for (int row = 0; row < rank * kLanes; row += kLanes) {
         for (int lane = 0; lane < kLanes; ++lane)
           explained[lane] += tile[row + lane] * tile[row + lane] - solved[row + lane] * solved[row + lane];
       }
-      for (int lane = 0; lane < kLanes && number * kLanes + lane < vertices; ++lane) {
-        const int vertex = number * kLanes + lane;
-        explained_[vertex] = explained[lane];
-        v_ones_[vertex] = sums[lane];
-        v_whitened_[vertex] = sums[kLanes + lane];
-        for (int axis = 0; prior_.has_slope() && axis < 3; ++axis) v_tilts_(vertex, axis) = sums[(2 + axis) * kLanes + lane];
-      }
     }
   });
+  sums_ = std::move(sums);
 }
 
 /// What the last readings add to the sums: rows t f as if of V.
 void Belief::see(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& rows) {
   const Features& features = *reduced_->features;
-  const int rank = features.rank(), vertices = prior_.surface().vertex_count(), count = static_cast<int>(rows.rows());
-  const WeightSpace::Right whitened = reduced_->weights.whitened().bottomRows(count);
+  const int rank = features.rank(), tile_count = prior_.tiles().count(), count = static_cast<int>(rows.rows());
+  const Eigen::MatrixXd whitened = reduced_->weights.whitened().bottomRows(count);
   const WeightSpace::Rows minus_rows = -rows;
-  for_ranges(tile_count(prior_.surface()), kTilesAtOnce, [&](int first, int last) {
-    std::vector<double> v(static_cast<std::size_t>(count) * kLanes);
+  auto sums = std::make_shared<Sums>(tile_count, sum_rows());
+  for_ranges(tile_count, kTilesAtOnce, [&](int first, int last) {
+    const AlignedDoubles v = aligned_doubles(static_cast<std::size_t>(count) * kLanes);
     for (int number = first; number < last; ++number) {
-      std::fill(v.begin(), v.end(), 0.0);
-      subtract_product(minus_rows.data(), rank, features.tile(number), rank, v.data(), count);
-      for (int lane = 0; lane < kLanes && number * kLanes + lane < vertices; ++lane) {
-        const int vertex = number * kLanes + lane;
-        for (int row = 0; row < count; ++row) {
-          const double value = v[row * kLanes + lane];
-          explained_[vertex] += value * value;
-          v_ones_[vertex] += value * whitened(row, 0);
-          v_whitened_[vertex] += value * whitened(row, 1);
-          if (prior_.has_slope()) v_tilts_.row(vertex) += value * whitened.row(row).tail<3>();
-        }
-      }
+      std::copy_n(sums_->tile(number), sums->width * kLanes, sums->tile(number));
+      std::fill_n(v.get(), count * kLanes, 0.0);
+      subtract_product(minus_rows.data(), rank, features.tile(number), rank, v.get(), count);
+      add_sums(v.get(), count, whitened.data(), count, sum_rows() - 2, sums->tile(number));
     }
   });
+  sums_ = std::move(sums);
 }
 
 /// With E the residual's covariance, at most e everywhere, a the weights of the reduced belief at a place and s^2 its variance: the exact

@@ -107,8 +107,8 @@ Whole random_scores(std::uint64_t seed) {
 
 PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& level, const Marginals& marginals,
                                  std::span<const int> candidates)
-    : acquisition_(acquisition), level_(level) {
-  if (acquisition.units == Units::Readings) return;
+    : acquisition_(acquisition), level_(level), is_scaled_(acquisition.units != Units::Readings) {
+  if (!is_scaled_) return;
   mean_origin_ = acquisition.units == Units::OverGreatestDistance ? level.value : 0.0;
   double greatest_stddev = 0.0;
   double greatest_mean = 0.0;
@@ -120,11 +120,8 @@ PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& leve
   if (greatest_mean > 0.0) mean_unit_ = greatest_mean;
 }
 
-double PointwiseScorer::operator()(double mean, double variance) const {
-  const double scaled_mean = acquisition_.units == Units::Readings ? mean : mean_origin_ + (mean - mean_origin_) / mean_unit_;
-  const double result = acquisition_.score(scaled_mean, std::sqrt(variance) / stddev_unit_, level_);
-  require(!std::isnan(result), "Acquisition", "the score at mean " + text_of(mean) + ", variance " + text_of(variance), "must not be NaN");
-  return result;
+void PointwiseScorer::refuse(double mean, double variance) {
+  require(false, "Acquisition", "the score at mean " + text_of(mean) + ", variance " + text_of(variance), "must not be NaN");
 }
 
 Marginals planning_marginals(const Belief& belief) {

@@ -1,113 +1,52 @@
 #include "palpation/decision/batch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <queue>
 #include <string>
 
 #include "decision/scoring.h"
 #include "palpation/base/error.h"
-#include "palpation/base/parallel.h"
+#include "palpation/belief/look_ahead.h"
 #include "palpation/geometry/distance.h"
 #include "palpation/geometry/path.h"
 
 namespace palpation {
 namespace {
 
-constexpr int kGroup = 8;  // vertices that are evaluated together: what Belief stores together
 /// With fewer readings the field is so unknown that lazy evaluation would come to every vertex anyway.
 constexpr int kFewSites = 25;
 /// Supposed readings on the way are this far apart: half the length over which stiffness changes; closer ones tell the same.
 constexpr double kWayStep_m = 0.002;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-/// The variance at every vertex given the picks so far, brought up to date group by group when it is asked for.
-///
-///     e_k(x) = (c(x, x_k) - sum_{j<k} e_j(x) e_j(x_k)) / sqrt(var_k + noise),   variance(x) = variance_0(x) - sum_k e_k(x)^2,
-///
-/// c the posterior covariance: one row of a Cholesky factor for each pick.
-class LookAhead {
- public:
-  LookAhead(const Belief& belief, Field variance)
-      : belief_(belief), variance_(std::move(variance)), groups_((static_cast<std::size_t>(variance_.size()) + kGroup - 1) / kGroup) {}
-
-  std::size_t group_count() const { return groups_.size(); }
-  std::size_t pick_count() const { return picks_.size(); }
-  bool is_current(std::size_t group) const { return groups_[group].size() == picks_.size(); }
-
-  double variance(int vertex) {
-    bring_up_to_date(static_cast<std::size_t>(vertex) / kGroup);
-    return variance_[vertex];
-  }
-
-  void bring_up_to_date(std::size_t group) {
-    const int first = static_cast<int>(group) * kGroup;
-    const int count = std::min(kGroup, static_cast<int>(variance_.size()) - first);
-    for (std::size_t k = groups_[group].size(); k < picks_.size(); ++k) {
-      std::array<double, kGroup> row{};
-      (*picks_[k].covariance)(first, count, row.data());
-      for (std::size_t j = 0; j < k; ++j) {
-        for (int lane = 0; lane < count; ++lane) row[lane] -= groups_[group][j][lane] * picks_[k].earlier[j];
-      }
-      for (int lane = 0; lane < count; ++lane) {
-        row[lane] *= picks_[k].scale;
-        variance_[first + lane] = std::max(0.0, variance_[first + lane] - row[lane] * row[lane]);
-      }
-      groups_[group].push_back(row);
-    }
-  }
-
-  void pick(int vertex) { read({vertex, belief_.noise_variance()}); }
-
-  void read(const Supposed& reading) {
-    const int vertex = reading.vertex;
-    const double total = variance(vertex) + reading.noise_variance;
-    Pick next{std::make_unique<CovarianceWith>(belief_, vertex), {}, total > 0.0 ? 1.0 / std::sqrt(total) : 0.0};
-    for (const auto& row : groups_[static_cast<std::size_t>(vertex) / kGroup]) next.earlier.push_back(row[vertex % kGroup]);
-    picks_.push_back(std::move(next));
-  }
-
- private:
-  struct Pick {
-    std::unique_ptr<CovarianceWith> covariance;
-    std::vector<double> earlier;  // e_j at this pick, j before it
-    double scale;
-  };
-
-  const Belief& belief_;
-  Field variance_;
-  std::vector<Pick> picks_;
-  std::vector<std::vector<std::array<double, kGroup>>> groups_;  // e_k of the picks applied so far
-};
-
 /// Which vertices may still be picked.
 class Candidates {
  public:
   Candidates(const Surface& surface, std::span<const int> candidates, double least_spacing_m)
-      : surface_(surface), least_spacing_m_(least_spacing_m), allowed_(static_cast<std::size_t>(surface.vertex_count()), false) {
+      : surface_(surface), least_spacing_m_(least_spacing_m), allowed_(static_cast<std::size_t>(surface.vertex_count()), 0) {
     int previous = -1;
+    const int count = surface.vertex_count();
     for (int vertex : candidates) {
-      require(vertex > previous && vertex < surface.vertex_count(), "choose_batch", "candidate " + std::to_string(vertex),
-              "must be a vertex, greater than the one before");
-      allowed_[vertex] = true;
+      if (vertex <= previous || vertex >= count) {  // no words for the many that are right
+        require(false, "choose_batch", "candidate " + std::to_string(vertex), "must be a vertex, greater than the one before");
+      }
+      allowed_[vertex] = 1;
       previous = vertex;
     }
   }
 
-  bool allows(int vertex) const { return allowed_[vertex]; }
+  bool allows(int vertex) const { return allowed_[vertex] != 0; }
 
   void pick(int picked) {
     if (least_spacing_m_ == 0.0) return;
-    for (const int vertex : vertices_near(surface_, picked, least_spacing_m_)) allowed_[vertex] = false;
+    for (const int vertex : vertices_near(surface_, picked, least_spacing_m_)) allowed_[vertex] = 0;
   }
 
  private:
   const Surface& surface_;
   double least_spacing_m_;
-  std::vector<bool> allowed_;
+  std::vector<char> allowed_;
 };
 
 /// Where the probe has been when it comes to the next pick.
@@ -133,26 +72,32 @@ class Trail {
 struct Best {
   double score = kNever;
   int vertex = -1;
+
+  bool is_none() const { return vertex < 0; }
+  bool operator<(const Best& other) const { return score < other.score || (score == other.score && vertex > other.vertex); }
 };
 
 struct Search {
   const PointwiseScorer& scorer;
   const Field& mean;
+  double noise_variance;
   LookAhead ahead;
   Candidates candidates;
   Trail trail;
   long evaluations = 0;
 
-  Best best_of_group(std::size_t group) {
-    ahead.bring_up_to_date(group);
+  /// Of a tile's vertices, by what is known of them now.
+  Best best_of(int tile) {
+    if (!ahead.is_current(tile)) ahead.bring_up_to_date(tile);
+    const std::span<const int> vertices = ahead.vertices(tile);
+    const double* variance = ahead.variances(tile);
     Best best;
-    const int first = static_cast<int>(group) * kGroup;
-    const int last = std::min(first + kGroup, static_cast<int>(mean.size()));
-    for (int vertex = first; vertex < last; ++vertex) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const int vertex = vertices[i];
       if (!candidates.allows(vertex)) continue;
       ++evaluations;
-      const double score = scorer(mean[vertex], ahead.variance(vertex));
-      if (best.vertex < 0 || score > best.score) best = {score, vertex};
+      const double score = scorer(mean[vertex], variance[i]);
+      if (best.vertex < 0 || score > best.score || (score == best.score && vertex < best.vertex)) best = {score, vertex};
     }
     return best;
   }
@@ -160,8 +105,8 @@ struct Search {
   void pick(const Best& best, Batch& batch) {
     batch.vertices.push_back(best.vertex);
     batch.scores.push_back(best.score);
-    for (const Supposed& reading : trail.on_the_way_to(best.vertex)) ahead.read(reading);
-    ahead.pick(best.vertex);
+    for (const Supposed& reading : trail.on_the_way_to(best.vertex)) ahead.touch(reading.vertex, reading.noise_variance);
+    ahead.touch(best.vertex, noise_variance);
     candidates.pick(best.vertex);
   }
 };
@@ -169,38 +114,39 @@ struct Search {
 void choose_exhaustively(Search& search, int size, Batch& batch) {
   while (static_cast<int>(batch.vertices.size()) < size) {
     Best best;
-    for (std::size_t group = 0; group < search.ahead.group_count(); ++group) {
-      const Best here = search.best_of_group(group);
-      if (here.vertex >= 0 && (best.vertex < 0 || here.score > best.score)) best = here;
+    for (int tile = 0; tile < search.ahead.tile_count(); ++tile) {
+      const Best here = search.best_of(tile);
+      if (!here.is_none() && (best.is_none() || best < here)) best = here;
     }
-    if (best.vertex < 0) return;
+    if (best.is_none()) return;
     search.pick(best, batch);
   }
 }
 
-/// A group's best score when it was last evaluated: an upper bound of what it is now.
+/// A tile's best when it was last evaluated: an upper bound of what it is now.
 struct Bound {
-  double score;
-  std::size_t group;
-  int vertex;
-  bool operator<(const Bound& other) const { return score < other.score || (score == other.score && group > other.group); }
+  Best best;
+  int tile;
+  bool operator<(const Bound& other) const { return best < other.best; }
 };
 
 void choose_lazily(Search& search, int size, Batch& batch) {
-  std::priority_queue<Bound> bounds;
-  const auto evaluate = [&](std::size_t group) {
-    const Best best = search.best_of_group(group);
-    if (best.vertex >= 0) bounds.push({best.score, group, best.vertex});
-  };
-  for (std::size_t group = 0; group < search.ahead.group_count(); ++group) evaluate(group);
+  std::vector<Bound> bounds;
+  bounds.reserve(static_cast<std::size_t>(search.ahead.tile_count()));
+  for (int tile = 0; tile < search.ahead.tile_count(); ++tile) {
+    const Best best = search.best_of(tile);
+    if (!best.is_none()) bounds.push_back({best, tile});
+  }
+  std::make_heap(bounds.begin(), bounds.end());
   while (static_cast<int>(batch.vertices.size()) < size && !bounds.empty()) {
-    const Bound top = bounds.top();
-    bounds.pop();
-    if (search.ahead.is_current(top.group)) {
-      search.pick({top.score, top.vertex}, batch);
-      evaluate(top.group);
+    std::pop_heap(bounds.begin(), bounds.end());
+    Bound& top = bounds.back();
+    if (search.ahead.is_current(top.tile)) search.pick(top.best, batch);
+    top.best = search.best_of(top.tile);
+    if (top.best.is_none()) {
+      bounds.pop_back();
     } else {
-      evaluate(top.group);
+      std::push_heap(bounds.begin(), bounds.end());
     }
   }
 }
@@ -285,7 +231,8 @@ Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const L
           "needs an acquisition that grows with stddev");
   const Marginals marginals = planning_marginals(belief);
   const PointwiseScorer scorer(pointwise, level, marginals, candidates);
-  Search search{scorer, marginals.mean, LookAhead(belief, marginals.variance), std::move(allowed), Trail(belief, options)};
+  Search search{
+      scorer, marginals.mean, belief.noise_variance(), LookAhead(belief, marginals.variance), std::move(allowed), Trail(belief, options)};
   const bool lazy = options.evaluation == Evaluation::Lazy ||
                     (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev && belief.site_count() >= kFewSites);
   Batch batch;

@@ -101,6 +101,14 @@ void Exploration::record(std::span<const Palpation> palpations) {
   learn_from(palpations);
 }
 
+void Exploration::foresee() {
+  const bool anew = field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails || field_.linear_trend;
+  if (anew || next_.empty()) return;
+  std::vector<SurfacePoint> places;
+  for (const int stop : next_) places.push_back(surface_.at_vertex(stop));
+  belief_ = belief_.foresee(places);
+}
+
 void Exploration::take_up(std::span<const Palpation> palpations) { learn_from(palpations); }
 
 void Exploration::learn_from(std::span<const Palpation> palpations) {

@@ -58,6 +58,7 @@ Tour travel(const Surface& surface, std::span<const int> stops, const std::optio
 void run(Exploration& exploration, const Probe& probe, const std::function<void(const Tour&)>& after_batch, double way_step_m) {
   std::optional<SurfacePoint> here;
   for (std::vector<int> stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
+    if (way_step_m == 0.0) exploration.foresee();
     Tour tour = travel(exploration.surface(), stops, here, probe, way_step_m);
     for (Palpation& palpation : tour.palpations) palpation.batch = exploration.batch();
     here = exploration.surface().at_vertex(stops.back());

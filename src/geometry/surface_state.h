@@ -45,13 +45,14 @@ struct Surface::State {
   double diameter = 0.0;
   Plane plane;
 
-  mutable std::once_flag vertex_areas_once, vertex_normals_once, chart_once, closest_point_once;
+  mutable std::once_flag vertex_areas_once, vertex_normals_once, chart_once, closest_point_once, order_once;
   mutable Field vertex_areas;
   mutable Points vertex_normals;
   mutable Chart chart;
   mutable std::optional<Vec2> overlap;  ///< where a flat surface lies over itself, in its plane
   mutable std::string chart_fault;      ///< why a curved disk has no chart after all
   mutable std::shared_ptr<const ClosestPoint> closest_point;
+  mutable std::vector<int> locality_order;
 
   mutable std::mutex spectra_guard;
   mutable std::map<SpectrumRange, std::shared_ptr<const Spectrum>> spectra;

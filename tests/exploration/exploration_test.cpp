@@ -57,6 +57,29 @@ TEST(Exploration, IsRepeatable) {
   EXPECT_TRUE(stops().mean == stops().mean);
 }
 
+TEST(Exploration, PlansTheSameWithForesightAndWithout) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk_phantom(tissue, 0.05);
+  const FieldModel fixed{.belief = {.noise_sd = 0.1}, .learn_length = false, .learn_signal = false, .learn_noise = false};
+  const auto planned = [&](bool foresees) {
+    Exploration exploration(tissue, fixed, {.known = 8.0}, {.batches = 4}, 7);
+    Random random(3);
+    std::vector<std::vector<int>> stops;
+    std::optional<SurfacePoint> here;
+    while (!exploration.next().empty()) {
+      stops.push_back(exploration.next());
+      if (foresees) exploration.foresee();
+      EXPECT_EQ(exploration.next(), stops.back());
+      std::vector<Palpation> felt = travel(tissue, stops.back(), here, probe_of(phantom, random), 0.0).palpations;
+      here = tissue.at_vertex(stops.back().back());
+      if (stops.size() == 3) felt.pop_back();  // no contact at the last stop
+      exploration.record(felt);
+    }
+    return stops;
+  };
+  EXPECT_EQ(planned(true), planned(false));
+}
+
 TEST(Exploration, FindsTheDiskAndItsLevel) {
   const Surface tissue = plane(51, 101);
   const Phantom phantom = disk_phantom(tissue, 0.05);

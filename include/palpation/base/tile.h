@@ -1,15 +1,50 @@
 /// The innermost loops over the vertices, of the posterior and of a surface's waves: rows of values over tiles of eight vertices, one cache
 /// line a row.
+///
+/// Compiled for several instruction sets, of which the best that the machine has is chosen when the program starts, or the one that the
+/// environment names: PALPATION_ISA=baseline, v3 (AVX2) or v4 (AVX-512). The last two give the same digits; the first rounds more often.
 #pragma once
 
 namespace palpation {
 
 inline constexpr int kLanes = 8;
 
+/// Rows of kLanes values over tiles, known already: those of tile t are `depth` rows from values + t * per_tile on.
+struct TileRows {
+  const double* values = nullptr;
+  long per_tile = 0;
+  int depth = 0;
+};
+
+/// Rows of a lower triangular factor, `rows` of them, no more than panel_rows(): coefficients of the strips' rows one after another, then,
+/// if there are reciprocals of its diagonal, those of the triangle.
+struct Panel {
+  const double* factor = nullptr;
+  long stride = 0;
+  int rows = 0;
+  const double* inverse_pivots = nullptr;
+};
+
+/// How many rows fit the machine's registers.
+int panel_rows();
+
+/// On tile `tile`: fresh[r] -= sum_i factor[r, i] strips[i], and then, with pivots, fresh = T^-1 fresh, T the triangle. Asks for the next
+/// tile of the strips from memory meanwhile.
+void subtract_strips(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh);
+
 /// fresh[r] -= sum_i factor[r * stride + i] * tile[i], for `rows` rows of kLanes values each, i < depth.
 void subtract_product(const double* factor, int stride, const double* tile, int depth, double* fresh, int rows);
 
 /// Solves T fresh = fresh in place, T the lower triangle factor[r * stride + i], i <= r < rows.
 void solve_triangle(const double* factor, int stride, double* fresh, int rows);
+
+inline constexpr int kMostWeights = 5;
+
+/// sums[0] += row^2 and sums[1 + j] += weights[j * stride + r] row_r over `rows` rows, j < weight_count <= kMostWeights.
+void add_sums(const double* values, int rows, const double* weights, long stride, int weight_count, double* sums);
+
+/// e to the power of each of `count` values, a multiple of kLanes, in place: to two units in the last place over the whole range,
+/// infinities and numbers below the least normal one included; NaN stays NaN.
+void exponentials(double* values, long count);
 
 }  // namespace palpation

@@ -12,7 +12,7 @@
 ///
 /// A value: conditioning makes another belief. Copies share the rows of L and V they have in common, which are only ever appended, so
 /// "suppose I touched there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point
-/// operations.
+/// operations, and 8 m N bytes.
 ///
 /// Of reduced rank, where that is asked for: once the readings are so many that M < n features tell the prior apart from itself by no more
 /// than a tolerance of its variance at every vertex and every site, readings are taken in by their features f alone (weight_space.h),
@@ -40,6 +40,8 @@
 #include "palpation/belief/sites.h"
 
 namespace palpation {
+
+struct TileRows;
 
 /// Mean and variance of the field (never of a reading: the noise is not in it), one value per place.
 struct Marginals {
@@ -83,6 +85,11 @@ class Belief {
   /// positive definite in double precision (two sites all but coincide, without noise).
   Belief condition_on(std::span<const Palpation> more) const;
 
+  /// The same belief, with the work done that touches at these places will need and that no reading changes, for while the robot moves:
+  /// condition_on is quick if the next touches are those, in this order, with the field's own noise, and not slower if they are not. What
+  /// it answers is the same. Nothing is prepared where a place was touched before, or noise is a part of what readings teach.
+  Belief foresee(std::span<const SurfacePoint> places) const;
+
   Marginals at_vertices(Part part = Part::Whole) const;
   Marginals at(std::span<const SurfacePoint> points, Part part = Part::Whole) const;
 
@@ -102,10 +109,17 @@ class Belief {
 
  private:
   friend class CovarianceWith;
+  friend class LookAhead;
+  friend Marginals marginals_once(const Prior& prior, const BeliefOptions& options, std::span<const Palpation> palpations, Part part);
   struct Rows;        // consecutive rows of L and V
-  struct Reduced;     // what stands in their place
+  struct Sums;        // over all rows of V at the vertices
+  struct Foreseen;    // rows of touches to come
+  struct Reduced;     // what stands in the rows' place
   struct Regressors;  // and is fed with
   struct Seen;
+  enum class Keep { Rows, Nothing };
+  /// With more noise, over the signal's variance, 1 - v'v is good to eleven digits at the site too.
+  static constexpr double kSmallNoise = 1e-4;
 
   int row_count() const;
   Eigen::VectorXd solve_lower(Eigen::VectorXd right_side) const;
@@ -113,8 +127,13 @@ class Belief {
   void state_origin(std::span<const Site> sites);
   void restate_readings();
   void keep_rows(int count);
-  void append_rows();
-  Eigen::MatrixXd factor_of_new_sites(int first) const;
+  void append_rows(Keep keep);
+  void append_foreseen();
+  void append_to_factor(Rows& fresh);
+  void append_to_solutions(const Rows& fresh);
+  void append_to_vertices(Rows& fresh, Keep keep);
+  Eigen::MatrixXd solution_rows(int first, int count) const;
+  int sum_rows() const;
   void restate_constant();
   void restate_slope();
   bool constant_is_unsure() const;
@@ -129,6 +148,12 @@ class Belief {
   void restate_reduced();
   void see_all();
   void see(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& rows);
+  Vec3 tilt_residual_at(int vertex, Part part) const;
+  void add_slope(Part part, Marginals& marginals) const;
+  std::vector<double> column_of_v(int vertex) const;
+  std::vector<TileRows> rows_of_v() const;
+  double held(double covariance, int a, int b) const;
+  double residual_ones(int vertex) const;
 
   Prior prior_;
   BeliefOptions options_;
@@ -146,22 +171,23 @@ class Belief {
   Eigen::VectorXd ones_;      // L^-1 1
   Eigen::VectorXd whitened_;  // L^-1 (y - origin)
   double origin_ = 0.0;
-  Field explained_;                  // sum V^2 at the vertices
-  Field sharp_;                      // 1 - explained_ with its digits kept, or empty where none are in danger
-  Field covered_;                    // |k|^2: squared correlations with the sites
-  Field v_ones_;                     // V' L^-1 1
-  Field v_whitened_;                 // V' L^-1 (y - origin)
+  Field sharp_;                       // 1 - sum V^2 with its digits kept, or empty where none are in danger
+  std::shared_ptr<const Sums> sums_;  // nothing without a site
+  std::shared_ptr<const Foreseen> foreseen_;
   double constant_precision_ = 0.0;  // posterior precision of c over the signal's; 0: c is not known at all, infinite: known
   double constant_ = 0.0;            // posterior mean of c
 
   // The slope, in standard deviations of its prior; empty and zero where there is none.
   using Tilts = Eigen::Matrix<double, Eigen::Dynamic, 3>;
   Tilts tilts_;                                                // L^-1 of Prior::tilt at the sites
-  Tilts v_tilts_;                                              // V' L^-1 of the same
   Vec3 tilt_ = Vec3::Zero();                                   // posterior mean
   Eigen::Matrix3d tilt_covariance_ = Eigen::Matrix3d::Zero();  // over the signal's variance
   Vec3 constant_per_tilt_ = Vec3::Zero();                      // by how much c falls for each
 };
+
+/// What `Belief(prior, options).condition_on(palpations)` says at the vertices, without keeping anything of the size of sites times
+/// vertices: for a belief that is asked only once.
+Marginals marginals_once(const Prior& prior, const BeliefOptions& options, std::span<const Palpation> palpations, Part part = Part::Whole);
 
 class TileCorrelations;
 
@@ -171,7 +197,7 @@ class CovarianceWith {
   /// Keeps a reference: the belief must outlive it.
   CovarianceWith(const Belief& belief, int vertex);
 
-  /// For `count` consecutive vertices from `first`, written to `out`.
+  /// With `count` consecutive vertices from `first` on, written to `out`.
   void operator()(int first, int count, double* out) const;
 
  private:

@@ -25,6 +25,8 @@
 
 namespace palpation {
 
+class VertexTiles;
+
 enum class Metric {
   Chart,      ///< distance in the chart: the paper's model; planar and developable tissue
   Ambient,    ///< straight distance in space: any surface, no chart needed
@@ -94,13 +96,17 @@ class Prior {
   /// Covariance of g, n x m, reading units squared.
   Eigen::MatrixXd covariance(std::span<const SurfacePoint> rows, std::span<const SurfacePoint> columns) const;
 
+  /// The order in which beliefs store vertices: of this folder alone.
+  const VertexTiles& tiles() const;
+
   /// Variance of g at the vertices over that on a plane, before it is normalized to 1: how even the surface and its margin leave it. All 1
   /// but in the intrinsic metric.
   Field raw_variance() const;
 
  private:
   friend class TileCorrelations;
-  struct Norms;  // of the features at the vertices
+  struct Norms;      // of the features at the vertices
+  struct LazyTiles;  // of the vertices in the metric
   void check_all() const;
   const Norms& norms() const;
 
@@ -112,6 +118,7 @@ class Prior {
   LengthRange lengths_;
   std::shared_ptr<const Spectrum> spectrum_;
   std::shared_ptr<Norms> norms_;
+  std::shared_ptr<LazyTiles> tiles_;
 };
 
 /// A slope that may change the field by `sd` from the middle of the surface to its sides, along every coordinate in which it extends.

@@ -101,6 +101,11 @@ class Exploration {
   /// The next stops, in the order of travel from where the probe was last: first the initial design, then batches. Empty when finished.
   std::vector<int> next() const;
 
+  /// For the time while the robot moves: does the work for the stops of next() that no reading changes, so that after record() the next
+  /// plan follows at once if all of them were touched, in this order, and nothing on the way. Changes no answer. Only where nothing of the
+  /// field is learned, nothing set aside and no trend modelled; else it does nothing.
+  void foresee();
+
   /// What was felt, at stops and on the way. Stops of the last next() that are not among them gave no contact and are no candidates any
   /// more.
   void record(std::span<const Palpation> palpations);

@@ -83,6 +83,10 @@ class Surface {
   /// The slow waves of the surface's Laplacian (spectrum.h), made once for each range that is asked for. Throws as spectrum_of.
   std::shared_ptr<const Spectrum> spectrum(const SpectrumRange& range) const;
 
+  /// All vertices in an order in which most neighbours in space are near each other in the list, so that what is stored in it is read
+  /// together: Morton's curve through the bounding box, equals by their index.
+  const std::vector<int>& locality_order() const;
+
   /// What has been computed so far beyond the mesh itself, in alphabetical order: of "chart", "features", "geodesics", "search tree",
   /// "spectrum".
   std::vector<std::string> computed() const;

@@ -1,0 +1,136 @@
+/// The loops of tile.h over vectors of W doubles, to be inlined into a function of each instruction set. R rows stay in registers.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "palpation/base/tile.h"
+
+#define PALPATION_INLINE inline __attribute__((always_inline))
+
+namespace palpation {
+
+template <int W>
+struct Vectors {
+  // As typedefs: GCC 12 drops the attribute from an alias whose size depends on a template's argument.
+  typedef double Doubles __attribute__((vector_size(W * sizeof(double))));
+  typedef std::int64_t Integers __attribute__((vector_size(W * sizeof(double))));
+  static constexpr int kParts = kLanes / W;
+};
+
+template <int W>
+PALPATION_INLINE void load(const double* from, typename Vectors<W>::Doubles& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+
+template <int W>
+PALPATION_INLINE void store(const typename Vectors<W>::Doubles& from, double* to) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+template <int W, int R>
+PALPATION_INLINE void subtract_strips_of(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh) {
+  constexpr int P = Vectors<W>::kParts;
+  typename Vectors<W>::Doubles sums[R][P];
+  for (int r = 0; r < R; ++r) {
+    for (int p = 0; p < P; ++p) load<W>(fresh + r * kLanes + p * W, sums[r][p]);
+  }
+  const double* factor = panel.factor;
+  const long stride = panel.stride;
+  for (int s = 0; s < strip_count; ++s) {
+    const double* values = strips[s].values + tile * strips[s].per_tile;
+    const double* ahead = values + strips[s].per_tile;
+    const int depth = strips[s].depth;
+    for (int i = 0; i < depth; ++i, ++factor) {
+      typename Vectors<W>::Doubles row[P];
+      for (int p = 0; p < P; ++p) load<W>(values + i * kLanes + p * W, row[p]);
+      __builtin_prefetch(ahead + i * kLanes);
+      for (int r = 0; r < R; ++r) {
+        for (int p = 0; p < P; ++p) sums[r][p] -= factor[r * stride] * row[p];
+      }
+    }
+  }
+  if (panel.inverse_pivots) {
+    for (int i = 0; i < R; ++i) {
+      for (int p = 0; p < P; ++p) sums[i][p] *= panel.inverse_pivots[i];
+      for (int r = i + 1; r < R; ++r) {
+        for (int p = 0; p < P; ++p) sums[r][p] -= factor[r * stride + i] * sums[i][p];
+      }
+    }
+  }
+  for (int r = 0; r < R; ++r) {
+    for (int p = 0; p < P; ++p) store<W>(sums[r][p], fresh + r * kLanes + p * W);
+  }
+}
+
+template <int W, int... R>
+PALPATION_INLINE void subtract_strips_by(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh,
+                                         std::integer_sequence<int, R...>) {
+  (void)((panel.rows == R + 1 && (subtract_strips_of<W, R + 1>(panel, strips, strip_count, tile, fresh), true)) || ...);
+}
+
+/// Squares and M weighted sums.
+template <int W, int M>
+PALPATION_INLINE void add_sums_of(const double* values, int rows, const double* weights, long stride, double* sums) {
+  constexpr int P = Vectors<W>::kParts;
+  typename Vectors<W>::Doubles totals[1 + M][P];
+  for (int j = 0; j <= M; ++j) {
+    for (int p = 0; p < P; ++p) load<W>(sums + j * kLanes + p * W, totals[j][p]);
+  }
+  for (int r = 0; r < rows; ++r) {
+    for (int p = 0; p < P; ++p) {
+      typename Vectors<W>::Doubles row;
+      load<W>(values + r * kLanes + p * W, row);
+      totals[0][p] += row * row;
+      for (int j = 0; j < M; ++j) totals[1 + j][p] += weights[j * stride + r] * row;
+    }
+  }
+  for (int j = 0; j <= M; ++j) {
+    for (int p = 0; p < P; ++p) store<W>(totals[j][p], sums + j * kLanes + p * W);
+  }
+}
+
+template <int W, int... M>
+PALPATION_INLINE void add_sums_by(const double* values, int rows, const double* weights, long stride, int weight_count, double* sums,
+                                  std::integer_sequence<int, M...>) {
+  (void)((weight_count == M && (add_sums_of<W, M>(values, rows, weights, stride, sums), true)) || ...);
+}
+
+/// e^x = 2^k e^r, k the integer nearest to x / ln 2, |r| <= ln 2 / 2, e^r by its Taylor polynomial of degree 13 (its remainder is below
+/// 5e-18). 2^k is multiplied on in two halves, so that a result below the least normal number is rounded once.
+template <int W>
+PALPATION_INLINE void exponentials_of(double* values, long count) {
+  using Doubles = typename Vectors<W>::Doubles;
+  using Integers = typename Vectors<W>::Integers;
+  constexpr double kLog2e = 0x1.71547652b82fep0;
+  constexpr double kLn2High = 0x1.62e42fefa0000p-1, kLn2Low = 0x1.cf79abc9e3b3ap-40;  // the first times 2^11 is exact
+  constexpr double kRound = 0x1.8p52;                                                 // pushes what follows the point out
+  constexpr double kMost = 710.0, kLeast = -746.0;                                    // beyond: infinite, and 0
+  for (long i = 0; i < count; i += W) {
+    Doubles x;
+    load<W>(values + i, x);
+    x = x > kMost ? Doubles{} + kMost : x;
+    x = x < kLeast ? Doubles{} + kLeast : x;
+    const Doubles k = (x * kLog2e + kRound) - kRound;
+    const Doubles r = (x - k * kLn2High) - k * kLn2Low;
+    Doubles sum = Doubles{} + 1.0 / 6227020800.0;
+    for (const double coefficient : {1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0, 1.0 / 5040.0,
+                                     1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5}) {
+      sum = sum * r + coefficient;
+    }
+    const Doubles power = (sum * r) * r + r;  // e^r - 1
+    // A number plus 1.5 2^52 + 1023 carries its biased exponent in its last bits.
+    constexpr double kBias = kRound + 1023.0;
+    const Doubles half = (k * 0.5 + kRound) - kRound;
+    const Doubles biased[2] = {half + kBias, (k - half) + kBias};
+    Integers bits[2];
+    std::memcpy(bits, biased, sizeof bits);
+    for (Integers& exponent : bits) exponent <<= 52;
+    Doubles scale[2];
+    std::memcpy(scale, bits, sizeof scale);
+    store<W>((power * scale[0] + scale[0]) * scale[1], values + i);
+  }
+}
+
+}  // namespace palpation

@@ -1,0 +1,238 @@
+// How a belief grows: rows of L for new sites, what they say of the readings, and rows of V with their share of the sums at the vertices,
+// in one pass over these.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "belief/correlations.h"
+#include "belief/foreseen.h"
+#include "belief/rows.h"
+#include "belief/vertex_tiles.h"
+#include "palpation/base/error.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+/// So many tiles take their turns with a panel of the factor while it is in the nearest cache, and so many of its columns at a time.
+constexpr int kTilesTogether = 8;
+constexpr int kDepthTogether = 256;
+constexpr int kGroupsAtOnce = 8;
+
+/// Strips of no more than kDepthTogether rows in all, and the factor's column where they begin.
+struct Chunk {
+  int column = 0;
+  std::vector<TileRows> strips;
+};
+
+void add_strip(TileRows strip, std::vector<Chunk>& chunks, int& depth) {
+  while (strip.depth > 0) {
+    const int room = kDepthTogether - depth % kDepthTogether;
+    if (room == kDepthTogether) chunks.push_back({depth, {}});
+    const int taken = std::min(room, strip.depth);
+    chunks.back().strips.push_back({strip.values, strip.per_tile, taken});
+    strip.values += static_cast<long>(taken) * kLanes;
+    strip.depth -= taken;
+    depth += taken;
+  }
+}
+
+/// The factor's new rows so that no two of them lie on each other in the cache.
+struct PaddedFactor {
+  explicit PaddedFactor(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& factor)
+      : stride((factor.cols() + kLanes - 1) / kLanes * kLanes + kLanes),
+        values(aligned_doubles(static_cast<std::size_t>(factor.rows() * stride))) {
+    for (Eigen::Index row = 0; row < factor.rows(); ++row) {
+      std::copy_n(factor.data() + row * factor.cols(), factor.cols(), values.get() + row * stride);
+      inverse_pivots.push_back(1.0 / factor(row, factor.cols() - factor.rows() + row));
+    }
+  }
+
+  long stride;
+  AlignedDoubles values;
+  std::vector<double> inverse_pivots;
+};
+
+/// Rows of V on a group of tiles, from the correlations that stand in them: row-wise forward substitution, a panel of rows at a time.
+class Substitution {
+ public:
+  Substitution(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& factor, std::span<const TileRows> known)
+      : rows_(static_cast<int>(factor.rows())), factor_(factor), known_(known.begin(), known.end()) {}
+
+  /// `fresh`: of the first tile of the group; the next follow, all rows of each together.
+  void operator()(int first_tile, int tile_count, double* fresh) const {
+    const long per_tile = static_cast<long>(rows_) * kLanes;
+    std::vector<Chunk> chunks;
+    int height = 0;
+    for (int row = 0; row < rows_; row += height) {
+      height = std::min(rows_ - row, (rows_ + panels() - 1) / panels());
+      chunks.clear();
+      int depth = 0;
+      for (TileRows strip : known_) {
+        strip.values += first_tile * strip.per_tile;
+        add_strip(strip, chunks, depth);
+      }
+      add_strip({fresh, per_tile, row}, chunks, depth);
+      if (chunks.empty()) chunks.emplace_back();
+      for (std::size_t i = 0; i < chunks.size(); ++i) {
+        const bool is_last = i + 1 == chunks.size();
+        const Panel panel{factor_.values.get() + row * factor_.stride + chunks[i].column, factor_.stride, height,
+                          is_last ? factor_.inverse_pivots.data() + row : nullptr};
+        for (int tile = 0; tile < tile_count; ++tile) {
+          subtract_strips(panel, chunks[i].strips.data(), static_cast<int>(chunks[i].strips.size()), tile,
+                          fresh + tile * per_tile + static_cast<long>(row) * kLanes);
+        }
+      }
+    }
+  }
+
+ private:
+  int panels() const { return (rows_ + panel_rows() - 1) / panel_rows(); }
+
+  int rows_;
+  PaddedFactor factor_;
+  std::vector<TileRows> known_;
+};
+
+}  // namespace
+
+int Belief::sum_rows() const { return prior_.has_slope() ? Sums::kTilts + 4 : Sums::kTilts + 1; }
+
+/// L^-1 of 1, the readings and the tilts at `count` sites from `first` on, a row each.
+Eigen::MatrixXd Belief::solution_rows(int first, int count) const {
+  const Eigen::Index tilts = prior_.has_slope() ? 3 : 0;
+  Eigen::MatrixXd solutions(count, 2 + tilts);
+  solutions.col(0) = ones_.segment(first, count);
+  solutions.col(1) = whitened_.segment(first, count);
+  if (tilts > 0) solutions.rightCols(tilts) = tilts_.middleRows(first, count);
+  return solutions;
+}
+
+/// Forgets the rows from the first one that does not lie in a block before `count`, and restates the sums over the rest.
+void Belief::keep_rows(int count) {
+  while (!rows_.empty() && row_count() > count) rows_.pop_back();
+  if (prior_.has_slope()) tilts_.conservativeResize(row_count(), 3);
+  ones_.conservativeResize(row_count());
+  whitened_.conservativeResize(row_count());
+  sums_.reset();
+  if (rows_.empty()) return;
+  const VertexTiles& tiles = prior_.tiles();
+  const TileCorrelations correlations(prior_, std::span(sites_).first(static_cast<std::size_t>(row_count())));
+  auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
+  const Eigen::MatrixXd solutions = solution_rows(0, row_count());
+  for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int first_tile, int last_tile) {
+    const AlignedDoubles k = aligned_doubles(static_cast<std::size_t>(row_count()) * kLanes);
+    for (int tile = first_tile; tile < last_tile; ++tile) {
+      double* sum = sums->tile(tile);
+      std::fill(sum, sum + sums->width * kLanes, 0.0);
+      correlations(tile, k.get());
+      add_sums(k.get(), row_count(), nullptr, 0, 0, sum + sums->covered() * kLanes);
+      for (const auto& rows : rows_) {
+        add_sums(rows->tile(tile), rows->count, solutions.data() + rows->first, solutions.rows(), static_cast<int>(solutions.cols()), sum);
+      }
+    }
+  });
+  sums_ = std::move(sums);
+}
+
+/// The rows of L for the sites from `fresh.first` on: row-append Cholesky, which is as accurate as factoring anew.
+void Belief::append_to_factor(Rows& fresh) {
+  const int first = fresh.first, count = fresh.count;
+  Eigen::MatrixXd correlations = palpation::correlations(prior_, prior_.kernel(), sites_, first);
+  for (int j = 0; j < count; ++j) correlations(first + j, j) += diagonal_[first + j];
+  for (const auto& rows : rows_) {
+    auto right_side = correlations.middleRows(rows->first, rows->count);
+    right_side.noalias() -= rows->factor.leftCols(rows->first) * correlations.topRows(rows->first);
+    rows->factor.rightCols(rows->count).triangularView<Eigen::Lower>().solveInPlace(right_side);
+  }
+  auto& factor = fresh.factor;
+  factor.resize(count, first + count);
+  factor.leftCols(first) = correlations.topRows(first).transpose();
+  for (int row = 0; row < count; ++row) {
+    for (int column = 0; column <= row; ++column) {
+      const double rest =
+          correlations(first + column, row) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
+      if (column < row) {
+        factor(row, first + column) = rest / factor(column, first + column);
+      } else if (rest > 0.0 && std::isfinite(rest)) {
+        factor(row, first + column) = std::sqrt(rest);
+      } else {
+        throw NumericalError("Belief: site " + std::to_string(first + row) + " leaves the pivot " + text_of(rest) +
+                             ", so the covariance is not positive definite in double precision: sites all but coincide, and the noise (" +
+                             text_of(diagonal_[first + row]) + " of the signal's variance) does not part them");
+      }
+    }
+    factor.row(row).tail(count - row - 1).setZero();
+  }
+}
+
+/// L^-1 of 1, the readings and the tilts.
+void Belief::append_to_solutions(const Rows& fresh) {
+  const auto& factor = fresh.factor;
+  const int first = fresh.first, total = first + fresh.count;
+  ones_.conservativeResize(total);
+  whitened_.conservativeResize(total);
+  if (prior_.has_slope()) tilts_.conservativeResize(total, 3);
+  for (int row = first; row < total; ++row) {
+    const auto before = factor.row(row - first).head(row);
+    const double pivot = factor(row - first, row);
+    ones_[row] = (1.0 - before.dot(ones_.head(row))) / pivot;
+    whitened_[row] = (readings_[row] - origin_ - before.dot(whitened_.head(row))) / pivot;
+    if (!prior_.has_slope()) continue;
+    const Vec3 tilt = prior_.tilt(sites_[row].place.coordinates);
+    tilts_.row(row) = (tilt.transpose() - before * tilts_.topRows(row)) / pivot;
+  }
+}
+
+void Belief::append_to_vertices(Rows& fresh, Keep keep) {
+  const VertexTiles& tiles = prior_.tiles();
+  const long per_tile = fresh.per_tile();
+  if (keep == Keep::Rows) fresh.v = aligned_doubles(static_cast<std::size_t>(tiles.count() * per_tile));
+  auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
+  const TileCorrelations correlations(prior_, std::span(sites_).subspan(static_cast<std::size_t>(fresh.first), fresh.count));
+  const Eigen::MatrixXd solutions = solution_rows(fresh.first, fresh.count);
+  std::vector<TileRows> known;
+  for (const auto& rows : rows_) known.push_back(rows->strip());
+  const Substitution substitute(fresh.factor, known);
+  for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int begin, int end) {
+    AlignedDoubles scratch;
+    if (keep == Keep::Nothing) scratch = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    for (int first_tile = begin; first_tile < end; first_tile += kTilesTogether) {
+      const int count = std::min(kTilesTogether, end - first_tile);
+      double* values = keep == Keep::Rows ? fresh.tile(first_tile) : scratch.get();
+      for (int tile = 0; tile < count; ++tile) {
+        double* sum = sums->tile(first_tile + tile);
+        if (sums_) {
+          std::copy_n(sums_->tile(first_tile + tile), sums->width * kLanes, sum);
+        } else {
+          std::fill_n(sum, sums->width * kLanes, 0.0);
+        }
+        correlations(first_tile + tile, values + tile * per_tile);
+        add_sums(values + tile * per_tile, fresh.count, nullptr, 0, 0, sum + sums->covered() * kLanes);
+      }
+      substitute(first_tile, count, values);
+      for (int tile = 0; tile < count; ++tile) {
+        add_sums(values + tile * per_tile, fresh.count, solutions.data(), solutions.rows(), static_cast<int>(solutions.cols()),
+                 sums->tile(first_tile + tile));
+      }
+    }
+  });
+  sums_ = std::move(sums);
+}
+
+/// Rows of L and V for all sites that have none yet, and their share of the sums.
+void Belief::append_rows(Keep keep) {
+  if (row_count() == site_count()) return;
+  auto fresh = std::make_shared<Rows>();
+  fresh->first = row_count();
+  fresh->count = site_count() - fresh->first;
+  append_to_factor(*fresh);
+  append_to_solutions(*fresh);
+  append_to_vertices(*fresh, keep);
+  rows_.push_back(std::move(fresh));
+}
+
+}  // namespace palpation
