@@ -195,7 +195,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   if (!parts.empty() && certainty && certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
     remarks.push_back("The area expected to be wrong is " + percent(certainty->expected.symmetric_difference_m2() / found_m2) +
                       " of the area found: more readings are needed.");
-  if (const std::optional<double> times = over_reachable(episode); times && *times > kMuchOverReachable)
+  else if (const std::optional<double> times = over_reachable(episode); times && *times > kMuchOverReachable)
     remarks.push_back("The boundary is expected to be wrong by " + fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) +
                       " mm2, " + fixed(*times, 0) +
                       " times what as many readings with so little noise can reach at best: more batches would pay.");
