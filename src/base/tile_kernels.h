@@ -16,6 +16,7 @@ struct Vectors {
   // As typedefs: GCC 12 drops the attribute from an alias whose size depends on a template's argument.
   typedef double Doubles __attribute__((vector_size(W * sizeof(double))));
   typedef std::int64_t Integers __attribute__((vector_size(W * sizeof(double))));
+  typedef float Floats __attribute__((vector_size(W * sizeof(float))));
   static constexpr int kParts = kLanes / W;
 };
 
@@ -25,8 +26,30 @@ PALPATION_INLINE void load(const double* from, typename Vectors<W>::Doubles& to)
 }
 
 template <int W>
+PALPATION_INLINE void load(const float* from, typename Vectors<W>::Doubles& to) {
+  typename Vectors<W>::Floats singles;
+  std::memcpy(&singles, from, sizeof singles);
+  to = __builtin_convertvector(singles, typename Vectors<W>::Doubles);
+}
+
+template <int W>
 PALPATION_INLINE void store(const typename Vectors<W>::Doubles& from, double* to) {
   std::memcpy(to, &from, sizeof from);
+}
+
+/// sums[r] -= sum_i factor[r * stride + i] values[i] over `depth` rows of one tile; `ahead`: where those of the next tile are.
+template <int W, int R, typename Value>
+PALPATION_INLINE void subtract_rows(const double* factor, long stride, const Value* values, const Value* ahead, int depth,
+                                    typename Vectors<W>::Doubles (&sums)[R][Vectors<W>::kParts]) {
+  constexpr int P = Vectors<W>::kParts;
+  for (int i = 0; i < depth; ++i) {
+    typename Vectors<W>::Doubles row[P];
+    for (int p = 0; p < P; ++p) load<W>(values + i * kLanes + p * W, row[p]);
+    __builtin_prefetch(ahead + i * kLanes);
+    for (int r = 0; r < R; ++r) {
+      for (int p = 0; p < P; ++p) sums[r][p] -= factor[r * stride + i] * row[p];
+    }
+  }
 }
 
 template <int W, int R>
@@ -39,17 +62,13 @@ PALPATION_INLINE void subtract_strips_of(const Panel& panel, const TileRows* str
   const double* factor = panel.factor;
   const long stride = panel.stride;
   for (int s = 0; s < strip_count; ++s) {
-    const double* values = strips[s].values + tile * strips[s].per_tile;
-    const double* ahead = values + strips[s].per_tile;
-    const int depth = strips[s].depth;
-    for (int i = 0; i < depth; ++i, ++factor) {
-      typename Vectors<W>::Doubles row[P];
-      for (int p = 0; p < P; ++p) load<W>(values + i * kLanes + p * W, row[p]);
-      __builtin_prefetch(ahead + i * kLanes);
-      for (int r = 0; r < R; ++r) {
-        for (int p = 0; p < P; ++p) sums[r][p] -= factor[r * stride] * row[p];
-      }
+    const TileRows here = strips[s].from_tile(tile), next = strips[s].from_tile(tile + 1);
+    if (here.singles) {
+      subtract_rows<W, R>(factor, stride, here.singles, next.singles, here.depth, sums);
+    } else {
+      subtract_rows<W, R>(factor, stride, here.values, next.values, here.depth, sums);
     }
+    factor += here.depth;
   }
   if (panel.inverse_pivots) {
     for (int i = 0; i < R; ++i) {

@@ -33,9 +33,9 @@ void add_strip(TileRows strip, std::vector<Chunk>& chunks, int& depth) {
     const int room = kDepthTogether - depth % kDepthTogether;
     if (room == kDepthTogether) chunks.push_back({depth, {}});
     const int taken = std::min(room, strip.depth);
-    chunks.back().strips.push_back({strip.values, strip.per_tile, taken});
-    strip.values += static_cast<long>(taken) * kLanes;
-    strip.depth -= taken;
+    chunks.back().strips.push_back(strip);
+    chunks.back().strips.back().depth = taken;
+    strip = strip.without_first(taken);
     depth += taken;
   }
 }
@@ -71,10 +71,7 @@ class Substitution {
       height = std::min(rows_ - row, (rows_ + panels() - 1) / panels());
       chunks.clear();
       int depth = 0;
-      for (TileRows strip : known_) {
-        strip.values += first_tile * strip.per_tile;
-        add_strip(strip, chunks, depth);
-      }
+      for (const TileRows& strip : known_) add_strip(strip.from_tile(first_tile), chunks, depth);
       add_strip({fresh, per_tile, row}, chunks, depth);
       if (chunks.empty()) chunks.emplace_back();
       for (std::size_t i = 0; i < chunks.size(); ++i) {
@@ -125,13 +122,15 @@ void Belief::keep_rows(int count) {
   const Eigen::MatrixXd solutions = solution_rows(0, row_count());
   for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int first_tile, int last_tile) {
     const AlignedDoubles k = aligned_doubles(static_cast<std::size_t>(row_count()) * kLanes);
+    const AlignedDoubles widened = aligned_doubles(static_cast<std::size_t>(row_count()) * kLanes);
     for (int tile = first_tile; tile < last_tile; ++tile) {
       double* sum = sums->tile(tile);
       std::fill(sum, sum + sums->width * kLanes, 0.0);
       correlations(tile, k.get());
       add_sums(k.get(), row_count(), nullptr, 0, 0, sum + sums->covered() * kLanes);
       for (const auto& rows : rows_) {
-        add_sums(rows->tile(tile), rows->count, solutions.data() + rows->first, solutions.rows(), static_cast<int>(solutions.cols()), sum);
+        add_sums(rows->tile(tile, widened.get()), rows->count, solutions.data() + rows->first, solutions.rows(),
+                 static_cast<int>(solutions.cols()), sum);
       }
     }
   });
@@ -190,7 +189,9 @@ void Belief::append_to_solutions(const Rows& fresh) {
 void Belief::append_to_vertices(Rows& fresh, Keep keep) {
   const VertexTiles& tiles = prior_.tiles();
   const long per_tile = fresh.per_tile();
-  if (keep == Keep::Rows) fresh.v = aligned_doubles(static_cast<std::size_t>(tiles.count() * per_tile));
+  const bool keeps = keep == Keep::Rows, narrows = keeps && options_.single_precision;
+  if (narrows) fresh.singles = aligned<float>(static_cast<std::size_t>(tiles.count() * per_tile));
+  if (keeps && !narrows) fresh.v = aligned_doubles(static_cast<std::size_t>(tiles.count() * per_tile));
   auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
   const TileCorrelations correlations(prior_, std::span(sites_).subspan(static_cast<std::size_t>(fresh.first), fresh.count));
   const Eigen::MatrixXd solutions = solution_rows(fresh.first, fresh.count);
@@ -199,10 +200,10 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
   const Substitution substitute(fresh.factor, known);
   for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int begin, int end) {
     AlignedDoubles scratch;
-    if (keep == Keep::Nothing) scratch = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    if (!keeps || narrows) scratch = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
     for (int first_tile = begin; first_tile < end; first_tile += kTilesTogether) {
       const int count = std::min(kTilesTogether, end - first_tile);
-      double* values = keep == Keep::Rows ? fresh.tile(first_tile) : scratch.get();
+      double* values = scratch ? scratch.get() : fresh.tile(first_tile);
       for (int tile = 0; tile < count; ++tile) {
         double* sum = sums->tile(first_tile + tile);
         if (sums_) {
@@ -218,6 +219,7 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
         add_sums(values + tile * per_tile, fresh.count, solutions.data(), solutions.rows(), static_cast<int>(solutions.cols()),
                  sums->tile(first_tile + tile));
       }
+      if (narrows) std::copy_n(values, count * per_tile, fresh.singles.get() + first_tile * per_tile);
     }
   });
   sums_ = std::move(sums);

@@ -43,6 +43,7 @@ void Belief::append_foreseen() {
   const int tile_count = prior_.tiles().count();
   auto sums = std::make_shared<Sums>(tile_count, sum_rows());
   for_ranges(tile_count, 512, [&](int begin, int end) {
+    const AlignedDoubles widened = aligned_doubles(static_cast<std::size_t>(foreseen->rows->per_tile()));
     for (int tile = begin; tile < end; ++tile) {
       double* sum = sums->tile(tile);
       std::copy_n(foreseen->sums->tile(tile), sums->width * kLanes, sum);
@@ -52,7 +53,7 @@ void Belief::append_foreseen() {
       } else {
         std::fill_n(whitened, kLanes, 0.0);
       }
-      subtract_product(minus_whitened.data(), count, foreseen->rows->tile(tile), count, whitened, 1);
+      subtract_product(minus_whitened.data(), count, foreseen->rows->tile(tile, widened.get()), count, whitened, 1);
     }
   });
   sums_ = std::move(sums);

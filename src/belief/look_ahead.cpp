@@ -51,7 +51,7 @@ void LookAhead::add_covariances(int tile, int first, int count, double* rows) co
   for (const TileRows& strip : strips) {
     depth += strip.depth;
     // Tiles are looked at here and there, so nothing of them is near yet: ask for all of it at once.
-    for (int i = 0; i < strip.depth; ++i) __builtin_prefetch(strip.values + tile * strip.per_tile + i * kLanes);
+    for (int i = 0; i < strip.depth; ++i) __builtin_prefetch(strip.address(tile, i));
   }
   for (int k = 0; k < count; ++k) touches_[first + k].correlations(tile, rows + k * kLanes);
   for (int k = 0; k < count && depth > 0; k += panel_rows()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -16,13 +17,22 @@ struct Belief::Rows {
   int first = 0;
   int count = 0;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> factor;  // count x (first + count), lower triangular at its end
-  AlignedDoubles v;                                                               // for each tile, count rows of kLanes
+  AlignedDoubles v;                                                               // for each tile, count rows of kLanes, or
+  Aligned<float> singles;                                                         // the same in single precision
 
   long per_tile() const { return static_cast<long>(count) * kLanes; }
-  const double* tile(int number) const { return v.get() + number * per_tile(); }
   double* tile(int number) { return v.get() + number * per_tile(); }
-  double value(int row, int place) const { return tile(place / kLanes)[row * kLanes + place % kLanes]; }
-  TileRows strip() const { return {v.get(), per_tile(), count}; }
+  /// The tile's rows; in single precision they are widened into `scratch`, which has room for them.
+  const double* tile(int number, double* scratch) const {
+    if (!singles) return v.get() + number * per_tile();
+    std::copy_n(singles.get() + number * per_tile(), per_tile(), scratch);
+    return scratch;
+  }
+  double value(int row, int place) const {
+    const long at = place / kLanes * per_tile() + row * kLanes + place % kLanes;
+    return singles ? static_cast<double>(singles[at]) : v[at];
+  }
+  TileRows strip() const { return {v.get(), per_tile(), count, singles.get()}; }
 };
 
 /// At each vertex, over all rows: for each tile `width` rows of kLanes.

@@ -49,6 +49,9 @@ Slope slope_of(const Surface& surface, const FieldModel& field, std::size_t plac
 
 Prior with_slope(const Prior& prior, const Slope& slope) { return prior.with(prior.kernel(), prior.constant(), slope); }
 
+/// Learned noise this low is kept in double, so that rounding refuses none.
+constexpr double kSurelyEnoughForSingle = (1.0 + 1e-9) * kLeastNoiseForSingle;
+
 }  // namespace
 
 Spread spread_of(const std::vector<double>& readings) {
@@ -122,8 +125,12 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
   kernel.signal_sd = learned.values.signal_sd / spread.sd;
   slope.sd /= spread.sd;
   const Prior prior = fresh.prior().with(kernel, field.constant, slope);
-  return {Belief(prior, {.noise_sd = learned.values.noise_sd, .standardize = centred}), learned.values, learned.signal_evidence, true,
-          shifted.size() < palpations.size()};
+  BeliefOptions believed = fresh.options();
+  believed.noise_sd = learned.values.noise_sd;
+  believed.standardize = centred;
+  const double ratio = learned.values.noise_sd / learned.values.signal_sd;
+  if (ratio * ratio < kSurelyEnoughForSingle) believed.single_precision = false;
+  return {Belief(prior, believed), learned.values, learned.signal_evidence, true, shifted.size() < palpations.size()};
 }
 
 FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start) {

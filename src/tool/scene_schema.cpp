@@ -148,6 +148,10 @@ std::vector<SceneKey> make_scene_keys() {
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a trend of zero, which is then about their "
             "mean"),
+      word("field.precision", {"double", "single"}, "double",
+           "single: half the memory of the field's model and less time, the field off by a ten-thousandth of the signal at most; for noise "
+           "of "
+           "3.2 % of the signal and more: where a learned noise is lower, double is taken"),
       or_zero(
           number("field.reduced_rank", "", 1e-13, 1e-4, 0.0,
                  "for readings by the thousand, as along paths: the part of the prior's variance that may be left out, 1e-10 say, so that "

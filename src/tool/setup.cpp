@@ -289,6 +289,10 @@ FieldModel field_of(const Scene& scene) {
   else if (scene.has("field.constant_sd"))
     field.constant.sd = scene.number("field.constant_sd");
   field.belief.standardize = scene.truth("field.standardize");
+  field.belief.single_precision = scene.word("field.precision") == "single";
+  const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) * (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
+  if (field.belief.single_precision && !field.learns() && !field.belief.standardize && field.belief.noise_sd < least_noise_sd)
+    scene.refuse("field.precision", "is single, which needs a field.noise of 3.2 % of field.signal_sd at least: take double");
   field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
   field.screening = scene.truth("field.screening");
   field.heavy_tails = scene.truth("field.heavy_tails");

@@ -14,6 +14,22 @@ struct TileRows {
   const double* values = nullptr;
   long per_tile = 0;
   int depth = 0;
+  const float* singles = nullptr;  ///< in place of values: the same in single precision
+
+  /// Where a row of a tile lies.
+  const void* address(long tile, int row) const {
+    const long at = tile * per_tile + row * kLanes;
+    return singles ? static_cast<const void*>(singles + at) : values + at;
+  }
+  /// Without the first `rows` rows of every tile.
+  TileRows without_first(long rows) const {
+    return {values ? values + rows * kLanes : nullptr, per_tile, depth - static_cast<int>(rows),
+            singles ? singles + rows * kLanes : nullptr};
+  }
+  /// The same rows, seen from another tile.
+  TileRows from_tile(long tile) const {
+    return {values ? values + tile * per_tile : nullptr, per_tile, depth, singles ? singles + tile * per_tile : nullptr};
+  }
 };
 
 /// Rows of a lower triangular factor, `rows` of them, no more than panel_rows(): coefficients of the strips' rows one after another, then,

@@ -59,6 +59,8 @@ struct BeliefOptions {
                                    ///< deviation, and the constant's mean is the readings' mean: outputs z-scored, as GPy does
   double reduced_rank_tolerance = 0.0;  ///< of the prior's variance, the part that may be left out so that many readings cost no more than
                                         ///< a few hundred (see below); 0: none
+  bool single_precision = false;        ///< V is kept in single precision, half as large; all arithmetic and L stay in double. Mean and
+                                        ///< variance are off by less than 1e-4 of the signal's; refused below kLeastNoiseForSingle
 };
 
 /// Of a belief of reduced rank.
@@ -67,6 +69,9 @@ struct ReducedRank {
   double mean_error = 0.0;      ///< from the exact belief at a vertex, reading units: not more than this, by proof ...
   double variance_error = 0.0;  ///< ... nor this, reading units squared. Rounding comes on top
 };
+
+/// Noise variance over the signal's, of a reading, below which single precision would cost more than it saves.
+inline constexpr double kLeastNoiseForSingle = 1e-3;
 
 class Belief {
  public:
