@@ -49,6 +49,8 @@ std::vector<Choice> choices_for(const Scene& scene, const Surface& surface) {
   for (const double explore_mm : {0.5, 1.0, 2.0})
     choices.push_back({"plan on " + fixed(explore_mm, 1) + " mm", {{"plan.explore_mm", explore_mm}}});
   choices.push_back({"plain arithmetic", {{"error.arithmetic", "plain"}}});
+  choices.push_back({"single precision", {{"field.precision", "single"}}});
+  choices.push_back({"reduced rank", {{"field.reduced_rank", 1e-10}}});
   if (surface.is_planar()) return choices;  // where all metrics are one
   for (const char* metric : {"chart", "ambient", "intrinsic"}) {
     if (scene.word("field.metric") != metric) choices.push_back({std::string("metric ") + metric, {{"field.metric", metric}}});
@@ -59,9 +61,8 @@ std::vector<Choice> choices_for(const Scene& scene, const Surface& surface) {
 /// The scene without its own ways to be faster.
 Scene exact_scene(Scene scene) {
   scene = scene.with("speed", "exact");
-  for (const std::string tier : {"fast", "draft"}) {
-    for (const SpeedPart& part : speed_parts(tier)) scene = scene.with(part.path, exact_value(part.path));
-  }
+  for (const char* path : {"plan.explore_mm", "error.arithmetic", "field.precision", "field.reduced_rank"})
+    scene = scene.with(path, exact_value(path));
   return scene;
 }
 
