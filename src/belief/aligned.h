@@ -23,8 +23,9 @@ template <typename Value>
 Aligned<Value> aligned(std::size_t count) {
   constexpr std::size_t kLine = 64, kLargePage = std::size_t{2} << 20;
   const std::size_t bytes = count * sizeof(Value), border = bytes >= kLargePage ? kLargePage : kLine;
-  void* memory = std::aligned_alloc(border, (bytes + kLine - 1) / kLine * kLine);
-  if (!memory && bytes > 0) throw std::bad_alloc();
+  // aligned_alloc would have the size rounded up to the border: that many large pages are not needed.
+  void* memory = nullptr;
+  if (posix_memalign(&memory, border, bytes > 0 ? bytes : kLine) != 0) throw std::bad_alloc();
 #ifdef __linux__
   if (border == kLargePage) madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
