@@ -4,21 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "palpation/base/targets.h"
 #include "palpation/base/tile.h"
 
 namespace palpation {
 namespace {
-
-/// Solves T tile = tile in place, T the lower triangle of kLanes rows of a factor.
-PALPATION_TARGETS void solve_block(const double* factor, long stride, double* tile) {
-  for (int row = 0; row < kLanes; ++row) {
-    for (int i = 0; i < row; ++i) {
-      for (int lane = 0; lane < kLanes; ++lane) tile[row * kLanes + lane] -= factor[row * stride + i] * tile[i * kLanes + lane];
-    }
-    for (int lane = 0; lane < kLanes; ++lane) tile[row * kLanes + lane] /= factor[row * stride + row];
-  }
-}
 
 /// A matrix in rows, padded to whole tiles; what is beyond its size is the identity.
 class Padded {
@@ -28,9 +17,9 @@ class Padded {
   double* row(long number) { return values_.data() + number * stride; }
   const double* row(long number) const { return values_.data() + number * stride; }
 
-  /// Eight rows from `first` on are the tile's columns, its own first row being `from`.
-  void take_columns(long first, long from, const double* tile) {
-    for (long i = from; i < stride; ++i) {
+  /// Eight rows from `first` on are the tile's columns; its rows stand for `from` to `to`.
+  void take_columns(long first, long from, long to, const double* tile) {
+    for (long i = from; i < to; ++i) {
       for (int lane = 0; lane < kLanes; ++lane) row(first + lane)[i] = tile[(i - from) * kLanes + lane];
     }
   }
@@ -40,16 +29,6 @@ class Padded {
  private:
   std::vector<double> values_;
 };
-
-/// Forward substitution of rows `from` to `to` of the factor, multiples of kLanes, on a tile that begins at row `from`.
-void solve_rows(const Padded& factor, long from, long to, double* tile) {
-  const int stride = static_cast<int>(factor.stride);
-  for (long row = from; row < to; row += kLanes) {
-    double* target = tile + (row - from) * kLanes;
-    subtract_product(factor.row(row) + from, stride, tile, static_cast<int>(row - from), target, kLanes);
-    solve_block(factor.row(row) + row, stride, target);
-  }
-}
 
 /// Cholesky's factor of eight rows and columns; false if a pivot is not positive.
 bool factor_block(double* block, long stride) {
@@ -77,10 +56,8 @@ bool factorize(const Eigen::MatrixXd& matrix, Padded& factor) {
     for (long i = 0; i < first + kLanes; ++i) {
       for (int lane = 0; lane < kLanes; ++lane) tile[static_cast<std::size_t>(i * kLanes + lane)] = value(i, first + lane);
     }
-    solve_rows(factor, 0, first, tile.data());
-    for (long i = 0; i < first; ++i) {
-      for (int lane = 0; lane < kLanes; ++lane) factor.row(first + lane)[i] = tile[static_cast<std::size_t>(i * kLanes + lane)];
-    }
+    solve_triangle(factor.row(0), static_cast<int>(factor.stride), tile.data(), static_cast<int>(first));
+    factor.take_columns(first, 0, first, tile.data());
     double* own = tile.data() + first * kLanes;
     subtract_product(factor.row(first), static_cast<int>(factor.stride), tile.data(), static_cast<int>(first), own, kLanes);
     for (int row = 0; row < kLanes; ++row) std::copy(own + row * kLanes, own + row * kLanes + kLanes, factor.row(first + row) + first);
@@ -104,8 +81,8 @@ std::optional<double> invert_positive_definite(Eigen::MatrixXd& matrix) {
   for (long first = 0; first < factor.stride; first += kLanes) {
     std::fill(tile.begin(), tile.end(), 0.0);
     for (int lane = 0; lane < kLanes; ++lane) tile[static_cast<std::size_t>(lane * kLanes + lane)] = 1.0;
-    solve_rows(factor, first, factor.stride, tile.data());
-    transposed.take_columns(first, first, tile.data());
+    solve_triangle(factor.row(first) + first, static_cast<int>(factor.stride), tile.data(), static_cast<int>(factor.stride - first));
+    transposed.take_columns(first, first, factor.stride, tile.data());
     std::fill(products.begin(), products.end(), 0.0);
     subtract_product(transposed.row(0) + first, static_cast<int>(factor.stride), tile.data(), static_cast<int>(factor.stride - first),
                      products.data(), static_cast<int>(first) + kLanes);

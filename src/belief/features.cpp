@@ -45,14 +45,6 @@ std::vector<int> worst(const Eigen::VectorXd& residuals, double tolerance) {
   return order;
 }
 
-/// The vertex that a place is, or -1 inside a face.
-int vertex_at(const Surface& surface, const SurfacePoint& point) {
-  for (int corner = 0; corner < 3; ++corner) {
-    if (point.barycentric[corner] == 1.0) return surface.triangle(point.face)[corner];
-  }
-  return -1;
-}
-
 Eigen::VectorXd residuals_of(const Eigen::MatrixXd& features) { return 1.0 - features.colwise().squaredNorm().transpose().array(); }
 
 }  // namespace
@@ -156,7 +148,7 @@ Eigen::MatrixXd Features::at(const Prior& prior, std::span<const Site> sites) co
   std::vector<Eigen::Index> inside_faces;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const int vertex = vertex_at(prior.surface(), sites[i].where);
+    const int vertex = prior.surface().vertex_at(sites[i].where);
     if (vertex >= 0) {
       result.col(column) = at_vertex(vertex);
     } else {

@@ -25,13 +25,6 @@ constexpr double kBeside = 0.95;
 /// Vertices of less variance than this are looked at again: above it 1 - v'v is good to eight digits.
 constexpr double kSmallVariance = 1e-6;
 
-int vertex_at(const Surface& surface, const SurfacePoint& point) {
-  for (int corner = 0; corner < 3; ++corner) {
-    if (point.barycentric[corner] == 1.0) return surface.triangle(point.face)[corner];
-  }
-  return -1;
-}
-
 /// `is_small`: the noise d.
 double at_site(double d, bool is_small, double square, double plain) {
   const double known = d * square;
@@ -117,7 +110,7 @@ void Belief::sharpen() {
     }
   });
   for (std::size_t site = 0; site < sites_.size(); ++site) {
-    const int vertex = vertex_at(prior_.surface(), sites_[site].where);
+    const int vertex = prior_.surface().vertex_at(sites_[site].where);
     if (vertex >= 0 && diagonal_[site] < kSmallNoise) sharp_[vertex] = there[site];
   }
   const double least = *std::min_element(diagonal_.begin(), diagonal_.end());

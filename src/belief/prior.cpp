@@ -106,10 +106,8 @@ Field Prior::raw_variance() const {
 Vec3 Prior::coordinates(int vertex) const { return coordinates_of(surface_, metric_, vertex); }
 
 Vec3 Prior::coordinates(const SurfacePoint& point) const {
+  if (const int vertex = surface_.vertex_at(point); vertex >= 0) return coordinates(vertex);
   const Eigen::Vector3i corners = surface_.triangle(point.face);
-  for (int corner = 0; corner < 3; ++corner) {
-    if (point.barycentric[corner] == 1.0) return coordinates(corners[corner]);
-  }
   Vec3 sum = Vec3::Zero();
   for (int corner = 0; corner < 3; ++corner) sum += point.barycentric[corner] * coordinates(corners[corner]);
   return sum;

@@ -10,15 +10,11 @@ namespace {
 /// The same palpation where the planner knows it: at a vertex if it was made at one that both have, else at the closest place.
 Palpation as_planned(const Exploration& planner, const CoarseMesh& coarse, const Surface& surface, Palpation palpation) {
   const Surface& planned_on = planner.surface();
-  for (int corner = 0; corner < 3; ++corner) {
-    if (palpation.where.barycentric[corner] != 1.0) continue;
-    const int vertex = surface.triangle(palpation.where.face)[corner];
-    const auto found = std::lower_bound(coarse.vertices.begin(), coarse.vertices.end(), vertex);
-    if (found == coarse.vertices.end() || *found != vertex) continue;
-    palpation.where = planned_on.at_vertex(static_cast<int>(found - coarse.vertices.begin()));
-    return palpation;
-  }
-  palpation.where = planned_on.project(surface.position(palpation.where));
+  const int vertex = surface.vertex_at(palpation.where);
+  const auto found = std::ranges::lower_bound(coarse.vertices, vertex);
+  const bool is_on_both = vertex >= 0 && found != coarse.vertices.end() && *found == vertex;
+  palpation.where = is_on_both ? planned_on.at_vertex(static_cast<int>(found - coarse.vertices.begin()))
+                               : planned_on.project(surface.position(palpation.where));
   return palpation;
 }
 
@@ -32,6 +28,7 @@ std::vector<Palpation> run_coarsely(Exploration& planner, const CoarseMesh& coar
   std::vector<Palpation> felt;
   std::optional<SurfacePoint> here;
   for (std::vector<int> stops = planner.next(); !stops.empty(); stops = planner.next()) {
+    if (way_step_m == 0.0) planner.foresee();
     for (int& stop : stops) stop = coarse.vertices[static_cast<std::size_t>(stop)];
     Tour tour = travel(surface, stops, here, probe, way_step_m);
     std::vector<Palpation> planned;

@@ -51,14 +51,6 @@ bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpatio
   return greatest_excess(layout, places, readings) > kNeededToFind;
 }
 
-/// The vertex that a palpation touched, or -1.
-int touched_vertex(const Surface& surface, const Palpation& palpation) {
-  for (int corner = 0; corner < 3; ++corner) {
-    if (palpation.where.barycentric[corner] == 1.0) return surface.triangle(palpation.where.face)[corner];
-  }
-  return -1;
-}
-
 }  // namespace
 
 Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed, Reach reach)
@@ -93,7 +85,7 @@ std::vector<int> Exploration::next() const { return next_; }
 void Exploration::record(std::span<const Palpation> palpations) {
   std::vector<bool> answered(static_cast<std::size_t>(surface_.vertex_count()), false);
   for (const Palpation& palpation : palpations) {
-    if (const int vertex = touched_vertex(surface_, palpation); vertex >= 0) answered[vertex] = true;
+    if (const int vertex = surface_.vertex_at(palpation.where); vertex >= 0) answered[vertex] = true;
   }
   for (int stop : next_) {
     if (!answered[stop]) reachable_[stop] = false;
@@ -115,7 +107,7 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   ++batch_;
   for (const Palpation& palpation : palpations) {
     batch_ = std::max(batch_, palpation.batch + 1);
-    const int vertex = touched_vertex(surface_, palpation);
+    const int vertex = surface_.vertex_at(palpation.where);
     if (touch_once_ && vertex >= 0) reachable_[vertex] = false;
   }
   std::vector<Palpation> recorded = recorded_;

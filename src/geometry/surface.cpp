@@ -177,6 +177,13 @@ SurfacePoint Surface::at_vertex(int vertex) const {
   return point;
 }
 
+int Surface::vertex_at(const SurfacePoint& point) const {
+  for (int corner = 0; corner < 3; ++corner) {
+    if (point.barycentric[corner] == 1.0) return triangle(point.face)[corner];
+  }
+  return -1;
+}
+
 Vec3 Surface::position(const SurfacePoint& point) const {
   check_point(point, face_count(), "position");
   Vec3 position = Vec3::Zero();

@@ -158,7 +158,6 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
       run_coarsely(planner, coarse, surface, CountingProbe(scene, planner, world.probe), finish_batch, way_step_m(scene)));
   episode.coarse_stop_reason = planner.stop_reason();
   restate(episode);
-  episode.conclusion_seconds = stopwatch.wall.seconds();
   if (after_batch) after_batch(episode);
   return episode;
 }
@@ -274,8 +273,8 @@ bool is_scan(const Scene& scene) {
 Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
   return with_advice(scene, [&] {
     if (is_scan(scene)) return run_scan(scene, surface, world, after_batch);
-    const bool is_coarse = scene.has("plan.explore_mm") && scene.metres("plan.explore_mm") > 0.0;
-    return is_coarse ? run_coarse_exploration(scene, surface, world, after_batch) : run_exploration(scene, surface, world, after_batch);
+    return scene.metres("plan.explore_mm") > 0.0 ? run_coarse_exploration(scene, surface, world, after_batch)
+                                                 : run_exploration(scene, surface, world, after_batch);
   });
 }
 

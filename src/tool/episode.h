@@ -50,7 +50,6 @@ struct Episode {
   std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
   std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
   std::vector<double> batch_cpu_seconds{};   ///< the same, of this thread's processor
-  double conclusion_seconds = 0.0;           ///< where plans were made on a coarse mesh: from its last batch to the boundary
   std::optional<std::string> coarse_stop_reason{};
 
   /// Why nothing more is to be touched.

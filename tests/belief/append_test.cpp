@@ -1,10 +1,10 @@
 // The fast ways to a posterior against the dense formulas: in one pass, in many, foreseen, and without keeping anything.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
 
+#include "belief/dense.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
@@ -13,32 +13,6 @@
 
 namespace palpation {
 namespace {
-
-double worst(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
-
-void expect_alike(const Marginals& a, const Marginals& b, double tolerance) {
-  EXPECT_LE(worst(a.mean, b.mean), tolerance);
-  EXPECT_LE(worst(a.variance, b.variance), tolerance);
-}
-
-/// Equations (1) and (2) for a field of zero mean, with Eigen's own factorization.
-Marginals dense_posterior(const Prior& prior, std::span<const Palpation> palpations, double noise_variance) {
-  const auto n = static_cast<Eigen::Index>(palpations.size());
-  std::vector<SurfacePoint> sites, vertices;
-  Eigen::VectorXd y(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    sites.push_back(palpations[i].where);
-    y[i] = palpations[i].reading;
-  }
-  for (int vertex = 0; vertex < prior.surface().vertex_count(); ++vertex) vertices.push_back(prior.surface().at_vertex(vertex));
-  Eigen::MatrixXd k = prior.covariance(sites, sites);
-  k.diagonal().array() += noise_variance;
-  const Eigen::LLT<Eigen::MatrixXd> factor(k);
-  const Eigen::MatrixXd cross = prior.covariance(sites, vertices);
-  const Eigen::MatrixXd v = factor.matrixL().solve(cross);
-  const double prior_variance = prior.kernel().signal_sd * prior.kernel().signal_sd;
-  return {cross.transpose() * factor.solve(y), (prior_variance - v.colwise().squaredNorm().array()).transpose()};
-}
 
 std::vector<Palpation> readings_around_zero(const Surface& tissue, int count) {
   Random random(11);
@@ -60,7 +34,7 @@ TEST(AppendedRows, AreThoseOfADenseFactorHoweverTheyCame) {
   for (const KernelFamily family :
        {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52}) {
     const Prior prior(tissue, Metric::Ambient, {.family = family, .length_m = 0.004, .signal_sd = 1.3}, {.sd = 0.0});
-    const Marginals dense = dense_posterior(prior, readings, 0.01);
+    const Dense dense = dense_posterior(prior, readings, 0.01);
     const Belief blank(prior, {.noise_sd = 0.1});
     // The matrix' condition number is about 1e4.
     for (const std::size_t size : {301, 100, 10}) expect_alike(in_batches(blank, readings, size).at_vertices(), dense, 1e-11);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "belief/dense.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
@@ -16,50 +17,6 @@ namespace palpation {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
-
-struct Dense {
-  Eigen::VectorXd mean, variance;
-  double log_likelihood;
-};
-
-/// Equations (1) and (2) as they are written, with a constant of the given prior: the slow, obviously right twin.
-Dense dense_posterior(const Prior& prior, const std::vector<Palpation>& palpations, double noise_variance) {
-  const auto n = static_cast<Eigen::Index>(palpations.size());
-  std::vector<SurfacePoint> sites, vertices;
-  Eigen::VectorXd y(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    sites.push_back(palpations[i].where);
-    y[i] = palpations[i].reading;
-  }
-  for (int vertex = 0; vertex < prior.surface().vertex_count(); ++vertex) vertices.push_back(prior.surface().at_vertex(vertex));
-  Eigen::MatrixXd s = prior.covariance(sites, sites);
-  for (Eigen::Index i = 0; i < n; ++i) s(i, i) += std::isnan(palpations[i].noise_variance) ? noise_variance : palpations[i].noise_variance;
-  const Eigen::MatrixXd cross = prior.covariance(sites, vertices);
-  const Eigen::MatrixXd inverse = s.inverse();
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(n);
-  const double sd = prior.constant().sd;
-  const double precision = sd > 0.0 ? ones.dot(inverse * ones) + 1.0 / (sd * sd) : kUnknown;
-  const double constant = sd > 0.0 ? ones.dot(inverse * y) / precision : 0.0;
-  Dense result;
-  result.mean = (cross.transpose() * inverse * (y - constant * ones)).array() + constant;
-  const Eigen::RowVectorXd residual = Eigen::RowVectorXd::Ones(cross.cols()) - ones.transpose() * inverse * cross;
-  result.variance = prior.kernel().signal_sd * prior.kernel().signal_sd - (cross.transpose() * inverse * cross).diagonal().array() +
-                    residual.transpose().array().square() / precision;
-  const Eigen::VectorXd r = y - constant * ones;
-  double square = r.dot(inverse * r) + (sd > 0.0 && std::isfinite(sd) ? constant * constant / (sd * sd) : 0.0);
-  double log_determinant = std::log(s.determinant());
-  double free = static_cast<double>(n);
-  if (std::isinf(sd)) {
-    log_determinant += std::log(precision);
-    free -= 1.0;
-  } else if (sd > 0.0) {
-    log_determinant += std::log(precision * sd * sd);
-  }
-  result.log_likelihood = -0.5 * (square + log_determinant + free * std::log(2.0 * std::numbers::pi));
-  return result;
-}
-
-double worst(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
 TEST(Belief, AgreesWithScikitLearnOnTwentyRandomScenes) {
   std::ifstream file(PALPATION_SOURCE_DIR "/tests/belief/sklearn_reference.txt");

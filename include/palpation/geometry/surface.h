@@ -64,6 +64,8 @@ class Surface {
   bool is_planar() const;  ///< all vertices in one plane to 1e-6 of the diameter, all normals alike, nowhere two sheets
 
   SurfacePoint at_vertex(int vertex) const;
+  /// The vertex where a point lies, or -1: the corner that has all its weight.
+  int vertex_at(const SurfacePoint& point) const;
   Vec3 position(const SurfacePoint& point) const;
   Vec3 normal(const SurfacePoint& point) const;  ///< vertex normals interpolated, unit
   /// Linear interpolation of a field at the vertices.
