@@ -42,7 +42,8 @@ struct ExperimentArguments {
   std::string name;
   std::filesystem::path scene;  ///< empty: the paper's
   std::vector<std::string> overrides;
-  int trials = 0;  ///< 0: as many as the experiment takes by default
+  std::vector<std::string> only;  ///< run the cells whose names have all of these in them
+  int trials = 0;                 ///< 0: as many as the experiment takes by default
   std::uint64_t first_seed = 0;
   bool print_scene = false;
   std::filesystem::path recordings;  ///< the folder that holds them

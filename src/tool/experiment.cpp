@@ -9,6 +9,7 @@
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "palpation/io/atomic_file.h"
+#include "tool/exit_code.h"
 #include "tool/progress.h"
 #include "tool/setup.h"
 #include "tool/words.h"
@@ -21,6 +22,17 @@ using nlohmann::json;
 Scene base_scene(const ExperimentArguments& arguments, const json& standard) {
   if (!arguments.scene.empty()) return Scene::read(arguments.scene, arguments.overrides);
   return Scene(standard, "experiment " + arguments.name, ".").with_overrides(arguments.overrides);
+}
+
+bool is_chosen(const std::string& name, const ExperimentArguments& arguments) {
+  return std::ranges::all_of(arguments.only, [&](const std::string& text) { return name.find(text) != std::string::npos; });
+}
+
+void refuse_no_cell(std::size_t cells, const ExperimentArguments& arguments) {
+  if (cells > 0) return;
+  std::string texts;
+  for (const std::string& text : arguments.only) texts += (texts.empty() ? "'" : " and '") + text + "'";
+  throw WrongUsage("experiment " + arguments.name + ": no cell has " + texts + " in its name; --print-scene names them all");
 }
 
 bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& arguments) {

@@ -36,6 +36,12 @@ struct Cell {
   Scene scene;
 };
 
+/// Whether a cell of this name is to be run: it has all texts of --only in it.
+bool is_chosen(const std::string& name, const ExperimentArguments& arguments);
+
+/// Refuses a choice that leaves no cell.
+void refuse_no_cell(std::size_t cells, const ExperimentArguments& arguments);
+
 /// Where --print-scene was asked for, prints all scenes and returns true: nothing is to be run then.
 bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& arguments);
 

@@ -3,6 +3,7 @@
 
 #include "palpation/base/error.h"
 #include "tool/commands.h"
+#include "tool/exit_code.h"
 #include "tool/experiment.h"
 #include "tool/output_folder.h"
 
@@ -13,12 +14,12 @@ struct Experiment {
   const char* name;
   void (*run)(const ExperimentArguments& arguments);
   int trials = 5;
+  bool cells_stand_alone = false;  ///< so that --only may choose among them
 };
 
 constexpr Experiment kExperiments[] = {
-    {"table1", table1},     {"figure4", figure4},           {"table2", table2},
-    {"coverage", coverage}, {"detection", detection},       {"recordings", recordings},
-    {"curved", curved},     {"acquisitions", acquisitions}, {"tradeoff", tradeoff, 20},
+    {"table1", table1, 5, true}, {"figure4", figure4}, {"table2", table2, 5, true},    {"coverage", coverage},     {"detection", detection},
+    {"recordings", recordings},  {"curved", curved},   {"acquisitions", acquisitions}, {"tradeoff", tradeoff, 20},
 };
 
 }  // namespace
@@ -32,6 +33,8 @@ std::vector<std::string> experiment_names() {
 void experiment(const ExperimentArguments& arguments) {
   const auto* found = std::ranges::find(kExperiments, arguments.name, &Experiment::name);
   require(found != std::end(kExperiments), "experiment", arguments.name, "is none");
+  if (!arguments.only.empty() && !found->cells_stand_alone)
+    throw WrongUsage("experiment " + arguments.name + ": --only chooses among the cells of table1 and table2, not of this one");
   if (!arguments.out.empty() && !arguments.print_scene) make_folder(arguments.out);  // before hours of work, not after them
   ExperimentArguments complete = arguments;
   if (complete.trials == 0) complete.trials = found->trials;

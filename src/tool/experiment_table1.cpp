@@ -38,16 +38,19 @@ std::optional<double> printed_value(const std::string& shape, const std::string&
   return found->second[(shape == "disk" ? 0 : 3) + algorithm_index];
 }
 
-Table table_of(const Scene& base, bool keep_tumours) {
+Table table_of(const Scene& base, const ExperimentArguments& arguments) {
+  const bool keep_tumours = !arguments.scene.empty();
   Table table;
   const auto add = [&](const std::string& level, const std::string& row, double noise, double bias) {
     for (const std::string& shape : keep_tumours ? std::vector<std::string>{"the scene's"} : kPaperShapes) {
       for (const std::string& algorithm : kPaperAlgorithms) {
+        const std::string name = row + ", " + shape + ", " + algorithm + ", level " + level;
+        if (!is_chosen(name, arguments)) continue;
         Scene scene =
             base.with("probe.noise", noise).with("probe.bias", bias).with("plan.acquisition", algorithm).with("level.estimate", level);
         if (!keep_tumours) scene = scene.with("probe.tumours", paper_tumour(shape));
         table.entries.push_back({shape, row, algorithm, level, printed_value(shape, row, algorithm)});
-        table.cells.push_back({row + ", " + shape + ", " + algorithm + ", level " + level, scene});
+        table.cells.push_back({name, scene});
       }
     }
   };
@@ -67,28 +70,31 @@ void report(const std::vector<Entry>& entries, const Errors& errors, const Exper
     if (entry.level != level) {
       level = entry.level;
       std::printf(
-          "\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed in the paper)\n",
+          "\n\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed in the paper)",
           level == "known" ? "Level known beforehand (the authors' code)" : "Level from the greatest and least mean (the paper's text)",
           arguments.trials);
     }
-    if (entry.algorithm == "evr") std::printf("%-12s%-12s", entry.row.c_str(), entry.shape.c_str());
+    if (i == 0 || entry.row != entries[i - 1].row || entry.shape != entries[i - 1].shape || entry.level != entries[i - 1].level)
+      std::printf("\n%-12s%-12s", entry.row.c_str(), entry.shape.c_str());
     std::printf("  %-8s%s (%s)", entry.algorithm.c_str(), in_words(result).c_str(), or_dash(entry.printed).c_str());
-    if (entry.algorithm == "ils-ucb") std::printf("\n");
     csv += entry.level + "," + entry.row + "," + entry.shape + "," + entry.algorithm + "," + std::to_string(arguments.trials) + "," +
            text_of(result.mean) + "," + or_empty(result.standard_error) + "," + or_empty(entry.printed) + "\n";
   }
+  std::printf("\n");
   write_table(arguments, "table1", csv);
 }
 
 /// The tool's defaults on the same phantoms, with the level unknown; a trend where there is a bias.
-Table default_table(const Scene& base) {
+Table default_table(const Scene& base, const ExperimentArguments& arguments) {
   Table table;
   const auto add = [&](const std::string& row, double noise, double bias, const std::string& trend) {
     for (const std::string& shape : kPaperShapes) {
+      const std::string name = row + ", " + shape + ", the defaults";
+      if (!is_chosen(name, arguments)) continue;
       const Scene scene =
           base.with("probe.noise", noise).with("probe.bias", bias).with("probe.tumours", paper_tumour(shape)).with("field.trend", trend);
       table.entries.push_back({shape, row, "auto", scene.word("level.estimate"), printed_value(shape, row, "ils-ucb")});
-      table.cells.push_back({row + ", " + shape + ", the defaults", scene});
+      table.cells.push_back({name, scene});
     }
   };
   for (const int percent : {1, 5, 10, 25}) add("noise " + std::to_string(percent) + " %", percent / 100.0, 0.0, "constant");
@@ -131,13 +137,14 @@ void report_defaults(const Table& table, const Errors& errors, const ExperimentA
 }  // namespace
 
 void table1(const ExperimentArguments& arguments) {
-  const Table table = table_of(base_scene(arguments, paper_scene()), !arguments.scene.empty());
-  if (printed_scenes(table.cells, arguments)) return;
-  if (arguments.scene.empty()) {
-    const Table defaults = default_table(base_scene(arguments, default_scene()));
-    report_defaults(defaults, run_trials(defaults.cells, arguments), arguments);
-  }
-  report(table.entries, run_trials(table.cells, arguments), arguments);
+  const Table table = table_of(base_scene(arguments, paper_scene()), arguments);
+  const Table defaults = arguments.scene.empty() ? default_table(base_scene(arguments, default_scene()), arguments) : Table();
+  std::vector<Cell> cells = defaults.cells;
+  cells.insert(cells.end(), table.cells.begin(), table.cells.end());
+  refuse_no_cell(cells.size(), arguments);
+  if (printed_scenes(cells, arguments)) return;
+  if (!defaults.cells.empty()) report_defaults(defaults, run_trials(defaults.cells, arguments), arguments);
+  if (!table.cells.empty()) report(table.entries, run_trials(table.cells, arguments), arguments);
 }
 
 }  // namespace palpation::tool

@@ -85,7 +85,8 @@ struct Table {
   std::vector<Cell> cells;  ///< one per entry
 };
 
-Table table_of(const Scene& base, bool keep_tumours) {
+Table table_of(const Scene& base, const ExperimentArguments& arguments) {
+  const bool keep_tumours = !arguments.scene.empty();
   Table table;
   for (const Method& method : methods()) {
     for (const bool lag_modelled : {false, true}) {
@@ -95,9 +96,11 @@ Table table_of(const Scene& base, bool keep_tumours) {
           for (const auto& [path, value] : method.changes.items()) scene = scene.with(path, value);
           if (!keep_tumours) scene = scene.with("probe.tumours", tumour_of(shape));
           const std::string lag = lag_modelled ? "lag learned" : "lag ignored";
+          const std::string name = method.name + ", " + lag + ", " + shape + ", noise " + std::to_string(percent) + " %";
+          if (!is_chosen(name, arguments)) continue;
           table.entries.push_back(
               {&method, shape, percent, lag_modelled, keep_tumours ? std::nullopt : printed_value(method.column, shape)});
-          table.cells.push_back({method.name + ", " + lag + ", " + shape + ", noise " + std::to_string(percent) + " %", scene});
+          table.cells.push_back({name, scene});
         }
       }
     }
@@ -127,7 +130,8 @@ void report(const std::vector<Entry>& entries, const Errors& errors, const Exper
 }  // namespace
 
 void table2(const ExperimentArguments& arguments) {
-  const Table table = table_of(base_scene(arguments, physical_scene()), !arguments.scene.empty());
+  const Table table = table_of(base_scene(arguments, physical_scene()), arguments);
+  refuse_no_cell(table.cells.size(), arguments);
   if (printed_scenes(table.cells, arguments)) return;
   report(table.entries, run_trials(table.cells, arguments), arguments);
 }

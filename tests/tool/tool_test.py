@@ -133,6 +133,17 @@ class Tool(unittest.TestCase):
         self.assertGreater(summary["error"]["dice"], 0.8)
         self.assertTrue(any("reaches the border" in warning for warning in summary["warnings"]))
 
+    def test_experiments_run_the_cells_that_are_asked_for(self):
+        coarse = ["--trials", 1, "--set", "surface.plane.vertices=[13,25]", "--set", "plan.batches=1", "--quiet", "--out", self.folder]
+        self.done("experiment", "table1", "--only", "noise 5 %", "--only", "disk", *coarse)
+        rows = [row.split(",")[:4] for row in (self.folder / "table1.csv").read_text().splitlines()[1:]]
+        self.assertEqual(rows, [[level, "noise 5 %", "disk", algorithm] for level in ("known", "range") for algorithm in ("evr", "ucb", "ils-ucb")])
+        self.assertEqual(len((self.folder / "table1_defaults.csv").read_text().splitlines()), 2)
+        coarse[3] = "surface.plane.vertices=[19,17]"
+        self.done("experiment", "table2", "--only", "way, lag learned, horseshoe, noise 10 %", *coarse)
+        (row,) = (self.folder / "table2.csv").read_text().splitlines()[1:]
+        self.assertTrue(row.startswith("way,learned,horseshoe,10,1,"), row)
+
     def test_coverage_and_detection_count_runs_over_random_tumours(self):
         coarse = ["--trials", 1, "--set", "surface.plane.vertices=[37,33]", "--set", "plan.batches=2", "--quiet", "--out", self.folder]
         words = self.done("experiment", "coverage", *coarse)
@@ -299,8 +310,8 @@ class Tool(unittest.TestCase):
 
     def test_experiment_prints_scenes_that_run(self):
         cells = json.loads(self.done("experiment", "table1", "--print-scene"))
-        self.assertEqual(len(cells), 2 * 2 * 3 * 8)
-        scene = self.write("cell.json", json.dumps(cells[5]["scene"]))
+        self.assertEqual(len(cells), 2 * 8 + 2 * 2 * 3 * 8)
+        scene = self.write("cell.json", json.dumps(cells[21]["scene"]))
         self.assertIn("Found", self.done("simulate", scene, "--set", "surface.plane.vertices=[26,51]", "--set", "plan.batches=2"))
 
     def test_wrong_usage_ends_with_2(self):
