@@ -2,33 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "palpation/base/tile.h"
 
 namespace palpation {
 namespace {
-
-/// A matrix in rows, padded to whole tiles; what is beyond its size is the identity.
-class Padded {
- public:
-  explicit Padded(Eigen::Index size) : stride((size + kLanes - 1) / kLanes * kLanes), values_(static_cast<std::size_t>(stride * stride)) {}
-
-  double* row(long number) { return values_.data() + number * stride; }
-  const double* row(long number) const { return values_.data() + number * stride; }
-
-  /// Eight rows from `first` on are the tile's columns; its rows stand for `from` to `to`.
-  void take_columns(long first, long from, long to, const double* tile) {
-    for (long i = from; i < to; ++i) {
-      for (int lane = 0; lane < kLanes; ++lane) row(first + lane)[i] = tile[(i - from) * kLanes + lane];
-    }
-  }
-
-  const long stride;
-
- private:
-  std::vector<double> values_;
-};
 
 /// Cholesky's factor of eight rows and columns; false if a pivot is not positive.
 bool factor_block(double* block, long stride) {
@@ -47,48 +25,64 @@ bool factor_block(double* block, long stride) {
   return true;
 }
 
+}  // namespace
+
+void PositiveDefiniteInverse::resize(long size) {
+  stride_ = (size + kLanes - 1) / kLanes * kLanes;
+  for (std::vector<double>* square : {&factor_, &transposed_}) square->resize(static_cast<std::size_t>(stride_ * stride_));
+  for (std::vector<double>* columns : {&tile_, &products_}) columns->resize(static_cast<std::size_t>(stride_ * kLanes));
+}
+
+/// Eight rows from `first` on are the tile's columns; its rows stand for `from` to `to`.
+void PositiveDefiniteInverse::take_columns(std::vector<double>& rows, long first, long from, long to) const {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    double* row = rows.data() + (first + lane) * stride_;
+    for (long i = from; i < to; ++i) row[i] = tile_[static_cast<std::size_t>((i - from) * kLanes + lane)];
+  }
+}
+
 /// Eight columns at a time: what the rows above leave of them, and their own triangle.
-bool factorize(const Eigen::MatrixXd& matrix, Padded& factor) {
-  const long size = matrix.rows();
-  std::vector<double> tile(static_cast<std::size_t>(factor.stride * kLanes));
-  const auto value = [&](long i, long j) { return i < size && j < size ? matrix(i, j) : (i == j ? 1.0 : 0.0); };
-  for (long first = 0; first < factor.stride; first += kLanes) {
-    for (long i = 0; i < first + kLanes; ++i) {
-      for (int lane = 0; lane < kLanes; ++lane) tile[static_cast<std::size_t>(i * kLanes + lane)] = value(i, first + lane);
+bool PositiveDefiniteInverse::factorize(const Eigen::MatrixXd& matrix) {
+  const int stride = static_cast<int>(stride_);
+  for (long first = 0; first < stride_; first += kLanes) {
+    const long given = std::min<long>(kLanes, matrix.rows() - first);
+    std::fill(tile_.begin(), tile_.end(), 0.0);
+    for (long i = 0; i < std::min<long>(first + kLanes, matrix.rows()); ++i) {
+      std::copy_n(matrix.col(i).data() + first, given, tile_.data() + i * kLanes);
     }
-    solve_triangle(factor.row(0), static_cast<int>(factor.stride), tile.data(), static_cast<int>(first));
-    factor.take_columns(first, 0, first, tile.data());
-    double* own = tile.data() + first * kLanes;
-    subtract_product(factor.row(first), static_cast<int>(factor.stride), tile.data(), static_cast<int>(first), own, kLanes);
-    for (int row = 0; row < kLanes; ++row) std::copy(own + row * kLanes, own + row * kLanes + kLanes, factor.row(first + row) + first);
-    if (!factor_block(factor.row(first) + first, factor.stride)) return false;
+    for (long lane = given; lane < kLanes; ++lane) tile_[static_cast<std::size_t>((first + lane) * kLanes + lane)] = 1.0;
+    solve_triangle(factor_.data(), stride, tile_.data(), static_cast<int>(first));
+    take_columns(factor_, first, 0, first);
+    double* own = tile_.data() + first * kLanes;
+    double* rows = factor_.data() + first * stride_;
+    subtract_product(rows, stride, tile_.data(), static_cast<int>(first), own, kLanes);
+    for (int row = 0; row < kLanes; ++row) std::copy_n(own + row * kLanes, kLanes, rows + row * stride_ + first);
+    if (!factor_block(rows + first, stride_)) return false;
   }
   return true;
 }
 
-}  // namespace
-
-std::optional<double> invert_positive_definite(Eigen::MatrixXd& matrix) {
+std::optional<double> PositiveDefiniteInverse::operator()(Eigen::MatrixXd& matrix) {
   const long size = matrix.rows();
-  Padded factor(size);
-  if (!factorize(matrix, factor)) return std::nullopt;
+  resize(size);
+  if (!factorize(matrix)) return std::nullopt;
   double log_determinant = 0.0;
-  for (long i = 0; i < size; ++i) log_determinant += 2.0 * std::log(factor.row(i)[i]);
+  for (long i = 0; i < size; ++i) log_determinant += 2.0 * std::log(factor_[static_cast<std::size_t>(i * (stride_ + 1))]);
 
   // Of X = L^-1 eight columns at a time; X'X has the columns' products with those before and themselves.
-  Padded transposed(size);
-  std::vector<double> tile(static_cast<std::size_t>(factor.stride * kLanes)), products(tile.size());
-  for (long first = 0; first < factor.stride; first += kLanes) {
-    std::fill(tile.begin(), tile.end(), 0.0);
-    for (int lane = 0; lane < kLanes; ++lane) tile[static_cast<std::size_t>(lane * kLanes + lane)] = 1.0;
-    solve_triangle(factor.row(first) + first, static_cast<int>(factor.stride), tile.data(), static_cast<int>(factor.stride - first));
-    transposed.take_columns(first, first, factor.stride, tile.data());
-    std::fill(products.begin(), products.end(), 0.0);
-    subtract_product(transposed.row(0) + first, static_cast<int>(factor.stride), tile.data(), static_cast<int>(factor.stride - first),
-                     products.data(), static_cast<int>(first) + kLanes);
-    for (int lane = 0; lane < kLanes && first + lane < size; ++lane) {
-      for (long i = 0; i <= first + lane; ++i)
-        matrix(i, first + lane) = matrix(first + lane, i) = -products[static_cast<std::size_t>(i * kLanes + lane)];
+  const int stride = static_cast<int>(stride_);
+  for (long first = 0; first < stride_; first += kLanes) {
+    std::fill(tile_.begin(), tile_.end(), 0.0);
+    for (int lane = 0; lane < kLanes; ++lane) tile_[static_cast<std::size_t>(lane * kLanes + lane)] = 1.0;
+    const int rest = static_cast<int>(stride_ - first);
+    solve_triangle(factor_.data() + first * (stride_ + 1), stride, tile_.data(), rest);
+    take_columns(transposed_, first, first, stride_);
+    std::fill(products_.begin(), products_.end(), 0.0);
+    subtract_product(transposed_.data() + first, stride, tile_.data(), rest, products_.data(), static_cast<int>(first) + kLanes);
+    for (long i = 0; i < std::min(first + kLanes, size); ++i) {
+      for (long lane = 0; lane < std::min<long>(kLanes, size - first); ++lane) {
+        matrix(first + lane, i) = matrix(i, first + lane) = -products_[static_cast<std::size_t>(i * kLanes + lane)];
+      }
     }
   }
   return log_determinant;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "belief/intrinsic.h"
+#include "belief/isotropic.h"
 #include "belief/vertex_tiles.h"
 #include "palpation/base/parallel.h"
 #include "palpation/base/targets.h"
@@ -28,12 +29,6 @@ Eigen::MatrixXd modes_of(const Spectrum& spectrum, std::span<const Site> sites) 
 }
 
 constexpr int kRowsAtOnce = 16;
-/// Farther than this e^-s is 0, and times a polynomial of infinity nothing.
-constexpr double kFar = 800.0;
-
-/// Lengths whose square is far from the least and the greatest number: for others (d / length)^2 is not d^2 / length^2.
-constexpr double kLeastLength_m = 1e-100, kMostLength_m = 1e100;
-
 /// rows[r] = scale |x - place r|^2, x the tile's eight places.
 PALPATION_TARGETS void squared_distances(const double* __restrict x, const double* __restrict places, int count, double scale,
                                          double* __restrict rows) {
@@ -45,12 +40,6 @@ PALPATION_TARGETS void squared_distances(const double* __restrict x, const doubl
       rows[row * kLanes + lane] = scale * (u * u + v * v + w * w);
     }
   }
-}
-
-/// s^2 over |difference / length|^2.
-double matern_scale(KernelFamily family) {
-  if (family == KernelFamily::Matern12) return 1.0;
-  return family == KernelFamily::Matern32 ? 3.0 : 5.0;
 }
 
 /// values = s, opposites = -s for values = s^2.
@@ -110,28 +99,6 @@ Eigen::MatrixXd correlations(const Prior& prior, const Kernel& kernel, std::span
     for (Eigen::Index i = 0; i <= first + j; ++i) {
       result(i, j) = correlation(kernel, sites[i].place.coordinates - sites[first + j].place.coordinates);
       if (i >= first) result(first + j, i - first) = result(i, j);
-    }
-  }
-  return result;
-}
-
-/// With K = sum phi phi' s and c = K(x,y) / sqrt(K(x,x) K(y,y)): c' = K'(x,y) / sqrt(..) - c (K'(x,x) / K(x,x) + K'(y,y) / K(y,y)) / 2.
-CorrelationSlopes correlation_slopes(const Prior& prior, const Kernel& kernel, std::span<const Site> sites) {
-  const auto n = static_cast<Eigen::Index>(sites.size());
-  CorrelationSlopes result{correlations(prior, kernel, sites), Eigen::MatrixXd(n, n)};
-  if (prior.metric() == Metric::Intrinsic) {
-    const Eigen::VectorXd& eigenvalues = prior.spectrum().values();
-    Eigen::MatrixXd modes = modes_of(prior.spectrum(), sites);
-    const Eigen::VectorXd weights = spectral_weights(kernel, eigenvalues);
-    for (Eigen::Index i = 0; i < n; ++i) modes.row(i) *= inverse_root((modes.row(i).cwiseAbs2() * weights).value());
-    result.slope.noalias() = modes * spectral_slopes(kernel, eigenvalues).asDiagonal() * modes.transpose();
-    const Eigen::VectorXd own = result.slope.diagonal();
-    result.slope.array() -= 0.5 * result.value.array() * (own.replicate(1, n) + own.transpose().replicate(n, 1)).array();
-    return result;
-  }
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = j; i < n; ++i) {
-      result.slope(i, j) = result.slope(j, i) = correlation_slope(kernel, sites[i].place.coordinates - sites[j].place.coordinates);
     }
   }
   return result;
@@ -214,8 +181,7 @@ void TileCorrelations::operator()(int tile, double* rows) const {
   }
   const double* coordinates = prior_.tiles().coordinates(tile);
   const Kernel& kernel = prior_.kernel();
-  const bool is_usual = kernel.length_m > kLeastLength_m && kernel.length_m < kMostLength_m;
-  if (kernel.family != KernelFamily::Periodic && is_usual) return of_distances(coordinates, rows);
+  if (kernel.family != KernelFamily::Periodic && has_usual_length(kernel)) return of_distances(coordinates, rows);
   for (std::size_t row = 0; row * 3 < coordinates_.size(); ++row) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const Vec3 x(coordinates[lane], coordinates[kLanes + lane], coordinates[2 * kLanes + lane]);

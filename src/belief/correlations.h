@@ -29,12 +29,6 @@ Eigen::MatrixXd unit_features(const Prior& prior, std::span<const SurfacePoint> 
 /// Of all sites (rows) with those from `first` on (columns).
 Eigen::MatrixXd correlations(const Prior& prior, const Kernel& kernel, std::span<const Site> sites, int first = 0);
 
-/// And their derivatives by log length, all with all.
-struct CorrelationSlopes {
-  Eigen::MatrixXd value, slope;
-};
-CorrelationSlopes correlation_slopes(const Prior& prior, const Kernel& kernel, std::span<const Site> sites);
-
 /// Of a place with sites.
 Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::span<const Site> sites);
 

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+#include "belief/likelihood.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
 
@@ -32,8 +33,7 @@ struct Optimum {
 };
 
 struct Objective {
-  const Prior& prior;
-  const std::vector<Site>& sites;
+  Likelihood likelihood;
   const LearnOptions& options;
   Hyperparameters fixed;
   std::array<int, 3> slot{-1, -1, -1};  // of length, signal, noise among the free variables
@@ -50,7 +50,7 @@ struct Objective {
   /// Log posterior and its gradient by the logarithms; remembers the best.
   LikelihoodGradient operator()(const double* x, unsigned count) {
     const Hyperparameters values = at(x);
-    LikelihoodGradient result = likelihood_gradient(prior, sites, values);
+    LikelihoodGradient result = likelihood(values);
     const double log_likelihood = result.value;
     if (!options.likelihood_alone) add_priors(values, result);
     if (result.value > best.value) best = {{x, x + count}, result.value, log_likelihood};
@@ -165,8 +165,10 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   // Around a plane, what is left of readings that lie on one is rounding.
   if (prior.has_slope()) range = std::max(range, kLeastNoise * std::abs(readings.front()));
 
-  Objective objective{
-      prior, sites, options, {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)}, {}};
+  Objective objective{Likelihood(prior, sites),
+                      options,
+                      {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)},
+                      {}};
   std::vector<double> lower, upper, from_start, from_prior;
   const auto free_variable = [&](int parameter, const std::optional<double>& fixed_value, double least_value, double most, double first,
                                  double median) {

@@ -1,3 +1,5 @@
+#include "belief/likelihood.h"
+
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
@@ -8,8 +10,6 @@
 #include "belief/correlations.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
-#include "palpation/base/positive_definite.h"
-#include "palpation/belief/hyperparameters.h"
 
 namespace palpation {
 namespace {
@@ -33,74 +33,90 @@ NoiseSlopes noise_slopes(const Site& site, const MergedReading& merged, double n
   return {plain_square / noise_variance - count + share, 2.0 * merged.variance * share, 2.0 * share * (merged.mean - plain_mean)};
 }
 
-/// P of likelihood_gradient once a slope of normal prior is integrated out too, P - P H (I + H' P H)^-1 H' P with H = Prior::tilt at the
-/// sites; returns what that adds to the log likelihood besides the change of P.
-double integrate_slope_out(const Prior& prior, std::span<const Site> sites, Eigen::MatrixXd& p) {
-  const Tilts tilts = tilts_of(prior, sites);
-  const Tilts weights = p * tilts;
-  const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + tilts.transpose() * weights);
-  p.noalias() -= weights * precision.solve(weights.transpose());
-  return -precision.matrixLLT().diagonal().array().log().sum();
+/// The sums over all elements of a a' - P times those of K, and times those of its slope.
+std::pair<double, double> along(const Eigen::VectorXd& a, const Eigen::MatrixXd& p, const PairCorrelations& k) {
+  double by_value = 0.0, by_slope = 0.0;
+  Eigen::VectorXd column(a.size());
+  for (Eigen::Index j = 0; j < a.size(); ++j) {
+    column = a[j] * a - p.col(j);
+    by_value += column.dot(k.value().col(j));
+    by_slope += column.dot(k.slope().col(j));
+  }
+  return {by_value, by_slope};
 }
 
 }  // namespace
 
-LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at) {
+Likelihood::Likelihood(const Prior& prior, std::span<const Site> sites) : prior_(prior), sites_(sites), correlations_(prior, sites) {
   const auto n = static_cast<Eigen::Index>(sites.size());
-  Kernel kernel = prior.kernel();
-  kernel.length_m = at.length_m;
-  const double signal_variance = at.signal_sd * at.signal_sd;
-  const double noise_variance = at.noise_sd * at.noise_sd;
+  p_.resize(n, n);
+  for (Eigen::VectorXd* values : {&readings_, &variances_, &variance_slopes_, &mean_slopes_}) values->resize(n);
+}
 
-  const auto [k, k_slope] = correlation_slopes(prior, kernel, sites);
-  Eigen::VectorXd readings(n), variances(n), variance_slopes(n), mean_slopes(n);
-  LikelihoodGradient result;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const MergedReading merged = merge(sites[i], noise_variance);
-    const NoiseSlopes slopes = noise_slopes(sites[i], merged, noise_variance);
-    readings[i] = merged.mean;
-    variances[i] = merged.variance;
-    variance_slopes[i] = slopes.variance;
-    mean_slopes[i] = slopes.mean;
-    result.value += scatter_log_likelihood(sites[i], noise_variance);
+void Likelihood::merge_readings(double noise_variance, LikelihoodGradient& result) {
+  for (std::size_t site = 0; site < sites_.size(); ++site) {
+    const auto i = static_cast<Eigen::Index>(site);
+    const MergedReading merged = merge(sites_[site], noise_variance);
+    const NoiseSlopes slopes = noise_slopes(sites_[site], merged, noise_variance);
+    readings_[i] = merged.mean;
+    variances_[i] = merged.variance;
+    variance_slopes_[i] = slopes.variance;
+    mean_slopes_[i] = slopes.mean;
+    result.value += scatter_log_likelihood(sites_[site], noise_variance);
     result.gradient[2] += slopes.scatter;
   }
+}
 
-  // S = signal^2 K + D;  P = S^-1 - S^-1 1 1' S^-1 / (1' S^-1 1 + 1 / constant_sd^2).
-  Eigen::MatrixXd s = signal_variance * k;
-  s.diagonal() += variances;
-  Eigen::MatrixXd p = std::move(s);
-  const std::optional<double> log_determinant = invert_positive_definite(p);
-  if (!log_determinant)
-    throw NumericalError("likelihood_gradient: the covariance is not positive definite at length " + text_of(at.length_m));
-  result.value -= 0.5 * *log_determinant;
-  double free_readings = static_cast<double>(n);
-  const double constant_sd = prior.constant().sd;
-  if (constant_sd > 0.0) {
-    const double constant_precision = 1.0 / (constant_sd * constant_sd);  // 0 if infinite
-    const Eigen::VectorXd weights = p.rowwise().sum();
-    const double precision = weights.sum() + constant_precision;
-    p.noalias() -= weights * weights.transpose() / precision;
-    if (std::isinf(constant_sd)) {
-      result.value -= 0.5 * std::log(precision);
-      free_readings -= 1.0;
-    } else {
-      result.value -= 0.5 * std::log(precision / constant_precision);
-    }
-  }
-  if (prior.has_slope()) result.value += integrate_slope_out(prior, sites, p);
+/// P - P 1 1' P / (1' P 1 + 1 / sd^2); returns what that adds to the log likelihood besides the change of P.
+double Likelihood::integrate_constant_out() {
+  const double sd = prior_.constant().sd;
+  if (sd == 0.0) return 0.0;
+  const double constant_precision = 1.0 / (sd * sd);  // 0 if infinite
+  const Eigen::VectorXd weights = p_.rowwise().sum();
+  const double precision = weights.sum() + constant_precision;
+  p_.noalias() -= weights * weights.transpose() / precision;
+  return -0.5 * std::log(std::isinf(sd) ? precision : precision / constant_precision);
+}
+
+/// P - P H (I + H' P H)^-1 H' P with H = Prior::tilt at the sites, where the prior has a slope; returns as above.
+double Likelihood::integrate_slope_out() {
+  if (!prior_.has_slope()) return 0.0;
+  const Tilts tilts = tilts_of(prior_, sites_);
+  const Tilts weights = p_ * tilts;
+  const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + tilts.transpose() * weights);
+  p_.noalias() -= weights * precision.solve(weights.transpose());
+  return -precision.matrixLLT().diagonal().array().log().sum();
+}
+
+/// P begins as S^-1 with S = signal^2 K + D.
+LikelihoodGradient Likelihood::operator()(const Hyperparameters& at) {
+  const double signal_variance = at.signal_sd * at.signal_sd;
+  LikelihoodGradient result;
+  merge_readings(at.noise_sd * at.noise_sd, result);
+  correlations_.set_length(at.length_m);
+  p_ = signal_variance * correlations_.value();
+  p_.diagonal() += variances_;
+  const std::optional<double> log_determinant = inverse_(p_);
+  if (!log_determinant) throw NumericalError("likelihood: the covariance is not positive definite at length " + text_of(at.length_m));
+  result.value += integrate_constant_out() - 0.5 * *log_determinant;
+  result.value += integrate_slope_out();
+
   // Readings are taken relative to one of them where the constant is unknown: P 1 = 0 then, so only rounding changes.
-  const double origin = std::isinf(constant_sd) ? readings[0] : 0.0;
-  const Eigen::VectorXd residuals = readings.array() - origin;
-  const Eigen::VectorXd a = p * residuals;
+  const bool is_constant_unknown = std::isinf(prior_.constant().sd);
+  const double free_readings = static_cast<double>(sites_.size()) - (is_constant_unknown ? 1.0 : 0.0);
+  const Eigen::VectorXd residuals = readings_.array() - (is_constant_unknown ? readings_[0] : 0.0);
+  const Eigen::VectorXd a = p_ * residuals;
   result.value -= 0.5 * (residuals.dot(a) + free_readings * std::log(2.0 * std::numbers::pi));
 
-  const auto slope = [&](const auto& s_slope) { return 0.5 * (a.dot(s_slope * a) - p.cwiseProduct(s_slope).sum()); };
-  result.gradient[0] = signal_variance * slope(k_slope);
-  result.gradient[1] = 2.0 * signal_variance * slope(k);
-  result.gradient[2] += 0.5 * (a.array().square() * variance_slopes.array() - p.diagonal().array() * variance_slopes.array()).sum();
-  result.gradient[2] -= a.dot(mean_slopes);
+  const auto [along_value, along_slope] = along(a, p_, correlations_);
+  result.gradient[0] = 0.5 * signal_variance * along_slope;
+  result.gradient[1] = signal_variance * along_value;
+  result.gradient[2] += 0.5 * ((a.array().square() - p_.diagonal().array()) * variance_slopes_.array()).sum() - a.dot(mean_slopes_);
   return result;
+}
+
+LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at) {
+  return Likelihood(prior, sites)(at);
 }
 
 /// With L L' = S, w = L^-1 (y - origin) and H = L^-1 (the constant and the slope, each over its prior's standard deviation):

@@ -14,6 +14,7 @@
 #include "bench/tissue.h"
 #include "palpation/base/parallel.h"
 #include "palpation/base/tile.h"
+#include "palpation/belief/hyperparameters.h"
 #include "palpation/decision/batch.h"
 
 using namespace palpation;
@@ -122,6 +123,16 @@ class Bench {
     const double start = cpu_seconds();
     const Batch batch = choose(belief, how == "lazy" ? Evaluation::Lazy : Evaluation::Exhaustive);
     report(cpu_seconds() - start, batch);
+  }
+
+  /// Length, signal and noise by likelihood alone: CPU seconds and the log likelihood reached, then what was learned.
+  void learn(int n, const Hyperparameters& start_values) const {
+    const Prior& prior = scene_.blank.prior();
+    const double start = cpu_seconds();
+    const Hyperparameters found = palpation::learn(prior, first(n), start_values, {.likelihood_alone = true}).values;
+    const double took = cpu_seconds() - start;
+    std::cout << took << " " << log_likelihood(prior, gather_sites(prior, first(n)), found) << " " << found.length_m << " "
+              << found.signal_sd << " " << found.noise_sd << std::endl;
   }
 
   /// Wall seconds of a step on so many threads.
@@ -241,6 +252,10 @@ int main() {
     } else if (command == "greedy") {
       words >> text >> number;
       bench->greedy(text, number);
+    } else if (command == "learn") {
+      Hyperparameters from;
+      words >> number >> from.length_m >> from.signal_sd >> from.noise_sd;
+      bench->learn(number, from);
     } else if (command == "threads") {
       words >> number >> text >> more;
       bench->threads(number, text, more);

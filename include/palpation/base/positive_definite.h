@@ -3,11 +3,25 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 namespace palpation {
 
-/// Replaces a symmetric matrix (n x n, both halves given) by its inverse and returns the logarithm of its determinant; nothing, and the
-/// matrix as it was, if it is not positive definite in double precision. By Cholesky's factor L and (L^-1)' L^-1: 5/3 n^3 operations.
-std::optional<double> invert_positive_definite(Eigen::MatrixXd& matrix);
+/// Inverts one matrix after another in the same memory.
+class PositiveDefiniteInverse {
+ public:
+  /// Replaces a symmetric matrix (n x n, both halves given) by its inverse and returns the logarithm of its determinant; nothing, and the
+  /// matrix as it was, if it is not positive definite in double precision. By Cholesky's factor L and (L^-1)' L^-1: 5/3 n^3 operations.
+  std::optional<double> operator()(Eigen::MatrixXd& matrix);
+
+ private:
+  void resize(long size);
+  bool factorize(const Eigen::MatrixXd& matrix);
+  void take_columns(std::vector<double>& rows, long first, long from, long to) const;
+
+  long stride_ = 0;                          // whole tiles; what is beyond the matrix is the identity
+  std::vector<double> factor_, transposed_;  // rows of L, and of the transposed of its inverse
+  std::vector<double> tile_, products_;      // eight columns
+};
 
 }  // namespace palpation
