@@ -38,6 +38,7 @@ struct Objective {
   Hyperparameters fixed;
   std::array<int, 3> slot{-1, -1, -1};  // of length, signal, noise among the free variables
   Optimum best{};
+  std::optional<double> first{};  // log posterior where the search began
 
   Hyperparameters at(const double* x) const {
     Hyperparameters values = fixed;
@@ -53,6 +54,7 @@ struct Objective {
     LikelihoodGradient result = likelihood(values);
     const double log_likelihood = result.value;
     if (!options.likelihood_alone) add_priors(values, result);
+    if (!first) first = result.value;
     if (result.value > best.value) best = {{x, x + count}, result.value, log_likelihood};
     return result;
   }
@@ -80,8 +82,9 @@ double nlopt_objective(unsigned count, const double* x, double* gradient, void* 
       if (gradient != nullptr && objective.slot[parameter] >= 0) gradient[objective.slot[parameter]] = result.gradient[parameter];
     }
     return result.value;
-  } catch (const NumericalError&) {
-    return -std::numeric_limits<double>::infinity();  // outside what double precision can factor
+  } catch (const NumericalError&) {  // outside what double precision can factor
+    if (!objective.first) objective.first = -std::numeric_limits<double>::infinity();
+    return -std::numeric_limits<double>::infinity();
   }
 }
 
@@ -197,20 +200,23 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   free_variable(1, options.signal_sd, least_signal, most_signal, start.signal_sd, 0.5 * range);
   free_variable(2, options.noise_sd, kLeastNoise * range, 2.0 * range, start.noise_sd, std::sqrt(kRatioMedian) * 0.5 * range);
 
+  double at_start = -std::numeric_limits<double>::infinity();
   if (lower.empty()) {
     nlopt_objective(0, nullptr, nullptr, &objective);
   } else {
+    const std::vector<double> asked = from_start;
     for (std::vector<double>* x : {&from_prior, &from_start}) {
       for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] = std::clamp((*x)[i], lower[i], upper[i]);
     }
     climb(objective, from_start, lower, upper);
+    if (from_start == asked) at_start = *objective.first;
     if (!options.likelihood_alone && from_prior != from_start) climb(objective, from_prior, lower, upper);
   }
   const Optimum& best = objective.best;
   if (!std::isfinite(best.value)) {
     throw NumericalError("learn: no starting point gives a finite likelihood over " + std::to_string(sites.size()) + " places");
   }
-  return {objective.at(best.x.data()), best.value, best.log_likelihood - plane.log_likelihood};
+  return {objective.at(best.x.data()), best.value, best.log_likelihood - plane.log_likelihood, best.value - at_start};
 }
 
 }  // namespace palpation

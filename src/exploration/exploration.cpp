@@ -94,8 +94,8 @@ void Exploration::record(std::span<const Palpation> palpations) {
 }
 
 void Exploration::foresee() {
-  const bool anew = field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails || field_.linear_trend;
-  if (anew || next_.empty()) return;
+  const bool is_fixed = !(field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails || field_.linear_trend);
+  if (next_.empty() || !(is_fixed || may_grow(field_))) return;
   std::vector<SurfacePoint> places;
   for (const int stop : next_) places.push_back(surface_.at_vertex(stop));
   belief_ = belief_.foresee(places);
@@ -114,7 +114,8 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   recorded.insert(recorded.end(), palpations.begin(), palpations.end());
   std::vector<Palpation> all = screened_readings(surface_, field_, recorded, lag_);
   if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
-    LagFit fit = fit_lagged(surface_, field_, all, learned_, lag_);
+    LagFit fit = may_grow(field_) ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
+                                  : fit_lagged(surface_, field_, all, learned_, lag_);
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;

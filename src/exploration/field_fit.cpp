@@ -22,6 +22,8 @@ constexpr double kHalf = 0.5;
 /// of 1,400 per metre, the steepest edge there is, is flattened by it by 4 %.
 constexpr double kMergeWithin = 0.3;
 
+bool is_on_the_way(const Palpation& palpation) { return palpation.kind == TouchKind::Way; }
+
 /// All stops, and every so many of the readings on the way, so that there are no more than `most` in all if the stops allow.
 std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
   const auto on_the_way = [](const Palpation& palpation) { return palpation.kind == TouchKind::Way && palpation.set_aside.empty(); };
@@ -130,17 +132,30 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
   believed.standardize = centred;
   const double ratio = learned.values.noise_sd / learned.values.signal_sd;
   if (ratio * ratio < kSurelyEnoughForSingle) believed.single_precision = false;
-  return {Belief(prior, believed), learned.values, learned.signal_evidence, true, shifted.size() < palpations.size()};
+  return {Belief(prior, believed), learned.values, learned.signal_evidence, true, shifted.size() < palpations.size(), learned.gain};
 }
 
 FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start) {
   return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
 }
 
+bool may_grow(const FieldModel& field) {
+  const bool moves_old_readings = field.lag.is_modelled() || field.screening || field.heavy_tails || field.linear_trend;
+  return field.learns() && field.rebuild_gain > 0.0 && !moves_old_readings && field.constant.sd > 0.0;
+}
+
+FieldFit grow_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Belief& in_force,
+                    const Hyperparameters& learned) {
+  const LearnedField taught = learn_field(surface, field, palpations, learned);
+  const bool was_taught = learned.signal_sd > 0.0;
+  if (!was_taught || taught.gain >= field.rebuild_gain || std::ranges::any_of(palpations, is_on_the_way))
+    return believe(surface, field, palpations, taught);
+  return {in_force.condition_on(palpations.subspan(in_force.palpations().size())), learned, taught.signal_evidence};
+}
+
 FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught) {
   const auto belief_of = [&](const LearnedField& by) {
-    if (!field.learns() || std::ranges::none_of(palpations, [](const Palpation& one) { return one.kind == TouchKind::Way; }))
-      return by.blank.condition_on(palpations);
+    if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way)) return by.blank.condition_on(palpations);
     const double length_m = field.learn_length ? field.length_median_m : field.kernel.length_m;
     const double noise_sd = by.in_force().noise_sd;
     return by.blank.condition_on(merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));

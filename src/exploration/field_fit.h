@@ -36,6 +36,7 @@ struct LearnedField {
   double signal_evidence = 0.0;  ///< log likelihood ratio of this field to noise alone around a constant, or around a plane
   bool taught = false;
   bool from_some = false;  ///< not from all readings
+  double gain = 0.0;       ///< of log posterior over that at the start
 
   Hyperparameters in_force() const;
 };
@@ -57,5 +58,13 @@ FieldFit believe(const Surface& surface, const FieldModel& field, std::span<cons
 
 /// Both.
 FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start);
+
+/// Whether a belief of this field may grow by what is felt, under hyperparameters that are nearly the best (FieldModel::rebuild_gain).
+bool may_grow(const FieldModel& field);
+
+/// As fit_field, of a field that may grow: what was learned before stays, and the belief in force grows by the last of the readings, unless
+/// other hyperparameters gain enough, or some readings were made on the way.
+FieldFit grow_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Belief& in_force,
+                    const Hyperparameters& learned);
 
 }  // namespace palpation

@@ -157,6 +157,9 @@ std::vector<SceneKey> make_scene_keys() {
                  "for readings by the thousand, as along paths: the part of the prior's variance that may be left out, 1e-10 say, so that "
                  "a smooth field is modelled by some hundreds of features whatever the readings' number; bounded, and exact where that "
                  "does not pay (rough kernels, few readings) or their noise is too small; 0: exact")),
+      number("field.rebuild_gain", "nats", 0.0, 100.0, 0.0,
+             "how much better other hyperparameters must explain the readings before the field is built anew with them, 0.5 say; until "
+             "then it grows by the new readings alone, and the next plan follows the last of them sooner; 0: the best ones always"),
       number("field.indenter_radius_mm", "mm", 0.0, 20.0, 0.0,
              "of the probe's round tip, which feels an edge by as much too early: the boundary is drawn that much inwards; 0: not at all"),
       truth("field.heavy_tails", false,

@@ -294,6 +294,7 @@ FieldModel field_of(const Scene& scene) {
   if (field.belief.single_precision && !field.learns() && !field.belief.standardize && field.belief.noise_sd < least_noise_sd)
     scene.refuse("field.precision", "is single, which needs a field.noise of 3.2 % of field.signal_sd at least: take double");
   field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
+  field.rebuild_gain = scene.number("field.rebuild_gain");
   field.screening = scene.truth("field.screening");
   field.heavy_tails = scene.truth("field.heavy_tails");
   field.indenter_radius_m = scene.metres("field.indenter_radius_mm");

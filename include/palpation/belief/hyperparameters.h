@@ -36,7 +36,8 @@ struct Learned {
   Hyperparameters values;
   double log_posterior = 0.0;  ///< log likelihood plus log priors, up to the priors' constants
   double signal_evidence =
-      0.0;  ///< log likelihood ratio of this field to noise alone around a constant, or a plane where the prior has a slope
+      0.0;            ///< log likelihood ratio of this field to noise alone around a constant, or a plane where the prior has a slope
+  double gain = 0.0;  ///< of log posterior over that at the start; infinite where the start is out of bounds
 };
 
 /// `prior` says metric, kernel family and constant; its hyperparameters are where the search starts. Readings that are set aside do not

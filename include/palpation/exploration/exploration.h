@@ -50,6 +50,10 @@ struct FieldModel {
   /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are touched, and until then nothing is
   /// concluded. Level and boundary are of the field without it.
   bool linear_trend = false;
+  /// Nats of log posterior that other hyperparameters must gain before the field is built anew with them; until then it grows by the fresh
+  /// readings alone. 0: always the best ones. Only where nothing but the hyperparameters moves old readings: no lag, screening, heavy tails
+  /// or trend, a constant that is not zero, and touches at stops.
+  double rebuild_gain = 0.0;
 
   bool learns() const { return learn_length || learn_signal || learn_noise; }
 };
@@ -102,8 +106,9 @@ class Exploration {
   std::vector<int> next() const;
 
   /// For the time while the robot moves: does the work for the stops of next() that no reading changes, so that after record() the next
-  /// plan follows at once if all of them were touched, in this order, and nothing on the way. Changes no answer. Only where nothing of the
-  /// field is learned, nothing set aside and no trend modelled; else it does nothing.
+  /// plan follows at once if all of them were touched, in this order, and nothing on the way. Changes no answer. Only where the
+  /// field grows by what is felt (FieldModel::rebuild_gain), or nothing of it is learned, nothing set aside and no trend modelled; else it
+  /// does nothing.
   void foresee();
 
   /// What was felt, at stops and on the way. Stops of the last next() that are not among them gave no contact and are no candidates any
