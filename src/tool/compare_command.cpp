@@ -8,7 +8,7 @@
 #include "palpation/io/wkt.h"
 #include "tool/commands.h"
 #include "tool/output_folder.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/words.h"
 
 namespace palpation::tool {

@@ -11,7 +11,7 @@
 #include "palpation/io/atomic_file.h"
 #include "tool/exit_code.h"
 #include "tool/progress.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/words.h"
 #include "tool/worlds.h"
 

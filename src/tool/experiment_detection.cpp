@@ -6,9 +6,10 @@
 #include <cstdio>
 
 #include "palpation/base/error.h"
+#include "palpation/world/tumour.h"
 #include "tool/experiment.h"
 #include "tool/paper_scene.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/words.h"
 #include "tool/worlds.h"
 

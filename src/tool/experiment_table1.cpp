@@ -8,7 +8,7 @@
 #include "palpation/certainty/reference_bound.h"
 #include "tool/experiment.h"
 #include "tool/paper_scene.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/worlds.h"
 
 namespace palpation::tool {

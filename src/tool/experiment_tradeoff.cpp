@@ -7,9 +7,9 @@
 #include "tool/experiment.h"
 #include "tool/output_folder.h"
 #include "tool/peak_memory.h"
-#include "tool/setup.h"
 #include "tool/speed.h"
 #include "tool/stopwatch.h"
+#include "tool/tissue.h"
 #include "tool/words.h"
 #include "tool/worlds.h"
 

@@ -9,6 +9,7 @@
 #include "tool/progress.h"
 #include "tool/setup.h"
 #include "tool/stopwatch.h"
+#include "tool/tissue.h"
 #include "tool/words.h"
 #include "tool/worlds.h"
 

@@ -17,22 +17,15 @@ namespace palpation::tool {
 /// The probe's readings on its way are this far apart, as the robot's are (Garg et al. 2016, section VII).
 inline constexpr double kWayStep_m = 0.001;
 
-struct Tissue {
-  Surface surface;
-  std::vector<std::string> warnings;  ///< of the reader
-};
-
-/// Reads, cuts and refines the scene's mesh. Throws IoError, InvalidMesh, and InvalidInput that says what to do where the scene asks for
-/// what the mesh cannot give.
-Tissue tissue_of(const Scene& scene);
-
 FieldModel field_of(const Scene& scene);
 LevelRule level_rule_of(const Scene& scene);
 Plan plan_of(const Scene& scene);
 Robot robot_of(const Scene& scene);
 /// What the robot can touch, in the tissue's frame.
 Access access_of(const Scene& scene);
-/// The vertices that it can, where that is limited.
+/// Whether that is limited.
+bool limits_reach(const Scene& scene);
+/// The vertices that it can, where it is.
 std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface);
 Phantom phantom_of(const Scene& scene, const Surface& surface);
 

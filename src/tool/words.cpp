@@ -157,6 +157,10 @@ std::string fixed(double value, int digits) {
   return text.data();
 }
 
+std::string without(const std::string& start, const std::string& words) {
+  return words.starts_with(start) ? words.substr(start.size()) : words;
+}
+
 std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   if (exploration.belief().site_count() == 0) return {};

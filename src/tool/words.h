@@ -17,6 +17,8 @@ inline constexpr const char* kNoContrast = "Nothing found: the readings show no 
 inline constexpr const char* kTooFewForTrend = "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
 
 std::string fixed(double value, int digits);
+/// The words after this start, where they have it.
+std::string without(const std::string& start, const std::string& words);
 
 /// One line on the state after a batch.
 std::string batch_words(const Episode& episode);

@@ -12,7 +12,7 @@
 #include "palpation/base/random.h"
 #include "tool/episode.h"
 #include "tool/scene_schema.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/worlds.h"
 
 namespace palpation::tool {

@@ -11,7 +11,7 @@
 #include "palpation/io/measurements.h"
 #include "tool/commands.h"
 #include "tool/episode.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/words.h"
 
 namespace palpation::tool {

@@ -7,7 +7,7 @@
 #include "tool/episode.h"
 #include "tool/exit_code.h"
 #include "tool/scene_schema.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/worlds.h"
 
 namespace palpation::tool {

@@ -13,7 +13,7 @@
 #include "palpation/io/atomic_file.h"
 #include "tool/episode.h"
 #include "tool/exit_code.h"
-#include "tool/setup.h"
+#include "tool/tissue.h"
 #include "tool/worlds.h"
 
 namespace palpation::tool {

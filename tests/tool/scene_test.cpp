@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "palpation/base/error.h"
 #include "tool/scene_schema.h"
 #include "tool/setup.h"
 #include "tool/speed.h"
+#include "tool/tissue.h"
 
 namespace palpation::tool {
 namespace {
@@ -77,6 +79,19 @@ TEST(Setup, JoinsTheVerticesOfAMeshOnlyWhereTheSceneSaysSo) {
   ASSERT_EQ(joined.warnings.size(), 1u);
   EXPECT_NE(joined.warnings[0].find("2 vertices were joined"), std::string::npos) << joined.warnings[0];
   std::filesystem::remove(folder / name);
+}
+
+TEST(Setup, CutsARefinedPatchAtItsRadiusWhateverTheMeshWas) {
+  const json given = {{"surface",
+                       {{"plane", {{"size_mm", {40, 40}}, {"vertices", {11, 11}}}},
+                        {"patch", {{"centre_mm", {20, 20, 0}}, {"radius_mm", 10}}},
+                        {"refine_mm", 0.5}}}};
+  const Surface patch = tissue_of(Scene(given, "test", ".")).surface;
+  const double disk_m2 = std::numbers::pi * 0.010 * 0.010;
+  EXPECT_LT(patch.area(), disk_m2);
+  EXPECT_GT(patch.area(), 0.94 * disk_m2) << "teeth of half a millimetre, not of four";
+  for (int vertex = 0; vertex < patch.vertex_count(); ++vertex)
+    EXPECT_LE((patch.vertex(vertex) - Vec3(0.020, 0.020, 0.0)).norm(), 0.010 + 1e-12);
 }
 
 TEST(Setup, ReadsThePapersModel) {
