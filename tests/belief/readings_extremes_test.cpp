@@ -10,6 +10,7 @@
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
+#include "palpation/belief/hyperparameters.h"
 
 namespace palpation {
 namespace {
@@ -239,6 +240,21 @@ TEST(ReadingsExtremes, TheLikelihoodOfAThousandReadingsIsALogarithmThatNeverUnde
   const double twin =
       -0.5 * (y.dot(factor.solve(y)) + factor.vectorD().array().log().sum() + 1000.0 * std::log(2.0 * 3.14159265358979323846));
   EXPECT_NEAR(ours / twin, 1.0, 1e-9);
+}
+
+TEST(ReadingsExtremes, WhatLearningClimbsIsAsGoodByItsInverseAsByAFactor) {
+  const Surface tissue = plane(26, 51);
+  Random random(4);
+  const std::vector<Palpation> readings = bumpy_readings(tissue, 60, random);
+  const Prior prior(tissue, Metric::Chart, {.length_m = 0.008}, {.sd = 0.0});
+  for (const double s2 : {1e-4, 1e-7, 1e-10}) {
+    const Big exact = BigPosterior(prior, readings, s2).log_likelihood();
+    const std::vector<Site> sites = gather_sites(prior, readings);
+    const Hyperparameters at{0.008, 1.0, std::sqrt(s2)};
+    const double bound = 1e-10 * static_cast<double>(abs(exact));
+    EXPECT_LT(absolute_error(likelihood_gradient(prior, sites, at).value, exact), bound) << s2;
+    EXPECT_LT(absolute_error(log_likelihood(prior, sites, at), exact), bound) << s2;
+  }
 }
 
 TEST(ReadingsExtremes, MorePlacesThanMemoryHoldsAreRefusedBeforeTheyAreModelled) {
