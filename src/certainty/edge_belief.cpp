@@ -23,9 +23,6 @@ constexpr double kDeep_m = 0.008;
 /// Mean squared residual over noise variance: what chance makes of a hundred readings is less.
 constexpr double kMuchScatter = 1.3;
 constexpr int kMostRounds = 4;
-/// The field's mean shows the plateaus to within a quarter of its range: a ridge of the slope's own width reaches four fifths of its
-/// height.
-constexpr double kPlateauError = 0.25;
 /// Laplace's approximation takes the profile as straight. Where the boundary may be off by a good part of the edge's width, readings tell
 /// less than that: the offset's variance grows by this much for a standard deviation of 1 / slope (found on simulated tumours).
 constexpr double kCurved = 3.0;
@@ -173,7 +170,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   const double touch_variance = std::max(belief.noise_variance(), model_variance);
   all.variance = all.variance.cwiseMax(model_variance);
 
-  const double plateau_variance = kPlateauError * kPlateauError * range * range;
+  const double plateau_variance = shape.plateau_error * shape.plateau_error * range * range;
   const ProfilePrior profile{{least, least + range, std::log(shape.slope_per_m)},
                              {plateau_variance, plateau_variance, shape.slope_log_sd * shape.slope_log_sd}};
   const Kernel kernel{.family = KernelFamily::Matern52, .length_m = shape.correction_length_m, .signal_sd = shape.correction_sd_m};

@@ -191,11 +191,13 @@ void Exploration::estimate_boundary() {
   const double noise_log_sd = field_.learn_noise ? learned_noise_log_sd(belief_.site_count()) : 0.0;
   edge_ = EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction, {}, noise_log_sd);
   if (edge_) level_ = edge_->level();
-  // Where contact fades no profile fits: its plateau may run away, and with it the level.
-  if (level_->value <= component_.mean.minCoeff() || level_->value >= component_.mean.maxCoeff()) {
-    edge_.reset();
-    level_ = level_from_range(component_, level_rule_.fraction);
-  }
+  // Where contact fades no profile fits: its plateau may run away, and with it the level. The mean's range is left: its least is felt
+  // all over healthy tissue, its greatest is as unsure a plateau as it was for the profile.
+  const double least = component_.mean.minCoeff(), greatest = component_.mean.maxCoeff(), fraction = level_rule_.fraction;
+  if (level_->value > least && level_->value < greatest) return;
+  edge_.reset();
+  level_ = level_from_range(component_, fraction);
+  level_->stddev = fraction * ShapePrior{}.plateau_error * (greatest - least);
 }
 
 /// A sigmoid's steepest rise is a quarter of slope times contrast.

@@ -27,6 +27,9 @@ struct ShapePrior {
   double correction_length_m = 0.009;  ///< over which it is off the same way: the least radius of curvature of tumours of a few cm2
   double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
+  /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's own width reaches four fifths of its
+  /// height.
+  double plateau_error = 0.25;
 };
 
 /// What is not known of a noise that `readings` readings taught: the standard deviation of the logarithm of its own, 1 / sqrt(2 readings).
