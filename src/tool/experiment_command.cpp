@@ -18,8 +18,9 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
-    {"table1", table1, 5, true}, {"figure4", figure4}, {"table2", table2, 5, true},    {"coverage", coverage},     {"detection", detection},
-    {"recordings", recordings},  {"curved", curved},   {"acquisitions", acquisitions}, {"tradeoff", tradeoff, 20},
+    {"table1", table1, 5, true}, {"figure4", figure4},           {"table2", table2, 5, true},
+    {"coverage", coverage},      {"detection", detection},       {"recordings", recordings},
+    {"curved", curved, 5, true}, {"acquisitions", acquisitions}, {"tradeoff", tradeoff, 20},
 };
 
 }  // namespace
@@ -34,7 +35,7 @@ void experiment(const ExperimentArguments& arguments) {
   const auto* found = std::ranges::find(kExperiments, arguments.name, &Experiment::name);
   require(found != std::end(kExperiments), "experiment", arguments.name, "is none");
   if (!arguments.only.empty() && !found->cells_stand_alone)
-    throw WrongUsage("experiment " + arguments.name + ": --only chooses among the cells of table1 and table2, not of this one");
+    throw WrongUsage("experiment " + arguments.name + ": --only chooses among the cells of table1, table2 and curved, not of this one");
   if (!arguments.out.empty() && !arguments.print_scene) make_folder(arguments.out);  // before hours of work, not after them
   ExperimentArguments complete = arguments;
   if (complete.trials == 0) complete.trials = found->trials;

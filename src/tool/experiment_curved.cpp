@@ -178,13 +178,16 @@ void curved(const ExperimentArguments& arguments) {
   for (std::size_t tissue = 0; tissue < all.size(); ++tissue) {
     for (const std::string& shape : kPaperShapes) {
       for (const std::string& metric : kMetrics) {
+        const std::string name = all[tissue].name + ", " + shape + ", " + metric;
+        if (!is_chosen(name, arguments)) continue;
         const Vec3 centre_mm = shape == "disk" ? all[tissue].disk_mm : all[tissue].horseshoe_mm;
         const Scene scene = base.with("field.metric", metric).with("probe.tumours", tumour_at(shape, centre_mm));
         rows.push_back({tissue, shape, metric, scene});
-        cells.push_back({all[tissue].name + ", " + shape + ", " + metric, scene});
+        cells.push_back({name, scene});
       }
     }
   }
+  refuse_no_cell(cells.size(), arguments);
   if (printed_scenes(cells, arguments)) return;
 
   std::vector<TriangleMesh> meshes;
@@ -204,25 +207,26 @@ void curved(const ExperimentArguments& arguments) {
               "laid flat");
   std::string csv =
       "tissue,shape,metric,trials,error_mm2,standard_error,of_flat,mean_distance_mm,prepare_s,batch_s,least_stretch,greatest_stretch\n";
-  std::array<double, 2> flat{};
+  std::array<std::optional<double>, 2> flat{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     const std::size_t shape = row.shape == kPaperShapes[0] ? 0 : 1;
     const Statistics error = statistics(errors_of(outcomes[i]));
     if (row.tissue == 0 && row.metric == "chart") flat[shape] = error.mean;
+    const std::optional<double> of_flat = flat[shape] ? std::optional(error.mean / *flat[shape]) : std::nullopt;
     const double distance = statistics(distances_of(outcomes[i])).mean, batch_s = median(batches_of(outcomes[i]));
     const double prepare_s = seconds_to_prepare(meshes[row.tissue], row.scene);
     const Distortion& distortion = surfaces[row.tissue].chart().distortion;
-    std::printf("%-20s%-11s%-11s%s%10.2f%10.3f%10.2f%10.3f   %s\n", all[row.tissue].name.c_str(), row.shape.c_str(), row.metric.c_str(),
-                in_words(error).c_str(), error.mean / flat[shape], distance, prepare_s, batch_s,
+    std::printf("%-20s%-11s%-11s%s%10s%10.3f%10.2f%10.3f   %s\n", all[row.tissue].name.c_str(), row.shape.c_str(), row.metric.c_str(),
+                in_words(error).c_str(), or_dash(of_flat).c_str(), distance, prepare_s, batch_s,
                 row.metric == "chart" ? stretch_words(distortion).c_str() : "");
     csv += "\"" + all[row.tissue].name + "\"," + row.shape + "," + row.metric + "," + std::to_string(arguments.trials) + "," +
-           text_of(error.mean) + "," + or_empty(error.standard_error) + "," + text_of(error.mean / flat[shape]) + "," + text_of(distance) +
-           "," + text_of(prepare_s) + "," + text_of(batch_s) + "," + text_of(distortion.least_stretch) + "," +
+           text_of(error.mean) + "," + or_empty(error.standard_error) + "," + or_empty(of_flat) + "," + text_of(distance) + "," +
+           text_of(prepare_s) + "," + text_of(batch_s) + "," + text_of(distortion.least_stretch) + "," +
            text_of(distortion.greatest_stretch) + "\n";
   }
   write_table(arguments, "curved", csv);
-  if (arguments.out.empty()) return;
+  if (arguments.out.empty() || !arguments.only.empty()) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].shape == kPaperShapes[0] && rows[i].metric == kMetrics[0]) draw(arguments, all[rows[i].tissue].name, rows, i, outcomes);
   }

@@ -139,7 +139,7 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("--only", arguments.experiment.only, "of table1 and table2: run the cells with this in their names")
+  command->add_option("--only", arguments.experiment.only, "of table1, table2 and curved: run the cells with this in their names")
       ->allow_extra_args(false);
   command->add_option("--recordings", arguments.experiment.recordings, "of experiment recordings: the folder with the physical recordings");
   command->add_flag("--print-scene", arguments.experiment.print_scene, "print the scene of every cell instead of running it");
