@@ -32,7 +32,7 @@ constexpr double kHeavierTail = 0.3;
 /// Outlines are smoother than the correction's prior, which has corners. That overstates the wrong area the more, the less the readings'
 /// noise adds: by this part where it adds nothing, fading as the mean standard deviation grows past that part of 1 / slope (found in the
 /// same way).
-constexpr double kSmoother = 0.45;
+constexpr double kSmoother = 0.55;
 constexpr double kNoisePart = 0.2;
 
 /// Gauss and Hermite's five nodes for the mean over a standard normal variable.
