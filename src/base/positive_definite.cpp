@@ -47,8 +47,10 @@ bool PositiveDefiniteInverse::factorize(const Eigen::MatrixXd& matrix) {
   for (long first = 0; first < stride_; first += kLanes) {
     const long given = std::min<long>(kLanes, matrix.rows() - first);
     std::fill(tile_.begin(), tile_.end(), 0.0);
-    for (long i = 0; i < std::min<long>(first + kLanes, matrix.rows()); ++i) {
-      std::copy_n(matrix.col(i).data() + first, given, tile_.data() + i * kLanes);
+    for (long i = 0; i < first; ++i) std::copy_n(matrix.col(i).data() + first, given, tile_.data() + i * kLanes);
+    for (long i = 0; i < given; ++i) {
+      for (long lane = 0; lane < given; ++lane)
+        tile_[static_cast<std::size_t>((first + i) * kLanes + lane)] = matrix(first + std::max(i, lane), first + std::min(i, lane));
     }
     for (long lane = given; lane < kLanes; ++lane) tile_[static_cast<std::size_t>((first + lane) * kLanes + lane)] = 1.0;
     solve_triangle(factor_.data(), stride, tile_.data(), static_cast<int>(first));
@@ -80,9 +82,8 @@ std::optional<double> PositiveDefiniteInverse::operator()(Eigen::MatrixXd& matri
     std::fill(products_.begin(), products_.end(), 0.0);
     subtract_product(transposed_.data() + first, stride, tile_.data(), rest, products_.data(), static_cast<int>(first) + kLanes);
     for (long i = 0; i < std::min(first + kLanes, size); ++i) {
-      for (long lane = 0; lane < std::min<long>(kLanes, size - first); ++lane) {
-        matrix(first + lane, i) = matrix(i, first + lane) = -products_[static_cast<std::size_t>(i * kLanes + lane)];
-      }
+      for (long lane = std::max(0L, i - first); lane < std::min<long>(kLanes, size - first); ++lane)
+        matrix(first + lane, i) = -products_[static_cast<std::size_t>(i * kLanes + lane)];
     }
   }
   return log_determinant;

@@ -37,10 +37,12 @@ NoiseSlopes noise_slopes(const Site& site, const MergedReading& merged, double n
 std::pair<double, double> along(const Eigen::VectorXd& a, const Eigen::MatrixXd& p, const PairCorrelations& k) {
   double by_value = 0.0, by_slope = 0.0;
   Eigen::VectorXd column(a.size());
-  for (Eigen::Index j = 0; j < a.size(); ++j) {
-    column = a[j] * a - p.col(j);
-    by_value += column.dot(k.value().col(j));
-    by_slope += column.dot(k.slope().col(j));
+  for (Eigen::Index j = 0, rest = a.size(); rest > 0; ++j, --rest) {
+    auto below = column.head(rest);
+    below = a[j] * a.tail(rest) - p.col(j).tail(rest);
+    below[0] *= 0.5;  // the diagonal counts once
+    by_value += 2.0 * below.dot(k.value().col(j).tail(rest));
+    by_slope += 2.0 * below.dot(k.slope().col(j).tail(rest));
   }
   return {by_value, by_slope};
 }
@@ -72,9 +74,9 @@ double Likelihood::integrate_constant_out() {
   const double sd = prior_.constant().sd;
   if (sd == 0.0) return 0.0;
   const double constant_precision = 1.0 / (sd * sd);  // 0 if infinite
-  const Eigen::VectorXd weights = p_.rowwise().sum();
+  const Eigen::VectorXd weights = p_.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(p_.rows());
   const double precision = weights.sum() + constant_precision;
-  p_.noalias() -= weights * weights.transpose() / precision;
+  p_.selfadjointView<Eigen::Lower>().rankUpdate(weights, -1.0 / precision);
   return -0.5 * std::log(std::isinf(sd) ? precision : precision / constant_precision);
 }
 
@@ -82,19 +84,20 @@ double Likelihood::integrate_constant_out() {
 double Likelihood::integrate_slope_out() {
   if (!prior_.has_slope()) return 0.0;
   const Tilts tilts = tilts_of(prior_, sites_);
-  const Tilts weights = p_ * tilts;
+  const Tilts weights = p_.selfadjointView<Eigen::Lower>() * tilts;
   const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + tilts.transpose() * weights);
-  p_.noalias() -= weights * precision.solve(weights.transpose());
+  const Eigen::Matrix3Xd roots = precision.matrixL().solve(weights.transpose());
+  p_.selfadjointView<Eigen::Lower>().rankUpdate(roots.transpose(), -1.0);
   return -precision.matrixLLT().diagonal().array().log().sum();
 }
 
-/// P begins as S^-1 with S = signal^2 K + D.
+/// P begins as S^-1 with S = signal^2 K + D; of both the lower half.
 LikelihoodGradient Likelihood::operator()(const Hyperparameters& at) {
   const double signal_variance = at.signal_sd * at.signal_sd;
   LikelihoodGradient result;
   merge_readings(at.noise_sd * at.noise_sd, result);
   correlations_.set_length(at.length_m);
-  p_ = signal_variance * correlations_.value();
+  p_.triangularView<Eigen::Lower>() = signal_variance * correlations_.value();
   p_.diagonal() += variances_;
   const std::optional<double> log_determinant = inverse_(p_);
   if (!log_determinant) throw NumericalError("likelihood: the covariance is not positive definite at length " + text_of(at.length_m));
@@ -105,7 +108,7 @@ LikelihoodGradient Likelihood::operator()(const Hyperparameters& at) {
   const bool is_constant_unknown = std::isinf(prior_.constant().sd);
   const double free_readings = static_cast<double>(sites_.size()) - (is_constant_unknown ? 1.0 : 0.0);
   const Eigen::VectorXd residuals = readings_.array() - (is_constant_unknown ? readings_[0] : 0.0);
-  const Eigen::VectorXd a = p_ * residuals;
+  const Eigen::VectorXd a = p_.selfadjointView<Eigen::Lower>() * residuals;
   result.value -= 0.5 * (residuals.dot(a) + free_readings * std::log(2.0 * std::numbers::pi));
 
   const auto [along_value, along_slope] = along(a, p_, correlations_);

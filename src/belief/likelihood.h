@@ -28,7 +28,7 @@ class Likelihood {
   std::span<const Site> sites_;
   PairCorrelations correlations_;
   PositiveDefiniteInverse inverse_;
-  Eigen::MatrixXd p_;
+  Eigen::MatrixXd p_;  // the lower half
   Eigen::VectorXd readings_, variances_, variance_slopes_, mean_slopes_;
 };
 

@@ -33,8 +33,8 @@ PALPATION_TARGETS void finish_matern(KernelFamily family, Eigen::Index count, do
 }  // namespace
 
 PairCorrelations::PairCorrelations(const Prior& prior, std::span<const Site> sites)
-    : prior_(prior), count_(static_cast<Eigen::Index>(sites.size())) {
-  squares_.setZero((count_ * count_ + kLanes - 1) / kLanes * kLanes);
+    : prior_(prior), count_(static_cast<Eigen::Index>(sites.size())), stride_((count_ + kLanes - 1) / kLanes * kLanes) {
+  squares_.setZero(stride_ * count_);
   value_ = slope_ = squares_;
   if (prior.metric() == Metric::Intrinsic) {
     modes_.resize(count_, prior.spectrum().rank());
@@ -44,7 +44,7 @@ PairCorrelations::PairCorrelations(const Prior& prior, std::span<const Site> sit
   coordinates_.resize(3, count_);
   for (Eigen::Index i = 0; i < count_; ++i) coordinates_.col(i) = sites[static_cast<std::size_t>(i)].place.coordinates;
   for (Eigen::Index j = 0; j < count_; ++j) {
-    squares_.segment(j * count_, count_) = (coordinates_.colwise() - coordinates_.col(j)).colwise().squaredNorm();
+    squares_.segment(j * stride_, count_) = (coordinates_.colwise() - coordinates_.col(j)).colwise().squaredNorm();
   }
 }
 
@@ -60,27 +60,32 @@ void PairCorrelations::set_length(double length_m) {
   }
 }
 
-/// As correlation() and correlation_slope() have them, all pairs in one loop.
+/// As correlation() and correlation_slope() have them, a column from its diagonal's tile on at a time.
 void PairCorrelations::of_distances(const Kernel& kernel) {
   const double inverse_square = 1.0 / (kernel.length_m * kernel.length_m);
-  if (kernel.family == KernelFamily::SquaredExponential) {
-    value_ = -0.5 * inverse_square * squares_;
-    exponentials(value_.data(), value_.size());
-    slope_ = inverse_square * squares_ * value_;
-    return;
+  for (Eigen::Index j = 0; j < count_; ++j) {
+    const Eigen::Index first = j / kLanes * kLanes, count = stride_ - first;
+    const auto square = squares_.segment(j * stride_ + first, count);
+    auto value = value_.segment(j * stride_ + first, count), slope = slope_.segment(j * stride_ + first, count);
+    if (kernel.family == KernelFamily::SquaredExponential) {
+      value = -0.5 * inverse_square * square;
+      exponentials(value.data(), count);
+      slope = inverse_square * square * value;
+    } else {
+      slope = (matern_scale(kernel.family) * inverse_square * square).sqrt().min(kFar);
+      value = -slope;
+      exponentials(value.data(), count);
+      finish_matern(kernel.family, count, value.data(), slope.data());
+    }
   }
-  slope_ = (matern_scale(kernel.family) * inverse_square * squares_).sqrt().min(kFar);
-  value_ = -slope_;
-  exponentials(value_.data(), value_.size());
-  finish_matern(kernel.family, value_.size(), value_.data(), slope_.data());
 }
 
 void PairCorrelations::of_differences(const Kernel& kernel) {
   for (Eigen::Index j = 0; j < count_; ++j) {
-    for (Eigen::Index i = 0; i < count_; ++i) {
+    for (Eigen::Index i = j; i < count_; ++i) {
       const Vec3 difference = coordinates_.col(i) - coordinates_.col(j);
-      value_[j * count_ + i] = correlation(kernel, difference);
-      slope_[j * count_ + i] = correlation_slope(kernel, difference);
+      value_[j * stride_ + i] = correlation(kernel, difference);
+      slope_[j * stride_ + i] = correlation_slope(kernel, difference);
     }
   }
 }
@@ -91,7 +96,9 @@ void PairCorrelations::of_modes(const Kernel& kernel) {
   const Eigen::VectorXd weights = spectral_weights(kernel, eigenvalues);
   Eigen::MatrixXd unit = modes_;
   for (Eigen::Index i = 0; i < unit.rows(); ++i) unit.row(i) *= inverse_root((unit.row(i).cwiseAbs2() * weights).value());
-  Eigen::Map<Eigen::MatrixXd> value(value_.data(), count_, count_), slope(slope_.data(), count_, count_);
+  using Square = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+  Square value(value_.data(), count_, count_, Eigen::OuterStride<>(stride_)),
+      slope(slope_.data(), count_, count_, Eigen::OuterStride<>(stride_));
   value.noalias() = unit * weights.asDiagonal() * unit.transpose();
   value.diagonal().setOnes();
   slope.noalias() = unit * spectral_slopes(kernel, eigenvalues).asDiagonal() * unit.transpose();

@@ -17,9 +17,10 @@ class PairCorrelations {
   /// The family is the prior's.
   void set_length(double length_m);
 
-  using Square = Eigen::Map<const Eigen::MatrixXd>;
-  Square value() const { return Square(value_.data(), count_, count_); }  ///< all with all
-  Square slope() const { return Square(slope_.data(), count_, count_); }  ///< d value / d log(length)
+  /// All with all: on the diagonal and below it; nothing is meant by what stands above.
+  using Lower = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+  Lower value() const { return Lower(value_.data(), count_, count_, Eigen::OuterStride<>(stride_)); }
+  Lower slope() const { return Lower(slope_.data(), count_, count_, Eigen::OuterStride<>(stride_)); }  ///< d value / d log(length)
 
  private:
   void of_distances(const Kernel& kernel);
@@ -27,11 +28,11 @@ class PairCorrelations {
   void of_modes(const Kernel& kernel);
 
   const Prior& prior_;
-  Eigen::Index count_;
-  Eigen::MatrixXd modes_;  // sites x modes, in the intrinsic metric; in the others:
+  Eigen::Index count_, stride_;  // whole tiles a column
+  Eigen::MatrixXd modes_;        // sites x modes, in the intrinsic metric; in the others:
   Eigen::Matrix3Xd coordinates_;
-  Eigen::ArrayXd squares_;        // of the distances of all with all, in whole tiles
-  Eigen::ArrayXd value_, slope_;  // in whole tiles
+  Eigen::ArrayXd squares_;  // of the distances
+  Eigen::ArrayXd value_, slope_;
 };
 
 }  // namespace palpation

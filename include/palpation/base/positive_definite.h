@@ -10,8 +10,9 @@ namespace palpation {
 /// Inverts one matrix after another in the same memory.
 class PositiveDefiniteInverse {
  public:
-  /// Replaces a symmetric matrix (n x n, both halves given) by its inverse and returns the logarithm of its determinant; nothing, and the
-  /// matrix as it was, if it is not positive definite in double precision. By Cholesky's factor L and (L^-1)' L^-1: 5/3 n^3 operations.
+  /// Replaces the lower half of a symmetric matrix (n x n, diagonal included) by that of its inverse and returns the logarithm of its
+  /// determinant; nothing, and the matrix as it was, if it is not positive definite in double precision. What is above the diagonal is
+  /// neither read nor changed. By Cholesky's factor L and (L^-1)' L^-1: 5/3 n^3 operations.
   std::optional<double> operator()(Eigen::MatrixXd& matrix);
 
  private:
