@@ -135,6 +135,9 @@ void draw_scale_bar(Sheet& sheet, const View& view, const Box& map) {
   sheet.text(left + Pixel(length_px + 10.0, 0.0), short_number(length_mm, 3) + " mm", {.size_px = 17.0});
 }
 
+/// Less than a thousandth of a square micrometre is rounding.
+std::string short_area(double mm2) { return short_number(mm2 < 1e-9 ? 0.0 : mm2, 2); }
+
 void draw_ruler(Sheet& sheet, const View& view, const Box& map) {
   if (view.flat) {
     draw_axes(sheet, view, map);
@@ -307,7 +310,7 @@ std::string error_text(const ErrorNumbers& error) {
   std::string text;
   if (error.symmetric_difference_mm2) text += "Error " + short_number(*error.symmetric_difference_mm2, 3) + kSquareMm;
   if (error.missed_mm2 && error.extra_mm2 && !text.empty())
-    text += ", " + short_number(*error.missed_mm2, 2) + " missed and " + short_number(*error.extra_mm2, 2) + " extra";
+    text += ", " + short_area(*error.missed_mm2) + " missed and " + short_area(*error.extra_mm2) + " extra";
   if (error.percent_of_search_area && !text.empty())
     text += " (" + short_number(*error.percent_of_search_area, 2) + " % of the search area)";
   if (error.dice && text.empty()) text += "Dice " + short_number(*error.dice, 3);

@@ -76,7 +76,7 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
   }
   if (level_rule_.known) level_ = Level{*level_rule_.known, 0.0};
   if (touch_once_ && plan_.batch.least_spacing_m == 0.0) plan_.batch.least_spacing_m = kDistinct_m;
-  contrast_seen_ = !plan_.safe_start || !field_.learns();
+  contrast_seen_ = !needs_contrast();
   plan_next();
 }
 
@@ -113,22 +113,24 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   std::vector<Palpation> recorded = recorded_;
   recorded.insert(recorded.end(), palpations.begin(), palpations.end());
   std::vector<Palpation> all = screened_readings(surface_, field_, recorded, lag_);
+  double evidence = 0.0;  // for the field, where it is learned
   if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
     LagFit fit = may_grow(field_) ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
                                   : fit_lagged(surface_, field_, all, learned_, lag_);
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;
-    if (field_.heavy_tails) fit.field.signal_evidence = weigh_for_heavy_tails(all);
-    // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
-    if (plan_.safe_start && field_.learns() && !trend_is_missing()) {
-      const std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : all;
-      contrast_seen_ = shows_contrast(used_readings(flat), fit.field.signal_evidence) || a_disk_stands_out(Layout(belief_.prior()), flat);
-    }
+    evidence = field_.heavy_tails ? weigh_for_heavy_tails(all) : fit.field.signal_evidence;
   } else if (trend_is_missing()) {
     belief_ = fixed_field(surface_, field_, all);
   } else {
     belief_ = belief_.condition_on(palpations);
+  }
+  // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
+  if (needs_contrast() && !trend_is_missing()) {
+    const std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : all;
+    if (!field_.learns()) evidence = evidence_of_fixed(belief_, flat);
+    contrast_seen_ = shows_contrast(used_readings(flat), evidence) || a_disk_stands_out(Layout(belief_.prior()), flat);
   }
   recorded_ = std::move(recorded);
   palpations_ = std::move(all);
@@ -223,6 +225,9 @@ Contour Exploration::contour() const {
   if (edge_) return {eroded(surface_, edge_->depth(), field_.indenter_radius_m).field, 0.0};
   return {component_.mean, level_->value};
 }
+
+/// A level that is given is believed, and so is a field that is given with it.
+bool Exploration::needs_contrast() const { return plan_.safe_start && (field_.learns() || !level_rule_.known); }
 
 bool Exploration::trend_is_missing() const { return field_.linear_trend && !belief_.prior().has_slope(); }
 

@@ -97,6 +97,14 @@ bool all_equal(const std::vector<double>& readings) {
   return std::adjacent_find(readings.begin(), readings.end(), std::not_equal_to<>()) == readings.end();
 }
 
+double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpations) {
+  const Prior prior = belief.prior().with(belief.prior().kernel(), {}, belief.prior().slope());
+  if (gather_sites(prior, palpations).size() < 2) return 0.0;
+  const Hyperparameters given{prior.kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())};
+  return learn(prior, palpations, given, {.length_m = given.length_m, .signal_sd = given.signal_sd, .noise_sd = given.noise_sd})
+      .signal_evidence;
+}
+
 Hyperparameters LearnedField::in_force() const {
   if (taught) return learned;
   return {blank.prior().kernel().length_m, blank.prior().kernel().signal_sd, blank.options().noise_sd};

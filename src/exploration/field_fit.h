@@ -29,6 +29,9 @@ Spread spread_of(const std::vector<double>& readings);
 /// thousands, and the cost grows with the third power. All of them count in the belief.
 inline constexpr std::size_t kMostToLearnFrom = 150;
 
+/// Log likelihood ratio of a belief of fixed hyperparameters to noise alone, as LearnedField has it, around a constant that is not known.
+double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpations);
+
 /// What readings teach: the belief before them.
 struct LearnedField {
   Belief blank;

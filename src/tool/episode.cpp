@@ -69,6 +69,7 @@ Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach giv
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
   Episode episode = started(scene, surface, std::move(plan), world.reach);
   episode.truth = superlevel_region(surface, world.truth, world.true_level);
+  episode.truth_is = world.truth_is;
   if (scene.word("error.arithmetic") == "plain") episode.plain_truth = Superlevel{world.truth, world.true_level};
   return episode;
 }

@@ -22,6 +22,7 @@ struct World {
   Probe probe;
   Field truth;  ///< at the vertices
   double true_level = 0.0;
+  std::string truth_is = "the truth";  ///< in words
   Reach reach{};
   std::vector<std::string> warnings{};  ///< what looks odd about it, a sentence each
 };
@@ -37,6 +38,7 @@ struct Episode {
   Exploration exploration;
   Region estimate{};
   std::optional<Region> truth{};
+  std::string truth_is{};                   ///< in words
   std::optional<Superlevel> plain_truth{};  ///< where errors are asked for in plain arithmetic
   std::optional<RegionError> error{};
   Trace trace{};
@@ -71,7 +73,7 @@ Snapshot snapshot(const Episode& episode);
 
 /// The least diameter of a tumour that would have been found, with the band's probability: wherever on the tissue where nothing was found,
 /// else outside of what was found. Its contrast is the assumed one, else four times the scatter of the readings, or that of what was found.
-/// Nothing without readings, where no size can be ruled out, or where a known level is not reached.
+/// Nothing without readings, where no size can be ruled out, or where something stiff is hidden by the probe's tip.
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
 
 }  // namespace palpation::tool

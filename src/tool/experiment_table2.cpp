@@ -52,7 +52,8 @@ json tumour_of(const std::string& shape) { return shape == "disk" ? disk_mm(27, 
 /// The model of the paper (see paper_scene) and its level, as changes.
 json papers_model() {
   const json field = paper_scene()["field"];
-  json changes = {{"level.estimate", "range"}, {"plan.scaling", "max"}, {"plan.gamma", 0.5}, {"plan.least_spacing_mm", 0}};
+  json changes = {
+      {"level.estimate", "range"}, {"plan.scaling", "max"}, {"plan.gamma", 0.5}, {"plan.least_spacing_mm", 0}, {"plan.safe_start", false}};
   for (const auto& [key, value] : field.items()) changes["field." + key] = value;
   return changes;
 }

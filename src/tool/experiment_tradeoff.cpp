@@ -22,6 +22,11 @@ constexpr double kMm2 = 1e6;
 /// Not worse: by no more than chance explains, or by less than this part of exact's error.
 constexpr double kStandardErrors = 2.0;
 constexpr double kNegligible = 0.05;
+/// Few trials explain anything by chance: no more than this part of exact's error passes as that.
+constexpr double kTolerable = 0.15;
+/// To be worth a change of the scene, a run must take so many times less.
+constexpr double kWorthIt = 1.2;
+constexpr int kFewTrials = 5;
 
 /// A way to be faster.
 struct Choice {
@@ -146,10 +151,13 @@ std::string advice(const std::vector<Choice>& choices, const std::vector<Result>
   for (std::size_t i = 1; i < results.size(); ++i) {
     if (!results[i].refusal.empty()) continue;
     const Statistics excess = excess_mm2(results[i], exact);
-    const double allowed = std::max(kStandardErrors * excess.standard_error.value_or(0.0), kNegligible * exact_error);
-    if (excess.mean <= allowed && median_over(results[i], run_s) < median_over(results[best], run_s)) best = i;
+    const double chance = std::min(kStandardErrors * excess.standard_error.value_or(0.0), kTolerable * exact_error);
+    const bool pays = kWorthIt * median_over(results[i], run_s) < exact_s;
+    if (pays && excess.mean <= std::max(chance, kNegligible * exact_error) &&
+        median_over(results[i], run_s) < median_over(results[best], run_s))
+      best = i;
   }
-  if (best == 0) return "Keep speed exact: nothing that is faster is as good here.";
+  if (best == 0) return "Keep speed exact: nothing that is faster by a fifth or more is as good here.";
   const Statistics excess = excess_mm2(results[best], exact);
   std::string settings;
   for (const SpeedPart& part : choices[best].parts)
@@ -157,7 +165,8 @@ std::string advice(const std::vector<Choice>& choices, const std::vector<Result>
   return "Take " + choices[best].name + " (" + settings.substr(1) + "): a run takes " +
          fixed(exact_s / median_over(results[best], run_s), 1) + " times less than exact, and its wrong area is " +
          fixed(over(results[best], error_mm2).mean, 2) + " mm2 against " + fixed(exact_error, 2) + " mm2, a difference of " +
-         fixed(excess.mean, 2) + " +- " + fixed(excess.standard_error.value_or(0.0), 2) + " mm2 seed by seed.";
+         fixed(excess.mean, 2) + " +- " + fixed(excess.standard_error.value_or(0.0), 2) + " mm2 seed by seed." +
+         (exact.trials.size() < kFewTrials ? " So few trials are a hint, no more: --trials 20." : "");
 }
 
 /// A marker for each choice, and below them the line of those that no other beats.

@@ -81,7 +81,7 @@ json part_json(const TumourPart& part, const Surface& surface) {
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   for (const char* key : {"expected_missed_mm2", "expected_extra_mm2", "band", "cut"}) summary[key] = nullptr;
   const std::optional<Certainty>& certainty = episode.exploration.certainty();
-  if (!certainty) return;
+  if (!certainty || episode.exploration.tip_hides_all()) return;
   const Surface& surface = episode.exploration.surface();
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
@@ -214,7 +214,7 @@ json OutputFolder::summary(const Episode& episode) const {
     result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
     result["lag_sd_mm"] = exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
   }
-  const bool found = exploration.level().has_value();
+  const bool found = !episode.estimate.empty();
   const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
   result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;
   result["no_other_wider_than_mm"] = found ? ruled_out : json(nullptr);

@@ -26,7 +26,8 @@ json paper_scene() {
             {"initial", {{"design", "random"}, {"count", 5}}},
             {"batch", 10},
             {"batches", 10},
-            {"least_spacing_mm", 0}}},
+            {"least_spacing_mm", 0},
+            {"safe_start", false}}},
           {"probe",
            {{"kind", "simulated"},
             {"low", 7},
@@ -43,7 +44,7 @@ json default_scene() {
   json scene = paper_scene();
   scene.erase("field");
   scene["level"] = {{"fraction", 0.5}};
-  for (const char* key : {"acquisition", "gamma", "scaling", "least_spacing_mm"}) scene["plan"].erase(key);
+  for (const char* key : {"acquisition", "gamma", "scaling", "least_spacing_mm", "safe_start"}) scene["plan"].erase(key);
   return scene;
 }
 

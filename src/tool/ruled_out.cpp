@@ -61,7 +61,7 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
     return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));
   }
   const Healthy healthy = healthy_part(exploration);
-  if (healthy.vertices.empty() || episode.estimate.empty()) return std::nullopt;
+  if (healthy.vertices.empty() || exploration.tip_hides_all()) return std::nullopt;
   const double contrast = episode.assumed_contrast.value_or((exploration.level()->value - healthy.mean) / episode.level_fraction);
   sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
   if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;

@@ -191,7 +191,9 @@ std::vector<SceneKey> make_scene_keys() {
       number("plan.least_spacing_mm", "mm", 0.0, kMostLength_mm, 0.5, "between the stops of a batch"),
       truth("plan.readings_along_path", false, "the probe also reads on its way, once per mm"),
       truth("plan.safe_start", true,
-            "explore by variance alone until the readings show contrast beyond their noise; matters only where the field is learned"),
+            "conclude nothing and explore by variance alone until the readings show contrast beyond their noise; of no effect where field "
+            "and "
+            "level are both given"),
       number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, 0.0,
              "stop once the expected wrong area is no larger; 0: when the batches are done"),
       number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, 0.0,

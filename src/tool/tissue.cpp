@@ -63,8 +63,14 @@ Surface surface_of(const Scene& scene, TriangleMesh mesh) {
 }
 
 TriangleMesh patch_around_centre(const Scene& scene, const Surface& whole, double margin_m = 0.0) {
+  const Vec3 centre = scene.point_m("surface.patch.centre_mm");
+  const double away_m = (whole.position(whole.project(centre)) - centre).norm();
+  if (away_m > scene.metres("surface.patch.radius_mm"))
+    scene.refuse_value("surface.patch.centre_mm", "no farther from the tissue than surface.patch.radius_mm, but it is " +
+                                                      fixed(away_m * 1e3, 1) + " mm away from tissue that is " +
+                                                      fixed(whole.diameter() * 1e3, 1) + " mm across: is surface.unit right?");
   try {
-    return patch_around(whole, scene.point_m("surface.patch.centre_mm"), scene.metres("surface.patch.radius_mm") + margin_m);
+    return patch_around(whole, centre, scene.metres("surface.patch.radius_mm") + margin_m);
   } catch (const InvalidInput&) {
     scene.refuse_value("surface.patch.radius_mm", "large enough for a triangle of the mesh around the centre: take a larger one");
   }
@@ -129,16 +135,35 @@ void check_size(const Scene& scene, const Surface& surface) {
   }
 }
 
+bool gives_patch(const Scene& scene) { return scene.gives("surface.patch.radius_mm") || gives_tests(scene); }
+
+/// Of triangles that have a corner as near to the patch's centre, in a straight line, as the patch is to reach along the surface, or that
+/// hold the place nearest to it.
+double longest_edge_near_patch_m(const Scene& scene, const Surface& whole) {
+  const SurfacePoint middle = whole.project(scene.point_m("surface.patch.centre_mm"));
+  const Vec3 centre = whole.position(middle);
+  const double radius_m = scene.metres("surface.patch.radius_mm");
+  double longest = 0.0;
+  for (int face = 0; face < whole.face_count(); ++face) {
+    const Eigen::Vector3i corners = whole.triangle(face);
+    const bool is_near =
+        face == middle.face || std::ranges::any_of(corners, [&](int corner) { return (whole.vertex(corner) - centre).norm() <= radius_m; });
+    for (int i = 0; is_near && i < 3; ++i)
+      longest = std::max(longest, (whole.vertex(corners[i]) - whole.vertex(corners[(i + 1) % 3])).norm());
+  }
+  return longest;
+}
+
 /// What the scene's patch keeps of the mesh, refined. Coarse triangles would leave it a border of teeth: around a centre it is cut with
 /// room for one of them, refined, and cut again.
 TriangleMesh patched_and_refined(const Scene& scene, TriangleMesh mesh) {
   const bool is_around_centre = scene.gives("surface.patch.radius_mm"), refines = scene.gives("surface.refine_mm");
   if (is_around_centre) {
     const Surface whole = surface_of(scene, std::move(mesh));
-    mesh = patch_around_centre(scene, whole);
-    if (refines) mesh = patch_around_centre(scene, whole, longest_edge_m(mesh));
+    mesh = patch_around_centre(scene, whole, refines ? longest_edge_near_patch_m(scene, whole) : 0.0);
   }
   if (gives_tests(scene)) mesh = patch_by_tests(scene, std::move(mesh));
+  if (refines && !gives_patch(scene)) surface_of(scene, mesh);  // its faults are named by the numbers of the file
   if (refines) mesh = refined(scene, std::move(mesh));
   return is_around_centre && refines ? patch_around_centre(scene, surface_of(scene, std::move(mesh))) : mesh;
 }
@@ -187,7 +212,12 @@ void warn_of_reach(const Scene& scene, Tissue& tissue) {
 
 /// The chart is what the boundary is drawn in; without one, say what is in the way and what to do.
 void check_chart(const Scene& scene, const Surface& surface) {
-  const std::string next = ": choose a part to work on by surface.patch (centre_mm and radius_mm, or box_mm, or facing)";
+  if (gives_patch(scene) && surface.topology().is_closed())
+    scene.refuse("surface.patch", "takes all of a closed surface, " + fixed(surface.diameter() * 1e3, 1) +
+                                      " mm across, which cannot be laid flat: take a smaller part, and see whether surface.unit is right");
+  const std::string next = gives_patch(scene)
+                               ? ": take a smaller or another part by surface.patch"
+                               : ": choose a part to work on by surface.patch (centre_mm and radius_mm, or box_mm, or facing)";
   if (surface.topology().is_closed()) scene.refuse("surface", "the mesh is a closed surface, which cannot be laid flat as a whole" + next);
   try {
     surface.chart();

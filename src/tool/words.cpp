@@ -22,6 +22,7 @@ constexpr double kMuchUntouched = 0.05;  // of the tissue
 /// Expected wrong area beyond this part of the area found is told: the boundary is then hardly better than a guess.
 constexpr double kLargeShare = 0.25;
 constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
+constexpr double kNoNoise = 1e-3;           // of the contrast: so little does not limit what they reach
 
 std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
@@ -69,8 +70,9 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
 std::string nothing_words(const Episode& episode) {
   if (episode.exploration.trend_is_missing()) return "";
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
-  const std::string contrast = episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
-                                                        : "by four times the readings' scatter or more";
+  const std::string contrast = episode.assumed_contrast      ? "by " + reading_text(*episode.assumed_contrast) + " or more"
+                               : episode.exploration.level() ? "so that its edge is at that level"
+                                                             : "by four times the readings' scatter or more";
   if (!diameter_m) return "So few readings rule out no tumour that stands out " + contrast + ".\n";
   return "No tumour that stands out " + contrast + " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
          percent(episode.band_probability) + " wherever it might be.\n";
@@ -83,7 +85,10 @@ std::string found_words(const Episode& episode) {
   if (!episode.exploration.level()) return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
   const std::vector<TumourPart> parts = parts_of(episode);
   const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
-  if (parts.empty()) return "Nothing found " + level + ": no tissue is that stiff.\n";
+  if (parts.empty()) {
+    if (episode.exploration.tip_hides_all()) return "Something stiff was felt, but it is nowhere wider than the probe's tip.\n";
+    return "Nothing found " + level + ": no tissue is that stiff.\n" + nothing_words(episode);
+  }
   std::string words =
       "Found " + counted(parts.size(), "stiff region") + " " + level + ", " + fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in all:\n";
   for (const TumourPart& part : parts) words += part_words(part);
@@ -120,6 +125,21 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
   return remarks;
 }
 
+/// A level that is given, and that no reading comes near, decides before anything is felt.
+std::string level_outside_words(const Exploration& exploration) {
+  if (exploration.level()->stddev != 0.0) return "";
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
+    if (!palpation.set_aside.empty()) continue;
+    least = std::min(least, palpation.reading);
+    greatest = std::max(greatest, palpation.reading);
+  }
+  const double level = exploration.level()->value;
+  if (!(least < greatest) || (level > least && level < greatest)) return "";
+  return "The level " + reading_text(level) + " lies " + (level > least ? "above" : "below") + " every reading, " + reading_text(least) +
+         " to " + reading_text(greatest) + ": " + (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
+}
+
 double perimeter_m(const Region& region) {
   double sum = 0.0;
   const auto add = [&](const Ring& ring) {
@@ -145,7 +165,8 @@ std::optional<double> over_reachable(const Episode& episode) {
                                                     .noise = std::sqrt(belief.noise_variance()) / contrast,
                                                     .readings = static_cast<int>(belief.palpations().size()),
                                                     .fraction = episode.level_fraction});
-  if (!(reachable.expected_error_m2 > 0.0)) return std::nullopt;
+  const bool has_noise = std::sqrt(belief.noise_variance()) > kNoNoise * contrast;
+  if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
   return episode.exploration.certainty()->expected.symmetric_difference_m2() / reachable.expected_error_m2;
 }
 
@@ -180,10 +201,14 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
     remarks.push_back(
         "What was felt is nowhere wider than the probe's tip, field.indenter_radius_mm: nothing is left once the tip is "
         "taken back, but something stiff is there.");
+  if (const std::string outside = level_outside_words(exploration); !outside.empty()) remarks.push_back(outside);
   const Contour contour = exploration.contour();
   for (const std::string& remark : remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
     remarks.push_back(remark + '.');
   const std::vector<TumourPart> parts = parts_of(episode);
+  if (!exploration.edge() && !parts.empty())
+    remarks.push_back(
+        "The level was not inferred from the tumour's edge: band, cut line and expected error are the field's alone, and not calibrated.");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].probability < kSure)
       remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) + " is tumour with probability " +
@@ -238,7 +263,7 @@ std::string episode_words(const Episode& episode) {
   words += ".\n";
   if (!episode.stops.empty()) words += stop_words(episode.stop_reason());
   words += found_words(episode);
-  if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area());
+  if (episode.error) words += error_words(*episode.error, episode.exploration.surface().area(), "Against " + episode.truth_is);
   return words;
 }
 

@@ -16,12 +16,19 @@ constexpr std::uint64_t kProbeStream = 0x70726f6265u;
 
 /// Tumours that nobody can find, or nobody can miss, are allowed and told.
 std::vector<std::string> warnings_about(const Scene& scene, const Phantom& phantom) {
-  if (scene.tumours().empty()) return {};
+  std::vector<std::string> warnings;
+  if (scene.metres("field.indenter_radius_mm") > 0.0)
+    warnings.push_back(scene.name() +
+                       ": field.indenter_radius_mm takes back a round tip, but the simulated probe is a point: what is found will be too "
+                       "small.");
+  if (scene.tumours().empty()) return warnings;
   const std::string start = scene.name() + ": probe.tumours: ";
   const Field& truth = phantom.truth();
-  if (truth.maxCoeff() < phantom.true_level()) return {start + "no vertex of the tissue lies in one, so there is nothing to find."};
-  if (truth.minCoeff() >= phantom.true_level()) return {start + "all of the tissue lies in one, so there is no boundary to find."};
-  return {};
+  if (truth.maxCoeff() < phantom.true_level())
+    warnings.push_back(start + "no vertex of the tissue lies in one, so there is nothing to find.");
+  if (truth.minCoeff() >= phantom.true_level())
+    warnings.push_back(start + "all of the tissue lies in one, so there is no boundary to find.");
+  return warnings;
 }
 
 bool is_refused(const Surface& surface, const RecordedReadings& recording) {
@@ -69,6 +76,7 @@ World recorded_world(const Scene& scene, const Surface& surface, const std::vect
   const double low = recorded->quantile(0.02);
   const double high = recorded->quantile(0.98);
   world.truth = recorded->map(low);
+  world.truth_is = "the recording's own map";
   world.true_level = low + scene.number("level.fraction") * (high - low);
   if (!(high > low)) {
     world.true_level = std::nextafter(world.truth.maxCoeff(), std::numeric_limits<double>::infinity());

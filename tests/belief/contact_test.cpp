@@ -42,6 +42,27 @@ TEST(FadingContact, IsNotSeenInSoundReadings) {
   }
 }
 
+TEST(FadingContact, IsNotSeenWhereTouchesCrowdAtATumour) {
+  const Surface tissue = plane(26, 51);
+  int seen = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    std::vector<Palpation> made;
+    for (int i = 0; i < 105; ++i) {
+      const double angle = 6.283 * random.uniform(), distance_m = 0.00625 + 0.0015 * random.normal();
+      const Vec3 at_edge = Vec3(0.0115, 0.030, 0.0) + distance_m * Vec3(std::cos(angle), std::sin(angle), 0.0);
+      const Vec3 anywhere(0.025 * random.uniform(), 0.050 * random.uniform(), 0.0);
+      Palpation palpation;
+      palpation.where = tissue.project(i < 35 ? anywhere : at_edge);
+      const double depth_m = 0.00625 - (tissue.position(palpation.where) - Vec3(0.0115, 0.030, 0.0)).norm();
+      palpation.reading = 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * depth_m)) + 0.1 * random.normal();
+      made.push_back(palpation);
+    }
+    seen += fading_contact(tissue, made).has_value();
+  }
+  EXPECT_EQ(seen, 0);
+}
+
 TEST(FadingContact, OfFewOrAlikeReadingsNothingIsSaid) {
   const Surface tissue = plane(26, 51);
   EXPECT_FALSE(fading_contact(tissue, {}).has_value());

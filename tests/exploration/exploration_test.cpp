@@ -80,6 +80,26 @@ TEST(Exploration, PlansTheSameWithForesightAndWithout) {
   EXPECT_EQ(planned(true), planned(false));
 }
 
+TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
+  const Surface tissue = plane(26, 51);
+  const Phantom healthy(tissue, {}, {.noise = 0.05});
+  const FieldModel given{
+      .kernel = {.length_m = 0.0033}, .belief = {.noise_sd = 0.1}, .learn_length = false, .learn_signal = false, .learn_noise = false};
+  for (const LevelEstimate estimate : {LevelEstimate::Edge, LevelEstimate::Range}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      Exploration exploration(tissue, given, {.estimate = estimate}, {.batches = 5}, seed);
+      Random random(seed);
+      run(exploration, probe_of(healthy, random));
+      EXPECT_FALSE(exploration.level()) << seed;
+    }
+  }
+  Exploration over_a_disk(tissue, given, {}, {.batches = 5}, 1);
+  Random random(1);
+  const Phantom disk = disk_phantom(tissue, 0.05);
+  run(over_a_disk, probe_of(disk, random));
+  EXPECT_TRUE(over_a_disk.level());
+}
+
 TEST(Exploration, FindsTheDiskAndItsLevel) {
   const Surface tissue = plane(51, 101);
   const Phantom phantom = disk_phantom(tissue, 0.05);

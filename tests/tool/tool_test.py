@@ -66,6 +66,18 @@ class Tool(unittest.TestCase):
         self.assertIn("smaller than a triangle", result.stderr)
         self.assertIn("smaller than a triangle", json.loads((self.folder / "out" / "summary.json").read_text())["warnings"][0])
 
+    def test_a_known_level_that_nothing_comes_near_is_told(self):
+        for level, words in (("20", "above every reading"), ("0", "below every reading")):
+            out = self.folder / level
+            self.done("simulate", self.scene, "--set", "level.estimate=known", "--set", f"level.value={level}", "--out", out)
+            self.assertIn(words, " ".join(json.loads((out / "summary.json").read_text())["warnings"]))
+        summary = json.loads(self.summary_of("simulate", "--set", "level.estimate=known", "--set", "level.value=8", "--set", "probe.tumours=[]"))
+        self.assertTrue(3.0 < summary["nothing_wider_than_mm"] < 30.0)
+
+    def test_a_patch_far_from_the_tissue_is_refused(self):
+        words = self.refused(3, "simulate", self.scene, "--set", "surface.patch.centre_mm=[500,0,0]", "--set", "surface.patch.radius_mm=8")
+        self.assertIn("is surface.unit right?", words)
+
     def test_the_edge_tells_the_level_and_how_well_it_is_known(self):
         self.done("simulate", self.scene, "--out", self.folder / "out", "--set", "level.estimate=edge")
         summary = json.loads((self.folder / "out" / "summary.json").read_text())

@@ -17,10 +17,11 @@ struct FadingContact {
   double amplitude_left = 1.0;  ///< greatest reading above healthy tissue's in the last third, over that in the best third
 };
 
-/// Healthy tissue's reading as a plane over the places: the one that three in ten readings lie below (a quantile regression), so that a
-/// tumour of up to half the tissue does not lift it. Contact fades where that plane falls by 15 % of the contrast, which is the range of
-/// the readings about it (2nd to 98th percentile), and by more than four times what chance may tilt it. Readings that are set aside do not
-/// count; nothing with fewer than twenty, or where they are on one line.
+/// Healthy tissue's reading as a plane over the places: the one that three tenths of the tissue read less than (a quantile regression,
+/// each reading for the part of the tissue that it stands for), so that a tumour of up to half the tissue does not lift it. Contact fades
+/// where that plane falls by 15 % of the contrast, which is the range of the readings about it (2nd to 98th percentile), and by more than
+/// four times what chance may tilt it. Readings that are set aside do not count; nothing with fewer than twenty, or where they are on one
+/// line.
 std::optional<FadingContact> fading_contact(const Surface& surface, std::span<const Palpation> palpations);
 
 }  // namespace palpation

@@ -80,8 +80,9 @@ struct Plan {
   /// what the boundary does not know of: with more than this a second, small tumour is missed.
   double edge_share = 0.65;
   StopRule stop{};
-  /// Until the readings show contrast (contrast.h), explore by the variance of a field of the prior's length, and look again where readings
-  /// were high: for learned fields, which five readings of healthy tissue would teach that noise is all.
+  /// Until the readings show contrast (contrast.h), conclude nothing, explore by the field's variance, and where the field is learned,
+  /// which five readings of healthy tissue would teach that noise is all, by that of a field of the prior's length, with a second look
+  /// where readings were high. Not asked of a field and a level that are both given.
   bool safe_start = true;
 };
 
@@ -158,6 +159,7 @@ class Exploration {
 
  private:
   void learn_from(std::span<const Palpation> palpations);
+  bool needs_contrast() const;
   double weigh_for_heavy_tails(std::span<const Palpation> palpations);
   void estimate_boundary();
   void doubt_where_contact_fades();
