@@ -177,9 +177,10 @@ std::optional<double> Outcome::level_along(const std::string& kind, const std::s
   constexpr std::size_t kSamples = 40;
   vtkDataArray* values = field(name);
   if (values == nullptr) return std::nullopt;
+  const TriangleTree tree(*surface);
   std::vector<double> found;
   for (const Vec3& place : places_along(curves, kind, kSamples)) {
-    const double value = value_at(*surface, *values, place);
+    const double value = tree.value_at(*values, place);
     if (std::isfinite(value)) found.push_back(value);
   }
   if (found.empty()) return std::nullopt;
