@@ -106,8 +106,8 @@ void Belief::restate_readings() {
   const double signal_variance = signal_sd() * signal_sd();
   const double plain_ratio = options_.noise_is_relative ? options_.noise_sd * options_.noise_sd : noise_variance() / signal_variance;
   require(!options_.single_precision || sites_.empty() || plain_ratio >= kLeastNoiseForSingle, "Belief",
-          "single precision with a noise variance of " + text_of(plain_ratio) + " of the signal's",
-          "needs " + text_of(kLeastNoiseForSingle) + " at least: with less it would cost more than it saves");
+          "single precision where noise is " + text_of(std::sqrt(plain_ratio)) + " of the signal (standard deviations)",
+          "needs " + text_of(std::sqrt(kLeastNoiseForSingle)) + " at least: take double");
   readings_.clear();
   diagonal_.clear();
   for (const Site& site : sites_) {

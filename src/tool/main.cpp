@@ -52,7 +52,8 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
   CLI::App* command = app.add_subcommand(name, what);
   command->add_option("SCENE", arguments.scene.scene, "what to work on, a JSON file (see: palpate help scene)")->required();
   command->add_option("--out", arguments.scene.out, "folder for the results; without it they are only told");
-  command->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr")
+  command
+      ->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command->add_option("--seed", arguments.scene.seed, "override the scene's seed")->check(whole(0, kMostSeed));
@@ -136,7 +137,7 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--trials", arguments.experiment.trials, "per cell; left out: 5, of tradeoff 20")->check(whole(1, kMostTrials));
   command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following")
       ->check(whole(0, kMostSeed - kMostTrials));
-  command->add_option("--set", arguments.experiment.overrides, "override a value of every scene")
+  command->add_option("--set", arguments.experiment.overrides, "override a value of every scene; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command->add_option("--only", arguments.experiment.only, "of table1, table2 and curved: run the cells with this in their names")

@@ -180,7 +180,8 @@ std::vector<SceneKey> make_scene_keys() {
            {"auto", "ils-ucb", "ucb", "evr", "straddle", "randomized-straddle", "expected-error", "lse", "random", "raster", "refinement"},
            "auto",
            "what makes a touch worth while: auto sends most of a batch where it tells the most about the boundary, and the rest where the "
-           "straddle criterion looks for more; raster and refinement are the classical scans instead"),
+           "straddle criterion looks for more; raster and refinement are the classical scans instead, as long as they are "
+           "whatever plan.batches says"),
       number("plan.edge_share", "", 0.0, 1.0, 0.65, "that most, where plan.acquisition is auto and level.estimate edge"),
       number("plan.gamma", "", 0.0, 1.0, 0.5, "of ucb and ils-ucb: 0 explores, 1 exploits"),
       word("plan.scaling", {"raw", "max"}, "raw", "of ucb and ils-ucb: as the paper writes them, or both terms over their maxima"),
