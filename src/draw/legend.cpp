@@ -15,7 +15,7 @@ constexpr TextStyle kWords{.size_px = 18.0};
 std::vector<LegendEntry> entries_of(const Outcome& outcome) {
   std::vector<LegendEntry> entries;
   if (outcome.has_curve("estimate")) entries.push_back({"estimated boundary", {kEstimateLine}, {}});
-  if (outcome.has_curve("truth")) entries.push_back({"true boundary", {kTruthLine}, {}});
+  if (outcome.has_curve("truth")) entries.push_back({outcome.summary.truth_line, {kTruthLine}, {}});
   if (outcome.has_curve("cut") && outcome.shows_band()) {
     const std::string risk = outcome.summary.cut_risk ? " (" + short_number(100.0 * *outcome.summary.cut_risk, 3) + " % risk)" : "";
     entries.push_back({"cut line" + risk, {kCutLine}, {}});

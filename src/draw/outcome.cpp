@@ -120,6 +120,12 @@ std::optional<BandNumbers> band_in(const Json& summary) {
                      .outer_area_mm2 = number_in(*found, "outer_area_mm2")};
 }
 
+/// Simulated tissue has a truth; of recorded tissue there is a map.
+std::string truth_line_in(const Json& summary) {
+  const auto found = summary.find("truth_is");
+  return found != summary.end() && found->is_string() && *found != "the truth" ? found->get<std::string>() : "true boundary";
+}
+
 std::optional<double> cut_risk_in(const Json& summary) {
   const auto found = summary.find("cut");
   return found != summary.end() && found->is_object() ? number_in(*found, "risk") : std::nullopt;
@@ -131,6 +137,7 @@ Summary read_summary(const fs::path& path) {
   if (!json.is_object()) fail(path, "not a JSON object");
   Summary summary{.band = band_in(json),
                   .cut_risk = cut_risk_in(json),
+                  .truth_line = truth_line_in(json),
                   .nothing_wider_than_mm = number_in(json, "nothing_wider_than_mm"),
                   .level = number_in(json, "level"),
                   .area_mm2 = number_in(json, "area_mm2"),

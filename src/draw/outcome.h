@@ -37,6 +37,7 @@ struct BandNumbers {
 struct Summary {
   std::optional<BandNumbers> band;
   std::optional<double> cut_risk;
+  std::string truth_line;                       ///< what the true boundary is, for the legend
   std::optional<double> nothing_wider_than_mm;  ///< where nothing was found
   std::optional<double> level, area_mm2, expected_error_mm2, measurements;
   std::optional<ErrorNumbers> error;

@@ -219,7 +219,10 @@ json OutputFolder::summary(const Episode& episode) const {
   result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;
   result["no_other_wider_than_mm"] = found ? ruled_out : json(nullptr);
   add_certainty(result, episode, scene_.number("band.cut_risk"));
-  if (episode.truth) result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
+  if (episode.truth) {
+    result["truth_is"] = episode.truth_is;
+    result["error"] = episode.error ? error_json(*episode.error, surface_.area()) : json(nullptr);
+  }
   return result;
 }
 
