@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/flatten.h"
+#include "geometry/loops_in_the_way.h"
 #include "geometry/overlap.h"
 #include "geometry/plane.h"
 #include "geometry/surface_state.h"
@@ -86,16 +87,6 @@ void check_point(const SurfacePoint& point, int face_count, const char* function
   if (b.minCoeff() >= -kRounding && std::abs(b.sum() - 1.0) <= kRounding) return;
   throw InvalidInput(std::string("Surface::") + function + ": barycentric (" + text_of(b[0]) + ", " + text_of(b[1]) + ", " + text_of(b[2]) +
                      ") must be at least 0 and add up to 1");
-}
-
-/// Why a surface that is no disk cannot be laid flat.
-std::string loops_in_the_way(const Topology& topology) {
-  const auto counted = [](int count, const std::string& one) { return std::to_string(count) + " " + one + (count == 1 ? "" : "s"); };
-  std::string found;
-  if (topology.components > 1) found += counted(topology.components, "component") + ", ";
-  if (topology.handles > 0) found += counted(topology.handles, "handle") + ", ";
-  found += topology.is_closed() ? "no border (it is closed)" : counted(topology.borders, "border loop");
-  return "only a disk of one component, one border loop and no handles can be laid flat, and it has " + found;
 }
 
 }  // namespace
@@ -258,7 +249,7 @@ void Surface::State::refuse_chart() const {
     refuse("a flat surface that lies over itself",
            "two of its sheets cover u = " + text_of(place.x()) + " m, v = " + text_of(place.y()) + " m of its plane");
   }
-  const std::string reason = topology.is_disk() ? flattened().chart_fault : loops_in_the_way(topology);
+  const std::string reason = topology.is_disk() ? flattened().chart_fault : loops_in_the_way(topology, border_loops, mesh.vertices);
   refuse("a curved surface", reason + "; work on a patch of it");
 }
 

@@ -220,6 +220,7 @@ TEST(CurvedChart, IsRefusedWithTheLoopsHandlesOrComponentsInTheWay) {
   EXPECT_NE(refusal(zoo::icosphere_mesh(1)).find("no border (it is closed)"), std::string::npos);
   EXPECT_NE(refusal(zoo::torus_mesh(2.0, 0.7, 12, 8)).find("1 handle, no border"), std::string::npos);
   EXPECT_NE(refusal(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).find("2 border loops"), std::string::npos);
+  EXPECT_NE(refusal(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).find("mm long around ("), std::string::npos);
   EXPECT_NE(
       refusal(zoo::together(dome_mesh(4), zoo::moved(dome_mesh(4), zoo::some_rotation(), Vec3(5, 0, 0)))).find("2 components, 2 border"),
       std::string::npos);
