@@ -120,6 +120,10 @@ MetricMesh glued(int vertex_count, const Triangles& triangles, const MetricMesh:
 }
 
 void flip_to_delaunay(MetricMesh& mesh) {
+  flip_to_delaunay(mesh, [](int, int) { return true; });
+}
+
+void flip_to_delaunay(MetricMesh& mesh, const std::function<bool(int face, int beyond)>& may_trade) {
   const int count = static_cast<int>(3 * mesh.triangles.rows());
   std::vector<int> waiting;
   std::vector<bool> waits(static_cast<std::size_t>(count), false);
@@ -137,7 +141,7 @@ void flip_to_delaunay(MetricMesh& mesh) {
     waits[half_edge] = false;
     if (!is_not_delaunay(mesh, half_edge)) continue;
     const int f = half_edge / 3, k = mesh.across(f, half_edge % 3) / 3;
-    if (!flip(mesh, half_edge)) continue;
+    if (!may_trade(f, k) || !flip(mesh, half_edge)) continue;
     for (const int side : {3 * f, 3 * f + 2, 3 * k, 3 * k + 1}) {
       if (mesh.across(side / 3, side % 3) < 0 || waits[side]) continue;
       waiting.push_back(side);

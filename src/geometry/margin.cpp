@@ -301,6 +301,7 @@ MetricMesh with_margin(const MetricMesh& mesh, const std::vector<std::vector<int
     fill_notches(loop, 2.0 * width, std::max(first_width, kFillShare * width), builder);
     if (!loop.empty()) add_rings(loop, first_width, width, builder);
   }
+  builder.flip_to_delaunay();
   builder.split_long_edges();
   return builder.done();
 }

@@ -61,6 +61,15 @@ void MetricBuilder::split(int half_edge) {
   glue(other, 3 * fresh);
 }
 
+void MetricBuilder::flip_to_delaunay() {
+  MetricMesh mesh = done();
+  palpation::flip_to_delaunay(
+      mesh, [&](int face, int beyond) { return face >= fixed_ && beyond >= fixed_ && faces_[face].target == faces_[beyond].target; });
+  for (int face = 0; face < static_cast<int>(faces_.size()); ++face) {
+    faces_[face] = {mesh.triangles.row(face), mesh.lengths.row(face), mesh.across.row(face), faces_[face].target};
+  }
+}
+
 void MetricBuilder::split_long_edges() {
   // Beside an edge that stays whole no triangle can have much shorter ones.
   for (std::size_t face = static_cast<std::size_t>(fixed_); face < faces_.size(); ++face) {

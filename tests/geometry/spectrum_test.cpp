@@ -192,6 +192,12 @@ TEST(Margin, FillsNotchesAsThePlaneWould) {
   EXPECT_LT(worst_against_plane(round, 0.14, {{0.05, 0.5, 0}, {0.8, 0.8, 0}, {0.2, 0.8, 0}}), 0.02);
 }
 
+// What fills a bay is long and thin until it is flipped: split before, it had four times as many vertices as the patch.
+TEST(Margin, FillsABayWithFewVertices) {
+  const Surface bay(without(zoo::jittered_square_mesh(160, 2), [](const Vec3& p) { return (p - Vec3(0.5, 0, 0)).norm() < 0.35; }));
+  EXPECT_LT(extended(bay, 0.3).vertex_count, 3 * bay.vertex_count());
+}
+
 // A hole narrower than the margin closes; a kernel does not see it.
 TEST(Margin, ClosesHoles) {
   const Surface holed(without(zoo::jittered_square_mesh(40, 2), [](const Vec3& p) { return (p - Vec3(0.5, 0.5, 0)).norm() < 0.15; }));

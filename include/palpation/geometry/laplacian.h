@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <functional>
 
 #include "palpation/geometry/surface.h"
 
@@ -31,6 +32,9 @@ MetricMesh glued(int vertex_count, const Triangles& triangles, const MetricMesh:
 
 /// Flips edges until opposite angles add up to no more than pi.
 void flip_to_delaunay(MetricMesh& mesh);
+
+/// The same, but an edge stays where its two faces may not trade.
+void flip_to_delaunay(MetricMesh& mesh, const std::function<bool(int face, int beyond)>& may_trade);
 
 struct Laplacian {
   Eigen::SparseMatrix<double> stiffness;  ///< G, no unit
