@@ -1,5 +1,6 @@
 #include "geometry/block_solver.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "palpation/base/targets.h"
@@ -8,37 +9,118 @@ namespace palpation {
 namespace {
 
 constexpr int kHalf = 8;
+constexpr int kWidestPanel = 4;
+#define PALPATION_INLINE inline __attribute__((always_inline))
+
 using Lanes = double __attribute__((vector_size(kHalf * sizeof(double))));
 struct Row {
   Lanes low, high;
 };
 
-PALPATION_TARGETS void solve_strip(const int* starts, const int* rows, const double* values, const double* inverse_diagonal, int n,
-                                   double* x) {
-  for (int column = 0; column < n; ++column) {
-    Row here;
-    std::memcpy(&here, x + static_cast<long>(column) * kStrip, sizeof here);
-    for (int k = starts[column]; k < starts[column + 1]; ++k) {
-      double* target = x + static_cast<long>(rows[k]) * kStrip;
-      Row there;
-      std::memcpy(&there, target, sizeof there);
-      there.low -= values[k] * here.low;
-      there.high -= values[k] * here.high;
-      std::memcpy(target, &there, sizeof there);
+/// What the loops over panels read.
+struct Columns {
+  const int *panel_starts, *starts, *rows;
+  const double *values, *inverse_diagonal;
+};
+
+/// The rows below a panel of W columns, and each column's values there.
+template <int W>
+struct Below {
+  const int* rows;
+  const double* values[W];
+  int count;
+
+  Below(const Columns& l, int first) : rows(l.rows + l.starts[first + W - 1]), count(l.starts[first + W] - l.starts[first + W - 1]) {
+    for (int j = 0; j < W; ++j) values[j] = l.values + l.starts[first + j] + (W - 1 - j);
+  }
+};
+
+/// x <- L^-1 x, as far as the columns of one panel go.
+template <int W>
+PALPATION_INLINE void solve_forward(const Columns& l, int first, double* x) {
+  Row here[W];
+  std::memcpy(here, x + static_cast<long>(first) * kStrip, sizeof here);
+  for (int j = 0; j < W; ++j) {
+    const double* values = l.values + l.starts[first + j];
+    for (int i = j + 1; i < W; ++i) {
+      here[i].low -= values[i - j - 1] * here[j].low;
+      here[i].high -= values[i - j - 1] * here[j].high;
     }
   }
-  for (int column = n - 1; column >= 0; --column) {
-    Row here;
-    std::memcpy(&here, x + static_cast<long>(column) * kStrip, sizeof here);
-    here.low *= inverse_diagonal[column];
-    here.high *= inverse_diagonal[column];
-    for (int k = starts[column]; k < starts[column + 1]; ++k) {
-      Row there;
-      std::memcpy(&there, x + static_cast<long>(rows[k]) * kStrip, sizeof there);
-      here.low -= values[k] * there.low;
-      here.high -= values[k] * there.high;
+  std::memcpy(x + static_cast<long>(first) * kStrip, here, sizeof here);
+  const Below<W> below(l, first);
+  for (int k = 0; k < below.count; ++k) {
+    double* target = x + static_cast<long>(below.rows[k]) * kStrip;
+    Row there;
+    std::memcpy(&there, target, sizeof there);
+    for (int j = 0; j < W; ++j) {
+      there.low -= below.values[j][k] * here[j].low;
+      there.high -= below.values[j][k] * here[j].high;
     }
-    std::memcpy(x + static_cast<long>(column) * kStrip, &here, sizeof here);
+    std::memcpy(target, &there, sizeof there);
+  }
+}
+
+/// The panel's rows of x <- L'^-1 D^-1 x, where those below are done.
+template <int W>
+PALPATION_INLINE void solve_backward(const Columns& l, int first, double* x) {
+  Row here[W];
+  std::memcpy(here, x + static_cast<long>(first) * kStrip, sizeof here);
+  for (int j = 0; j < W; ++j) {
+    here[j].low *= l.inverse_diagonal[first + j];
+    here[j].high *= l.inverse_diagonal[first + j];
+  }
+  const Below<W> below(l, first);
+  for (int k = 0; k < below.count; ++k) {
+    Row there;
+    std::memcpy(&there, x + static_cast<long>(below.rows[k]) * kStrip, sizeof there);
+    for (int j = 0; j < W; ++j) {
+      here[j].low -= below.values[j][k] * there.low;
+      here[j].high -= below.values[j][k] * there.high;
+    }
+  }
+  for (int j = W - 1; j >= 0; --j) {
+    const double* values = l.values + l.starts[first + j];
+    for (int i = j + 1; i < W; ++i) {
+      here[j].low -= values[i - j - 1] * here[i].low;
+      here[j].high -= values[i - j - 1] * here[i].high;
+    }
+  }
+  std::memcpy(x + static_cast<long>(first) * kStrip, here, sizeof here);
+}
+
+PALPATION_TARGETS void solve_strip(const Columns& l, int panel_count, double* x) {
+  for (int panel = 0; panel < panel_count; ++panel) {
+    const int first = l.panel_starts[panel];
+    switch (l.panel_starts[panel + 1] - first) {
+      case 1:
+        solve_forward<1>(l, first, x);
+        break;
+      case 2:
+        solve_forward<2>(l, first, x);
+        break;
+      case 3:
+        solve_forward<3>(l, first, x);
+        break;
+      default:
+        solve_forward<kWidestPanel>(l, first, x);
+    }
+  }
+  for (int panel = panel_count - 1; panel >= 0; --panel) {
+    const int first = l.panel_starts[panel];
+    switch (l.panel_starts[panel + 1] - first) {
+      case 1:
+        solve_backward<1>(l, first, x);
+        break;
+      case 2:
+        solve_backward<2>(l, first, x);
+        break;
+      case 3:
+        solve_backward<3>(l, first, x);
+        break;
+      default:
+        solve_backward<kWidestPanel>(l, first, x);
+    }
   }
 }
 
@@ -77,9 +159,28 @@ PALPATION_TARGETS void combine_all(double x, double* a, double y, const double* 
 
 }  // namespace
 
+std::vector<int> panels_of(const BlockFactor& factor) {
+  const std::vector<int>& starts = factor.column_starts;
+  const int n = static_cast<int>(starts.size()) - 1;
+  // A column's rows but the first are all in the column of that first one (the elimination tree), which has no others if it has no more.
+  const auto goes_on = [&](int column) {
+    const int count = starts[column + 1] - starts[column];
+    return count > 0 && factor.rows[starts[column]] == column + 1 && starts[column + 2] - starts[column + 1] == count - 1;
+  };
+  std::vector<int> panel_starts;
+  for (int column = 0; column < n;) {
+    panel_starts.push_back(column);
+    const int end = std::min(column + kWidestPanel, n);
+    do ++column;
+    while (column < end && goes_on(column - 1));
+  }
+  panel_starts.push_back(n);
+  return panel_starts;
+}
+
 void BlockFactor::solve(Strip& strip) const {
-  solve_strip(column_starts.data(), rows.data(), values.data(), inverse_diagonal.data(), static_cast<int>(inverse_diagonal.size()),
-              strip.data());
+  const Columns columns{panel_starts.data(), column_starts.data(), rows.data(), values.data(), inverse_diagonal.data()};
+  solve_strip(columns, static_cast<int>(panel_starts.size()) - 1, strip.data());
 }
 
 void multiply(const Eigen::SparseMatrix<double>& a, const Strip& in, Strip& out) {

@@ -17,10 +17,15 @@ struct BlockFactor {
   std::vector<int> column_starts, rows;  // of L below its diagonal, by columns
   std::vector<double> values;
   std::vector<double> inverse_diagonal;
+  std::vector<int> panel_starts;  // first columns of panels_of(*this), and n
 
   /// Solves L D L' x = b in place.
   void solve(Strip& strip) const;
 };
+
+/// Neighbouring columns, four at most, that have the same rows below the last of them: a solve then meets each of those rows once for all.
+/// Such are most of the columns where a factor has filled in.
+std::vector<int> panels_of(const BlockFactor& factor);
 
 /// out = A in, A symmetric and compressed.
 void multiply(const Eigen::SparseMatrix<double>& a, const Strip& in, Strip& out);

@@ -59,6 +59,7 @@ BlockFactor factor_of(const Sparse& matrix) {
     factor.column_starts.push_back(static_cast<int>(factor.rows.size()));
     factor.inverse_diagonal.push_back(1.0 / diagonal[column]);
   }
+  factor.panel_starts = panels_of(factor);
   return factor;
 }
 
