@@ -67,10 +67,12 @@ Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach giv
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
+  const Stopwatch starting;
   Episode episode = started(scene, surface, std::move(plan), world.reach);
   episode.truth = superlevel_region(surface, world.truth, world.true_level);
   episode.truth_is = world.truth_is;
   if (scene.word("error.arithmetic") == "plain") episode.plain_truth = Superlevel{world.truth, world.true_level};
+  episode.start_seconds = starting.seconds();
   return episode;
 }
 
@@ -130,7 +132,7 @@ Reach coarse_reach(const Scene& scene, const Surface& surface, const CoarseMesh&
 
 /// Plans on a coarse mesh; when all is felt, concludes on the whole one.
 Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch) {
-  BatchStopwatch stopwatch;
+  const Stopwatch starting;
   const CoarseMesh coarse = coarsen(surface, scene.metres("plan.explore_mm"));
   const Plan plan = plan_of(scene);
   if (std::max(plan.initial_count, plan.batch.size) > static_cast<int>(coarse.vertices.size()))
@@ -141,6 +143,8 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
   Plan nothing = plan;
   nothing.initial_count = nothing.batches = 0;
   Episode episode = started(scene, surface, world, nothing);
+  episode.start_seconds = starting.seconds();
+  BatchStopwatch stopwatch;
   std::vector<int> planned = planner.next();
   const auto finish_batch = [&](const Tour& tour) {
     for (const int stop : planned) episode.stops.push_back(coarse.vertices[static_cast<std::size_t>(stop)]);

@@ -50,6 +50,7 @@ struct Episode {
   double band_probability = 0.95;
   double level_fraction = 0.5;
   std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
+  double start_seconds = 0.0;                ///< until the field could take readings: an intrinsic one finds the surface's waves
   std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
   std::vector<double> batch_cpu_seconds{};   ///< the same, of this thread's processor
   std::optional<std::string> coarse_stop_reason{};

@@ -67,9 +67,11 @@ void run_and_report(const SceneArguments& arguments, const Scene& scene, const T
   std::vector<SurfacePoint> stops;
   for (int stop : episode.stops) stops.push_back(tissue.surface.at_vertex(stop));
   output->write_waypoints(waypoints(tissue.surface, stops, robot), waypoints(tissue.surface, episode.way, robot), episode.legs);
-  output->write(
-      episode, &world,
-      {{"prepare_s", prepared_seconds}, {"run_s", running_seconds}, {"batches_s", episode.batch_seconds}, {"write_s", writing.seconds()}});
+  output->write(episode, &world,
+                {{"prepare_s", prepared_seconds + episode.start_seconds},
+                 {"run_s", running_seconds - episode.start_seconds},
+                 {"batches_s", episode.batch_seconds},
+                 {"write_s", writing.seconds()}});
   finish_output(*output, arguments.quiet);
 }
 
