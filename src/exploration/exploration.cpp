@@ -94,8 +94,8 @@ void Exploration::record(std::span<const Palpation> palpations) {
 }
 
 void Exploration::foresee() {
-  const bool is_fixed = !(field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails || field_.linear_trend);
-  if (next_.empty() || !(is_fixed || may_grow(field_))) return;
+  const bool is_built_anew = restates_known_readings(field_) || (field_.learns() && !may_grow(field_));
+  if (next_.empty() || is_built_anew) return;
   std::vector<SurfacePoint> places;
   for (const int stop : next_) places.push_back(surface_.at_vertex(stop));
   belief_ = belief_.foresee(places);

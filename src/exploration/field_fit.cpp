@@ -22,6 +22,8 @@ constexpr double kHalf = 0.5;
 /// of 1,400 per metre, the steepest edge there is, is flattened by it by 4 %.
 constexpr double kMergeWithin = 0.3;
 
+constexpr std::size_t kMostForEvidence = 300;
+
 bool is_on_the_way(const Palpation& palpation) { return palpation.kind == TouchKind::Way; }
 
 /// All stops, and every so many of the readings on the way, so that there are no more than `most` in all if the stops allow.
@@ -98,11 +100,18 @@ bool all_equal(const std::vector<double>& readings) {
 }
 
 double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpations) {
+  std::vector<Palpation> some;
+  const std::size_t step = palpations.size() / kMostForEvidence + 1;
+  for (std::size_t i = 0; i < palpations.size(); i += step) some.push_back(palpations[i]);
   const Prior prior = belief.prior().with(belief.prior().kernel(), {}, belief.prior().slope());
-  if (gather_sites(prior, palpations).size() < 2) return 0.0;
+  if (gather_sites(prior, some).size() < 2) return 0.0;
   const Hyperparameters given{prior.kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())};
-  return learn(prior, palpations, given, {.length_m = given.length_m, .signal_sd = given.signal_sd, .noise_sd = given.noise_sd})
-      .signal_evidence;
+  try {
+    return learn(prior, some, given, {.length_m = given.length_m, .signal_sd = given.signal_sd, .noise_sd = given.noise_sd})
+        .signal_evidence;
+  } catch (const NumericalError&) {
+    return 0.0;
+  }
 }
 
 Hyperparameters LearnedField::in_force() const {
@@ -147,9 +156,12 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<co
   return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
 }
 
+bool restates_known_readings(const FieldModel& field) {
+  return field.lag.is_modelled() || field.screening || field.heavy_tails || field.linear_trend;
+}
+
 bool may_grow(const FieldModel& field) {
-  const bool moves_old_readings = field.lag.is_modelled() || field.screening || field.heavy_tails || field.linear_trend;
-  return field.learns() && field.rebuild_gain > 0.0 && !moves_old_readings && field.constant.sd > 0.0;
+  return field.learns() && field.rebuild_gain > 0.0 && field.constant.sd > 0.0 && !restates_known_readings(field);
 }
 
 FieldFit grow_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Belief& in_force,

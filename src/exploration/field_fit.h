@@ -29,7 +29,9 @@ Spread spread_of(const std::vector<double>& readings);
 /// thousands, and the cost grows with the third power. All of them count in the belief.
 inline constexpr std::size_t kMostToLearnFrom = 150;
 
-/// Log likelihood ratio of a belief of fixed hyperparameters to noise alone, as LearnedField has it, around a constant that is not known.
+/// Log likelihood ratio of a belief of fixed hyperparameters to noise alone, as LearnedField has it, around a constant that is not known:
+/// of three hundred readings where there are more, since a tumour shows in those, and the cost grows with the third power. 0 where they
+/// determine no such field in double precision.
 double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpations);
 
 /// What readings teach: the belief before them.
@@ -61,6 +63,9 @@ FieldFit believe(const Surface& surface, const FieldModel& field, std::span<cons
 
 /// Both.
 FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start);
+
+/// Whether readings that are known already count otherwise once others come, hyperparameters apart.
+bool restates_known_readings(const FieldModel& field);
 
 /// Whether a belief of this field may grow by what is felt, under hyperparameters that are nearly the best (FieldModel::rebuild_gain).
 bool may_grow(const FieldModel& field);

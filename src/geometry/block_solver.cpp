@@ -89,39 +89,33 @@ PALPATION_INLINE void solve_backward(const Columns& l, int first, double* x) {
   std::memcpy(x + static_cast<long>(first) * kStrip, here, sizeof here);
 }
 
+template <int W, bool kForward>
+PALPATION_INLINE void solve_columns(const Columns& l, int first, double* x) {
+  if constexpr (kForward) {
+    solve_forward<W>(l, first, x);
+  } else {
+    solve_backward<W>(l, first, x);
+  }
+}
+
+template <bool kForward>
+PALPATION_INLINE void solve_panel(const Columns& l, int panel, double* x) {
+  const int first = l.panel_starts[panel];
+  switch (l.panel_starts[panel + 1] - first) {
+    case 1:
+      return solve_columns<1, kForward>(l, first, x);
+    case 2:
+      return solve_columns<2, kForward>(l, first, x);
+    case 3:
+      return solve_columns<3, kForward>(l, first, x);
+    default:
+      return solve_columns<kWidestPanel, kForward>(l, first, x);
+  }
+}
+
 PALPATION_TARGETS void solve_strip(const Columns& l, int panel_count, double* x) {
-  for (int panel = 0; panel < panel_count; ++panel) {
-    const int first = l.panel_starts[panel];
-    switch (l.panel_starts[panel + 1] - first) {
-      case 1:
-        solve_forward<1>(l, first, x);
-        break;
-      case 2:
-        solve_forward<2>(l, first, x);
-        break;
-      case 3:
-        solve_forward<3>(l, first, x);
-        break;
-      default:
-        solve_forward<kWidestPanel>(l, first, x);
-    }
-  }
-  for (int panel = panel_count - 1; panel >= 0; --panel) {
-    const int first = l.panel_starts[panel];
-    switch (l.panel_starts[panel + 1] - first) {
-      case 1:
-        solve_backward<1>(l, first, x);
-        break;
-      case 2:
-        solve_backward<2>(l, first, x);
-        break;
-      case 3:
-        solve_backward<3>(l, first, x);
-        break;
-      default:
-        solve_backward<kWidestPanel>(l, first, x);
-    }
-  }
+  for (int panel = 0; panel < panel_count; ++panel) solve_panel<true>(l, panel, x);
+  for (int panel = panel_count - 1; panel >= 0; --panel) solve_panel<false>(l, panel, x);
 }
 
 PALPATION_TARGETS void multiply_strip(const int* starts, const int* rows, const double* values, int n, const double* in, double* out) {

@@ -33,7 +33,7 @@ void restate(Episode& episode) {
     if (exploration.level()) {
       const Level level = *exploration.level();
       row.level = level.value;
-      row.expected_error_m2 = exploration.certainty()->expected.symmetric_difference_m2();
+      if (!exploration.tip_hides_all()) row.expected_error_m2 = exploration.certainty()->expected.symmetric_difference_m2();
       const Contour contour = exploration.contour();
       episode.estimate = superlevel_region(exploration.surface(), contour.field, contour.level);
     }

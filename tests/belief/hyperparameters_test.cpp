@@ -122,6 +122,20 @@ TEST(Learn, SeesNoSignalInATiltedPlane) {
   EXPECT_GT(learn(Prior(tissue, Metric::Chart, {}), readings, {}, {}).signal_evidence, 30.0);
 }
 
+TEST(Learn, GainsNothingOverTheBest) {
+  const Surface tissue = plane(26, 51);
+  Random random(5);
+  const std::vector<Palpation> readings = bumpy_readings(tissue, 60, random);
+  const Prior prior(tissue, Metric::Chart, {});
+  const Learned best = learn(prior, readings, {}, {});
+  EXPECT_LT(learn(prior, readings, best.values, {}).gain, 1e-6);
+  Hyperparameters worse = best.values;
+  worse.length_m *= 1.5;
+  EXPECT_GT(learn(prior, readings, worse, {}).gain, 0.1);
+  worse.length_m = 1.0;  // no length that is looked for
+  EXPECT_EQ(learn(prior, readings, worse, {}).gain, std::numeric_limits<double>::infinity());
+}
+
 TEST(Learn, FindsAnOptimum) {
   const Surface tissue = plane(40, 80);
   Random random(3);

@@ -100,6 +100,18 @@ TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
   EXPECT_TRUE(over_a_disk.level());
 }
 
+TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
+  const Surface tissue = plane(26, 51);
+  Random random(3);
+  FieldModel given{.kernel = {.length_m = 0.0033}, .learn_length = false, .learn_signal = false, .learn_noise = false};
+  for (const double noise_sd : {0.1, 1e-7}) {
+    given.belief.noise_sd = noise_sd;
+    Exploration exploration(tissue, given, {.estimate = LevelEstimate::Range}, {.batches = 0}, 1);
+    exploration.take_up(bumpy_readings(tissue, 1000, random));
+    EXPECT_TRUE(exploration.level()) << noise_sd;
+  }
+}
+
 TEST(Exploration, FindsTheDiskAndItsLevel) {
   const Surface tissue = plane(51, 101);
   const Phantom phantom = disk_phantom(tissue, 0.05);
