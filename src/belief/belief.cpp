@@ -19,6 +19,8 @@ namespace {
 
 /// Rows of L alone then take 3 GB.
 constexpr std::size_t kMostSites = 20000;
+/// Noise over the signal's variance with which a reading may have a row beside another of the same place: its pivot keeps ten digits.
+constexpr double kLeastNoiseOfRepeat = 1e-6;
 
 double mean_of(const Eigen::VectorXd& values) {
   const double origin = values[0];
@@ -65,10 +67,12 @@ Belief Belief::condition_on(std::span<const Palpation> more) const {
     return next;
   }
   if (reduced_) next.keep_rows(0);
+  next.restate_sites(reduced_ ? next.palpations_.size() : more.size());
   next.restate_readings();
   int unchanged = 0;
   const int known = std::min(row_count(), next.site_count());
-  while (unchanged < known && next.diagonal_[unchanged] == diagonal_[unchanged] && next.readings_[unchanged] == readings_[unchanged]) {
+  while (unchanged < known && next.sites_[unchanged].place == sites_[unchanged].place &&
+         next.diagonal_[unchanged] == diagonal_[unchanged] && next.readings_[unchanged] == readings_[unchanged]) {
     ++unchanged;
   }
   if (unchanged < row_count()) next.keep_rows(unchanged);
@@ -97,12 +101,32 @@ void Belief::state_origin(std::span<const Site> sites) {
   if (!sites.empty()) origin_ = options_.standardize || prior_.constant().sd > 0.0 ? merge(sites.front(), noise_variance()).mean : 0.0;
 }
 
-/// Sites, their merged readings and the diagonal D.
+/// The sites of all readings, the last `more` of which are new. A place that is touched again has a site of its own, so that the rows that
+/// stand remain; only where repeats are as many as places, or so exact that the rows of both would all but coincide, are all merged anew.
+void Belief::restate_sites(std::size_t more) {
+  const std::vector<Site> fresh = gather_sites(prior_, palpations_, palpations_.size() - more);
+  restate_spread();
+  const double signal_variance = signal_sd() * signal_sd();
+  bool may_repeat = true;
+  int repeats = repeat_count_;
+  for (const Site& site : fresh) {
+    if (std::ranges::none_of(sites_, [&](const Site& known) { return known.place == site.place; })) continue;
+    ++repeats;
+    may_repeat = may_repeat && merge(site, noise_variance()).variance >= kLeastNoiseOfRepeat * signal_variance;
+  }
+  if (may_repeat && 2 * repeats <= static_cast<int>(sites_.size() + fresh.size()) && sites_.size() + fresh.size() <= kMostSites) {
+    sites_.insert(sites_.end(), fresh.begin(), fresh.end());
+    repeat_count_ = repeats;
+  } else {
+    sites_ = gather_sites(prior_, palpations_);
+    repeat_count_ = 0;
+  }
+}
+
+/// The sites' merged readings and the diagonal D.
 void Belief::restate_readings() {
-  sites_ = gather_sites(prior_, palpations_);
   require(sites_.size() <= kMostSites, "Belief", std::to_string(sites_.size()) + " places touched",
           "must be at most " + std::to_string(kMostSites) + " for an exact belief; one of reduced rank takes more");
-  restate_spread();
   const double signal_variance = signal_sd() * signal_sd();
   const double plain_ratio = options_.noise_is_relative ? options_.noise_sd * options_.noise_sd : noise_variance() / signal_variance;
   require(!options_.single_precision || sites_.empty() || plain_ratio >= kLeastNoiseForSingle, "Belief",

@@ -86,6 +86,7 @@ Marginals marginals_once(const Prior& prior, const BeliefOptions& options, std::
   Belief belief(prior, options);
   if (options.reduced_rank_tolerance > 0.0) return belief.condition_on(palpations).at_vertices(part);
   belief.palpations_.assign(palpations.begin(), palpations.end());
+  belief.restate_sites(palpations.size());
   belief.restate_readings();
   // Where there is little noise the rows are looked at again.
   const bool is_sharp = std::ranges::any_of(belief.diagonal_, [](double noise) { return noise < Belief::kSmallNoise; });

@@ -75,6 +75,7 @@ bool Belief::reduce_all() {
 
   rows_.clear();
   sites_.clear();
+  repeat_count_ = 0;
   readings_.clear();
   diagonal_.clear();
   auto reduced = std::make_shared<Reduced>(Reduced{features, WeightSpace(features->at(prior_, sites), readings.noise, readings.right),

@@ -35,10 +35,10 @@ MergedReading merge_exact(const std::vector<double>& readings) {
 
 }  // namespace
 
-std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> palpations) {
+std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> palpations, std::size_t first) {
   std::vector<Site> sites;
   std::map<PlaceKey, std::size_t> site_at;
-  for (std::size_t number = 0; number < palpations.size(); ++number) {
+  for (std::size_t number = first; number < palpations.size(); ++number) {
     const Palpation& palpation = palpations[number];
     if (!palpation.set_aside.empty()) continue;
     check(palpation, number);

@@ -14,8 +14,6 @@
 namespace palpation {
 namespace {
 
-/// With fewer readings the field is so unknown that lazy evaluation would come to every vertex anyway.
-constexpr int kFewSites = 25;
 /// Supposed readings on the way are this far apart: half the length over which stiffness changes; closer ones tell the same.
 constexpr double kWayStep_m = 0.002;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -233,8 +231,8 @@ Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const L
   const PointwiseScorer scorer(pointwise, level, marginals, candidates);
   Search search{
       scorer, marginals.mean, belief.noise_variance(), LookAhead(belief, marginals.variance), std::move(allowed), Trail(belief, options)};
-  const bool lazy = options.evaluation == Evaluation::Lazy ||
-                    (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev && belief.site_count() >= kFewSites);
+  const bool lazy =
+      options.evaluation == Evaluation::Lazy || (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev);
   Batch batch;
   if (lazy) {
     choose_lazily(search, options.size, batch);

@@ -93,6 +93,47 @@ TEST(AppendedRows, AreTheSameBytesOnOneThreadAndOnTwo) {
   }
 }
 
+/// Touches of three places again and again, each with a reading of its own.
+std::vector<Palpation> of_three_places(const Surface& tissue, int count) {
+  std::vector<Palpation> readings;
+  for (int i = 0; i < count; ++i) readings.push_back(touch(tissue, 100 + 7 * (i % 3), std::sin(i)));
+  return readings;
+}
+
+TEST(TouchedAgain, IsARowMoreAndLeavesThoseThatStand) {
+  const Surface tissue = plane(27, 33, 0.3);
+  const Prior prior(tissue, Metric::Ambient, {.length_m = 0.004});
+  std::vector<Palpation> readings = readings_around_zero(tissue, 60);
+  for (const Palpation& again : of_three_places(tissue, 9)) readings.push_back(again);
+  for (const double noise_sd : {0.1, 0.002}) {
+    const Dense dense = dense_posterior(prior, readings, noise_sd * noise_sd);
+    const Belief grown = in_batches(Belief(prior, {.noise_sd = noise_sd}), readings, 3);
+    EXPECT_EQ(grown.site_count(), 69);
+    expect_alike(grown.at_vertices(), dense, noise_sd == 0.1 ? 1e-11 : 1e-9);
+    expect_alike(marginals_once(prior, grown.options(), readings), dense, noise_sd == 0.1 ? 1e-11 : 1e-9);
+    EXPECT_NEAR(grown.log_marginal_likelihood() / dense.log_likelihood, 1.0, 1e-9);
+  }
+}
+
+TEST(TouchedAgain, IsMergedWhereRepeatsAreMostOfAllRows) {
+  const Surface tissue = plane(27, 33, 0.3);
+  const Prior prior(tissue, Metric::Ambient, {.length_m = 0.004});
+  const std::vector<Palpation> readings = of_three_places(tissue, 200);
+  const Belief grown = in_batches(Belief(prior, {.noise_sd = 0.1}), readings, 1);
+  EXPECT_LE(grown.site_count(), 6);
+  expect_alike(grown.at_vertices(), dense_posterior(prior, readings, 0.01), 1e-11);
+}
+
+TEST(TouchedAgain, IsMergedWhereRowsOfOnePlaceWouldAllButCoincide) {
+  const Surface tissue = plane(27, 33, 0.3);
+  const Prior prior(tissue, Metric::Ambient, {.length_m = 0.004}, {.sd = 0.0});
+  std::vector<Palpation> readings = readings_around_zero(tissue, 20);
+  readings.push_back(readings[4]);
+  const Belief grown = in_batches(Belief(prior, {.noise_sd = 1e-5}), readings, 5);
+  EXPECT_EQ(grown.site_count(), 20);
+  expect_alike(grown.at_vertices(), Belief(prior, {.noise_sd = 1e-5}).condition_on(readings).at_vertices(), 1e-10);
+}
+
 class Foresight : public ::testing::Test {
  protected:
   Foresight() : before(in_batches(Belief(prior(), {.noise_sd = 0.1}), std::span(readings).first(30), 10)) {
@@ -136,9 +177,16 @@ TEST_F(Foresight, IsLeftAsideWhereTheRobotDoesOtherwise) {
   }
 }
 
-TEST_F(Foresight, OfNothingOrOfAPlaceTouchedBeforeIsNone) {
-  const std::vector<SurfacePoint> twice = {planned[0], planned[1], planned[0]}, known = {readings[0].where};
-  for (const auto& places : {std::vector<SurfacePoint>{}, twice, known}) {
+TEST_F(Foresight, IsOfPlacesTouchedBeforeToo) {
+  planned[3] = readings[2].where;
+  std::vector<Palpation> felt_there(felt().begin(), felt().end());
+  felt_there[3].where = planned[3];
+  expect_alike(before.foresee(planned).condition_on(felt_there).at_vertices(), before.condition_on(felt_there).at_vertices(), 1e-12);
+}
+
+TEST_F(Foresight, OfNothingOrOfAPlaceTwiceIsNone) {
+  const std::vector<SurfacePoint> twice = {planned[0], planned[1], planned[0]};
+  for (const auto& places : {std::vector<SurfacePoint>{}, twice}) {
     expect_alike(before.foresee(places).condition_on(felt()).at_vertices(), before.condition_on(felt()).at_vertices(), 1e-12);
   }
 }

@@ -81,7 +81,7 @@ class Belief {
   const Prior& prior() const { return prior_; }
   const BeliefOptions& options() const { return options_; }
   const std::vector<Palpation>& palpations() const { return palpations_; }
-  /// Places touched; where the rank is reduced, a place touched again later counts again.
+  /// Places touched; one that is touched again later may count again.
   int site_count() const;
   /// Nothing where the belief is exact.
   std::optional<ReducedRank> reduced_rank() const;
@@ -92,7 +92,7 @@ class Belief {
 
   /// The same belief, with the work done that touches at these places will need and that no reading changes, for while the robot moves:
   /// condition_on is quick if the next touches are those, in this order, with the field's own noise, and not slower if they are not. What
-  /// it answers is the same. Nothing is prepared where a place was touched before, or noise is a part of what readings teach.
+  /// it answers is the same. Nothing is prepared where a place comes twice among them, or noise is a part of what readings teach.
   Belief foresee(std::span<const SurfacePoint> places) const;
 
   Marginals at_vertices(Part part = Part::Whole) const;
@@ -130,6 +130,7 @@ class Belief {
   Eigen::VectorXd solve_lower(Eigen::VectorXd right_side) const;
   void restate_spread();
   void state_origin(std::span<const Site> sites);
+  void restate_sites(std::size_t more);
   void restate_readings();
   void keep_rows(int count);
   void append_rows(Keep keep);
@@ -164,6 +165,7 @@ class Belief {
   BeliefOptions options_;
   std::vector<Palpation> palpations_;
   std::vector<Site> sites_;
+  int repeat_count_ = 0;          // of them, places that an earlier one has too
   std::vector<double> readings_;  // merged, one per site
   std::vector<double> diagonal_;  // D
   double spread_ = 1.0;           // of the readings, if standardized

@@ -1,4 +1,4 @@
-/// Readings gathered by place: repeated touches of one site are one row of the model, exactly.
+/// Readings gathered by place: repeated touches of one site can be one row of the model, exactly.
 ///
 /// For readings y_k of variance v_k at one place, the posterior depends on their precision-weighted mean and on sum 1/v_k alone; the
 /// likelihood also on their scatter, which `scatter_log_likelihood` adds (RELIABILITY: merging is both speed and stability).
@@ -20,9 +20,9 @@ struct Site {
   std::vector<double> known_variances;  ///< ... and those variances
 };
 
-/// One site per distinct place of the palpations that are not set aside, in order of first touch.
+/// One site per distinct place of the palpations that are not set aside, in order of first touch; of those from number `first` on.
 /// Throws InvalidInput naming the palpation's number if a reading is not finite or a variance negative or infinite.
-std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> palpations);
+std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> palpations, std::size_t first = 0);
 
 /// A site's readings as one, where the field's noise has the given variance.
 struct MergedReading {

@@ -13,7 +13,7 @@
 namespace palpation {
 
 enum class Evaluation {
-  Automatic,  ///< lazy where the acquisition allows it and enough is known for it to pay
+  Automatic,  ///< lazy where the acquisition allows it
   Lazy,       ///< old scores are upper bounds, since stddev only falls: evaluate only what could be best
   Exhaustive  ///< every candidate for every pick: the twin
 };
