@@ -170,7 +170,7 @@ TEST(ReadingsExtremes, HundredsOfAppendsAreAsGoodAsOneFactorFromScratch) {
   }
 }
 
-// A place touched again changes its row: what comes after is forgotten and made anew.
+// A place touched again has a row more, until there are too many: then what comes after is forgotten and made anew.
 TEST(ReadingsExtremes, AThousandChangedReadingsLeaveNoTrace) {
   const Surface tissue = plane(13, 21, 0.3);
   Random random(5);
