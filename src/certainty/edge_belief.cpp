@@ -22,6 +22,8 @@ constexpr Eigen::Index kMany = 300;
 constexpr double kDeep_m = 0.008;
 /// Mean squared residual over noise variance: what chance makes of a hundred readings is less.
 constexpr double kMuchScatter = 1.3;
+/// And over those degrees of freedom that are the noise's: chance makes more of a hundred readings.
+constexpr double kLittleScatter = 0.5;
 constexpr int kMostRounds = 4;
 /// Laplace's approximation takes the profile as straight. Where the boundary may be off by a good part of the edge's width, readings tell
 /// less than that: the offset's variance grows by this much for a standard deviation of 1 / slope (found on simulated tumours).
@@ -29,11 +31,13 @@ constexpr double kCurved = 3.0;
 /// And its tails are heavier than a normal's, the more so the less sure the edge is: a missed arm of a horseshoe lies far out. The band
 /// grows by p (1 + 0.3 p) for a mean standard deviation of p / slope (found in the same way).
 constexpr double kHeavierTail = 0.3;
+/// By a tenth it grows for all that, and for a noise that is found with the boundary (found in the same way).
+constexpr double kWider = 1.1;
 /// Outlines are smoother than the correction's prior, which has corners. That overstates the wrong area the more, the less the readings'
 /// noise adds: by this part where it adds nothing, fading as the mean standard deviation grows past that part of 1 / slope (found in the
 /// same way).
-constexpr double kSmoother = 0.55;
-constexpr double kNoisePart = 0.2;
+constexpr double kSmoother = 0.3;
+constexpr double kNoisePart = 0.1;
 
 /// Gauss and Hermite's five nodes for the mean over a standard normal variable.
 constexpr std::array<std::pair<double, double>, 5> kNormalNodes = {{{-2.856970013872806, 0.011257411327720691},
@@ -57,6 +61,10 @@ EdgeData gathered(const Belief& belief) {
     data.variance[i] = merged.variance;
   }
   return data;
+}
+
+bool all_have_the_field_noise(std::span<const Palpation> palpations) {
+  return std::ranges::all_of(palpations, [](const Palpation& one) { return std::isnan(one.noise_variance) || !one.set_aside.empty(); });
 }
 
 double value_at(const Surface& surface, const Field& field, const SurfacePoint& point) {
@@ -134,20 +142,41 @@ EdgeData with_plateaus_merged(const EdgeData& data) {
   return merged;
 }
 
+/// Squared residuals over the noise variance, their sum.
+double squares(const EdgeFit& fit, const EdgeData& data) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
+    const double residual = data.reading[i] - profile_reading(fit.profile, data.depth_m[i] + fit.correction_m[i]);
+    sum += residual * residual / data.variance[i];
+  }
+  return sum;
+}
+
+/// The same fit where all noise variances are `times` as large.
+EdgeFit refitted(const EdgeFit& fit, double times, EdgeData& data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior) {
+  data.variance *= times;
+  EdgeFit next = fit_edge_belief(data, prior_covariance, prior);
+  next.scatter = fit.scatter * times;
+  return next;
+}
+
 /// Readings that scatter about the profile more than their noise says are believed that much less: edges of real tissue are no perfect
-/// sigmoids.
-EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior) {
+/// sigmoids. Where the noise was learned with the field, which takes for noise what it cannot follow of a steep edge, those that scatter
+/// less are believed more, as far as `least_variance`.
+EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior, bool noise_is_learned,
+                     double least_variance) {
+  const Eigen::Index count = data.reading.size();
+  for (int round = 0; noise_is_learned && round < kMostRounds; ++round) {
+    // Of so many readings' worth of noise: what the fit has not followed (MacKay's measure).
+    const double free = data.variance.dot(fit.covariance.solve(Eigen::MatrixXd::Identity(count, count)).diagonal());
+    const double times = std::max(squares(fit, data) / free, least_variance / data.variance.minCoeff());
+    if (!(times < kLittleScatter)) break;
+    fit = refitted(fit, times, data, prior_covariance, prior);
+  }
   for (int round = 0; round < kMostRounds; ++round) {
-    double scatter = 0.0;
-    for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
-      const double residual = data.reading[i] - profile_reading(fit.profile, data.depth_m[i] + fit.correction_m[i]);
-      scatter += residual * residual / data.variance[i] / static_cast<double>(data.reading.size());
-    }
+    const double scatter = squares(fit, data) / static_cast<double>(count);
     if (scatter < kMuchScatter) break;
-    data.variance *= scatter;
-    const double all_scatter = fit.scatter * scatter;
-    fit = fit_edge_belief(data, prior_covariance, prior);
-    fit.scatter = all_scatter;
+    fit = refitted(fit, scatter, data, prior_covariance, prior);
   }
   return fit;
 }
@@ -196,7 +225,8 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     if (all.reading.size() > kMany) break;  // what is merged differs from start to start, and so does the evidence
   }
   if (!best) return std::nullopt;
-  const EdgeFit edge = with_scatter(std::move(best->edge), best->data, best->prior_covariance, profile);
+  const bool noise_is_learned = noise_log_sd > 0.0 && all_have_the_field_noise(belief.palpations());
+  const EdgeFit edge = with_scatter(std::move(best->edge), best->data, best->prior_covariance, profile, noise_is_learned, model_variance);
   EdgeBelief made(surface,
                   std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance * edge.scatter, best->data.places, edge}));
   made.noise_log_sd_ = noise_log_sd;
@@ -205,6 +235,8 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   made.survey_boundary();
   return made;
 }
+
+double EdgeBelief::noise_variance() const { return fit_->touch_variance; }
 
 /// Offsets at nodes along the boundary: how sure they are, and how they go together.
 void EdgeBelief::survey_boundary() {
@@ -238,7 +270,7 @@ double EdgeBelief::band_score(double probability) const {
   for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {
     (misses(middle) > 1.0 - probability ? below : above) = middle;
   }
-  return (1.0 + mean_part_of_edge_ * (1.0 + kHeavierTail * mean_part_of_edge_)) * above;
+  return (kWider + mean_part_of_edge_ * (1.0 + kHeavierTail * mean_part_of_edge_)) * above;
 }
 
 }  // namespace palpation

@@ -231,8 +231,7 @@ Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const L
   const PointwiseScorer scorer(pointwise, level, marginals, candidates);
   Search search{
       scorer, marginals.mean, belief.noise_variance(), LookAhead(belief, marginals.variance), std::move(allowed), Trail(belief, options)};
-  const bool lazy =
-      options.evaluation == Evaluation::Lazy || (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev);
+  const bool lazy = options.evaluation == Evaluation::Lazy || (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev);
   Batch batch;
   if (lazy) {
     choose_lazily(search, options.size, batch);

@@ -158,14 +158,13 @@ std::optional<double> over_reachable(const Episode& episode) {
   const std::optional<EdgeBelief>& edge = episode.exploration.edge();
   const double length_m = perimeter_m(episode.estimate);
   if (!edge || length_m == 0.0) return std::nullopt;
-  const Belief& belief = episode.exploration.belief();
-  const double contrast = std::abs(edge->profile().high - edge->profile().low);
+  const double contrast = std::abs(edge->profile().high - edge->profile().low), noise_sd = std::sqrt(edge->noise_variance());
   const ReferenceBound reachable = reference_bound({.perimeter_m = length_m,
                                                     .slope_per_m = edge->profile().slope_per_m,
-                                                    .noise = std::sqrt(belief.noise_variance()) / contrast,
-                                                    .readings = static_cast<int>(belief.palpations().size()),
+                                                    .noise = noise_sd / contrast,
+                                                    .readings = static_cast<int>(episode.exploration.palpations().size()),
                                                     .fraction = episode.level_fraction});
-  const bool has_noise = std::sqrt(belief.noise_variance()) > kNoNoise * contrast;
+  const bool has_noise = noise_sd > kNoNoise * contrast;
   if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
   return episode.exploration.certainty()->expected.symmetric_difference_m2() / reachable.expected_error_m2;
 }

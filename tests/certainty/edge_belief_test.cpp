@@ -67,6 +67,25 @@ TEST(EdgeBelief, KnowsHowWrongItIs) {
   EXPECT_LT(wrong / expected, 1.5);
 }
 
+// What a field learns as noise where it cannot follow an edge: five times what there is.
+TEST(EdgeBelief, TakesBackANoiseThatWasLearnedAndIsNotThere) {
+  const Surface surface = tissue();
+  Random random(8);
+  std::vector<Palpation> palpations = belief_of_disk(surface, 0.1, 100, random).palpations();
+  const auto around = [&](double noise_log_sd) {
+    const Belief belief = Belief(Prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0}), {.noise_sd = 0.5});
+    const Belief known = belief.condition_on(palpations);
+    return EdgeBelief::around(known, known.at_vertices(), kFirstLevels, 0.5, {}, noise_log_sd).value();
+  };
+  const EdgeBelief given = around(0.0), learned = around(0.07);
+  EXPECT_EQ(given.noise_variance(), 0.25);
+  EXPECT_GT(learned.noise_variance(), 0.5 * 0.01);
+  EXPECT_LT(learned.noise_variance(), 2.0 * 0.01);
+  EXPECT_LT(learned.expected_error_m2(), 0.4 * given.expected_error_m2());
+  for (Palpation& palpation : palpations) palpation.noise_variance = 0.25;  // each says so itself
+  EXPECT_EQ(around(0.07).noise_variance(), 0.25);
+}
+
 TEST(EdgeBelief, KnowsTheLevelWithinItsStandardDeviation) {
   const Surface surface = tissue();
   Random random(2);

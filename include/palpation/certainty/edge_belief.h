@@ -40,7 +40,7 @@ class EdgeBelief {
   /// Around the boundary { mean = first_level } of the belief's field, for the first level that makes the readings most probable.
   /// `component`: what the level cuts, at the vertices (the field, or the detrended one). Nothing where no boundary can be drawn at any of
   /// them, or no reading is left to place it. Throws InvalidInput for a fraction outside (0, 1), NumericalError if the readings' covariance
-  /// is not positive definite. `noise_log_sd`: how unsure the belief's noise is; 0, known.
+  /// is not positive definite. `noise_log_sd`: how unsure the belief's noise is, which was learned; 0, known.
   static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
                                           double fraction, const ShapePrior& shape = {}, double noise_log_sd = 0.0);
 
@@ -49,6 +49,9 @@ class EdgeBelief {
   const EdgeProfile& profile() const { return profile_; }
   /// Between low and high, with its standard deviation.
   const Level& level() const { return profile_.level; }
+  /// Of a reading, as they scatter about the profile: more than the belief's where the edge is no sigmoid; less where the noise was learned
+  /// with a field that could not follow the edge.
+  double noise_variance() const;
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where the boundary comes nearest.
   const Field& offset_sd() const { return offset_sd_; }
