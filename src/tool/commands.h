@@ -18,8 +18,9 @@ struct SceneArguments {
 };
 
 struct InfoArguments {
-  std::filesystem::path mesh;
-  std::string unit = "mm";
+  std::filesystem::path file;          ///< a mesh, or a scene (.json), whose tissue is looked at as it is cut out and refined
+  std::string unit;                    ///< of a mesh: it must be given
+  std::vector<std::string> overrides;  ///< of a scene
 };
 
 struct MeshArguments {

@@ -1,4 +1,4 @@
-// info: what a mesh is, what is wrong with it, and what to do.
+// info: what a mesh is, or the tissue that a scene makes of one, what is wrong with it, and what to do.
 #include <cstdio>
 #include <optional>
 
@@ -6,7 +6,10 @@
 #include "palpation/geometry/surface.h"
 #include "palpation/io/read_mesh.h"
 #include "tool/commands.h"
+#include "tool/exit_code.h"
 #include "tool/mesh_words.h"
+#include "tool/scene.h"
+#include "tool/tissue.h"
 
 namespace palpation::tool {
 namespace {
@@ -19,10 +22,14 @@ constexpr double kMostCountable_m = 1e60;
 
 void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
 
+std::string counts_and_size(const TriangleMesh& mesh) {
+  return std::to_string(mesh.vertices.rows()) + " vertices, " + std::to_string(mesh.triangles.rows()) + " triangles, " + size_words(mesh);
+}
+
 /// A file that is there but holds no mesh: what to do is the same whatever broke it.
 MeshFile read(const InfoArguments& arguments, const MeshRepair& repair = {}) {
   try {
-    return read_mesh_of_any_size(arguments.mesh, length_unit(arguments.unit), repair);
+    return read_mesh_of_any_size(arguments.file, length_unit(arguments.unit), repair);
   } catch (const IoError& error) {
     const std::string message = error.what();
     if (message.find(": cannot read: ") != std::string::npos) throw;
@@ -63,8 +70,7 @@ std::string weld_words(const InfoArguments& arguments) {
 }
 
 void print_file(const InfoArguments& arguments, const MeshFile& file) {
-  print(arguments.mesh.string() + ": " + file.format + ", " + std::to_string(file.mesh.vertices.rows()) + " vertices, " +
-        std::to_string(file.mesh.triangles.rows()) + " triangles, " + size_words(file.mesh) + "\n");
+  print(arguments.file.string() + ": " + file.format + ", " + counts_and_size(file.mesh) + "\n");
   const double extent = extent_m(file.mesh);
   if (extent < kLeastExtent_m || extent > kMostExtent_m) {
     print("Implausible size: tissue is between 1 mm and 2 m across. Is --unit right?\n");
@@ -72,15 +78,24 @@ void print_file(const InfoArguments& arguments, const MeshFile& file) {
   for (const MeshWarning& warning : file.warnings) print("Warning: " + warning.text + "\n  " + warning.advice + "\n");
 }
 
-}  // namespace
+void info_on_tissue(const InfoArguments& arguments) {
+  if (!arguments.unit.empty()) throw WrongUsage("info: --unit is of a mesh; of a scene's, surface.unit says it");
+  const Tissue tissue = tissue_of(Scene::read(arguments.file, arguments.overrides));
+  print("The tissue of " + arguments.file.string() + ": " + counts_and_size(tissue.surface.mesh()) + "\n");
+  for (const std::string& warning : tissue.warnings) print("Warning: " + warning + "\n");
+  print(surface_words(tissue.surface, "Next: palpate simulate or palpate plan on this scene.\n"));
+}
 
-void info(const InfoArguments& arguments) {
+void info_on_mesh(const InfoArguments& arguments) {
+  if (arguments.unit.empty()) throw WrongUsage("info: of a mesh, --unit is needed: mm, cm or m");
+  if (!arguments.overrides.empty()) throw WrongUsage("info: --set is of a scene (.json), and '" + arguments.file.string() + "' is none");
   const MeshFile file = read(arguments);
   print_file(arguments, file);
   const Attempt mesh = attempt(file.mesh);
   const double extent = extent_m(file.mesh);
   if (mesh.surface) {
-    print(surface_words(*mesh.surface));
+    print(surface_words(*mesh.surface,
+                        "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate simulate or palpate plan.\n"));
   } else if (extent > kLeastCountable_m && extent < kMostCountable_m) {
     print(fault_words(file.mesh, mesh.reason));
   } else {
@@ -89,5 +104,9 @@ void info(const InfoArguments& arguments) {
   if (file.equal_vertices > 0) print(weld_words(arguments));
   if (!mesh.surface) print("Next: mend it in a mesh editor at the places named, and run this again.\n");
 }
+
+}  // namespace
+
+void info(const InfoArguments& arguments) { arguments.file.extension() == ".json" ? info_on_tissue(arguments) : info_on_mesh(arguments); }
 
 }  // namespace palpation::tool

@@ -92,11 +92,15 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
 }
 
 void add_mesh_commands(CLI::App& app, Arguments& arguments) {
-  CLI::App* telling = app.add_subcommand("info", "What a mesh is, what it supports, and what to do next");
-  telling->add_option("MESH", arguments.info.mesh, "OBJ, OFF, STL, PLY or VTP")->required();
-  telling->add_option("--unit", arguments.info.unit, "of its coordinates: mm, cm or m")
-      ->required()
+  CLI::App* telling = app.add_subcommand("info", "What a mesh is, what it supports, and what to do next; or the tissue of a scene");
+  telling
+      ->add_option("FILE", arguments.info.file, "a mesh (OBJ, OFF, STL, PLY or VTP); or a scene (.json): its tissue, cut out and refined")
+      ->required();
+  telling->add_option("--unit", arguments.info.unit, "of a mesh' coordinates, which must be given: mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
+  telling->add_option("--set", arguments.info.overrides, "override a value of the scene; once for each value")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   telling->callback([&] { info(arguments.info); });
 
   CLI::App* making = app.add_subcommand("mesh", "Make a phantom");

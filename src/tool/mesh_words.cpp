@@ -171,45 +171,44 @@ std::string crossing_words(const Surface& surface) {
          ".\n  Tissue does not do so. Cut away one of the sheets, or work on a patch away from it.\n";
 }
 
-const std::string kRunScene = "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate simulate or palpate plan.\n";
+const std::string kChoosePart =
+    "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene; palpate info SCENE.json looks at it.\n";
 
-std::string disk_advice(const Surface& surface) {
+std::string disk_advice(const Surface& surface, const std::string& next) {
   if (surface.face_count() > kMostFacesToFlatten)
     return "Curved: a disk, which can be laid flat; how well is not tried here, as it has more than " +
-           std::to_string(kMostFacesToFlatten) + " triangles.\n" + kRunScene;
+           std::to_string(kMostFacesToFlatten) + " triangles.\n" + next;
   try {
     const Chart& chart = surface.chart();
     if (chart.isometric)
       return "Curved, but it unrolls without stretch: its chart is exact.\nRecommended: field.metric chart, exact here and the "
              "cheapest.\n" +
-             kRunScene;
+             next;
     const std::string warning =
         misleads(chart.distortion)
             ? "Warning: that is more than 10 % off, and field.metric chart would mislead there.\n"
               "Recommended: field.metric intrinsic, whose lengths are those along the surface; or a smaller part by surface.patch.\n"
             : "Recommended: field.metric chart, less than 10 % off everywhere and the cheapest.\n";
     return "Curved: laid flat, it is " + stretch_words(chart.distortion) + ", " + fixed(100.0 * chart.distortion.rms_stretch_error, 2) +
-           " % off on average; areas and errors are measured on the tissue.\n" + warning + kRunScene;
+           " % off on average; areas and errors are measured on the tissue.\n" + warning + next;
   } catch (const InvalidInput& error) {
-    return "Curved, without a chart: " + std::string(error.what()) + ".\n" +
-           "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene.\n";
+    return "Curved, without a chart: " + std::string(error.what()) + ".\n" + kChoosePart;
   }
 }
 
-std::string advice(const Surface& surface) {
+std::string advice(const Surface& surface, const std::string& next) {
   if (surface.is_planar())
     return "Flat: its own plane is its chart, and every metric and the boundary's area are exact.\nRecommended: field.metric chart, the "
            "cheapest.\n" +
-           kRunScene;
-  if (surface.has_chart()) return disk_advice(surface);
-  const std::string next = "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene.\n";
-  if (surface.topology().is_closed()) return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + next;
+           next;
+  if (surface.has_chart()) return disk_advice(surface, next);
+  if (surface.topology().is_closed()) return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + kChoosePart;
   try {
     surface.chart();
   } catch (const InvalidInput& error) {
-    return "Without a chart: " + std::string(error.what()) + ".\n" + next;
+    return "Without a chart: " + std::string(error.what()) + ".\n" + kChoosePart;
   }
-  return next;
+  return kChoosePart;
 }
 
 }  // namespace
@@ -228,10 +227,11 @@ std::string size_words(const TriangleMesh& mesh) {
   return fixed(size.x(), 2) + " x " + fixed(size.y(), 2) + " x " + fixed(size.z(), 2) + " mm";
 }
 
-std::string surface_words(const Surface& surface) {
+std::string surface_words(const Surface& surface, const std::string& next) {
   const auto [least, most] = curvature_range(surface);
   return topology_words(surface) + "Area: " + fixed(surface.area() * 1e4, 3) + " cm2\n" + edge_words(surface) +
-         "Gaussian curvature: " + fixed(least, 5) + " to " + fixed(most, 5) + " per mm2\n" + crossing_words(surface) + advice(surface);
+         "Gaussian curvature: " + fixed(least, 5) + " to " + fixed(most, 5) + " per mm2\n" + crossing_words(surface) +
+         advice(surface, next);
 }
 
 std::string fault_words(const TriangleMesh& mesh, const std::string& reason) {

@@ -13,7 +13,7 @@ namespace {
 std::string info_on(const std::filesystem::path& path, const std::string& unit = "cm") {
   ::testing::internal::CaptureStdout();
   try {
-    info({.mesh = path, .unit = unit});
+    info({.file = path, .unit = unit, .overrides = {}});
   } catch (...) {
     ::testing::internal::GetCapturedStdout();
     throw;

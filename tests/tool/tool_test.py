@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -357,6 +358,16 @@ class Tool(unittest.TestCase):
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual(summary["measurements"], 200, words)
         self.assertLess(summary["error"]["symmetric_difference_mm2"], 60.0)
+
+    def test_info_looks_at_the_tissue_that_a_scene_makes_of_a_mesh(self):
+        scene = ROOT / "examples" / "dome.json"
+        words = self.done("info", scene, "--set", "surface.patch.centre_mm=[0,0,0]", "--set", "surface.patch.radius_mm=8")
+        self.assertIn("The tissue of", words)
+        self.assertIn("Recommended: field.metric chart", words)
+        self.assertIn("on this scene", words)
+        area_cm2 = float(re.search(r"Area: ([0-9.]+) cm2", words).group(1))
+        # A cap of a sphere of 25 mm, 8 mm from its middle along the surface, less what its triangles jut out.
+        self.assertAlmostEqual(area_cm2, 2 * math.pi * 6.25 * (1 - math.cos(8 / 25)), delta=0.1)
 
     def test_says_what_to_do_with_a_closed_organ(self):
         if not LIVER.exists():
