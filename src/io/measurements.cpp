@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "io/landing.h"
 #include "io/number_text.h"
@@ -173,6 +175,31 @@ void check_range(const CsvTable& table, const std::vector<Palpation>& palpations
                   " at most; where they differ it must be by 1e-30 at least: write them in another unit");
 }
 
+/// Rows that were given twice tell nothing new, and readings that never scatter would pass for ones without noise. A sensor that counts may
+/// repeat itself to the last digit at a place touched again, but not more often than not.
+void set_aside_copies(const CsvTable& table, const Surface& surface, std::vector<Palpation>& palpations,
+                      std::vector<std::string>& warnings) {
+  std::map<std::array<double, 3>, std::map<std::array<double, 2>, std::size_t>> rows_at;  // by place, then reading and noise
+  std::vector<std::pair<std::size_t, std::size_t>> copies;
+  std::size_t revisits = 0;
+  for (std::size_t row = 0; row < palpations.size(); ++row) {
+    if (!palpations[row].set_aside.empty()) continue;
+    const Vec3 place = surface.position(palpations[row].where);
+    auto& rows = rows_at[{place.x(), place.y(), place.z()}];
+    revisits += !rows.empty();
+    const double noise = std::isnan(palpations[row].noise_variance) ? -1.0 : palpations[row].noise_variance;
+    const auto [first, is_new] = rows.try_emplace({palpations[row].reading, noise}, row);
+    if (!is_new) copies.emplace_back(row, first->second);
+  }
+  if (copies.empty() || 2 * copies.size() < revisits) return;
+  for (const auto& [row, first] : copies) palpations[row].set_aside = "copy of line " + std::to_string(table.line(first));
+  const auto& [row, first] = copies.front();
+  const std::string words = copies.size() == 1 ? " row repeats an earlier one, place and reading alike to every digit, and is"
+                                               : " rows repeat earlier ones, place and reading alike to every digit, and are";
+  warnings.push_back(table.name() + ": " + std::to_string(copies.size()) + words + " set aside: line " + std::to_string(table.line(row)) +
+                     " repeats line " + std::to_string(table.line(first)) + ".");
+}
+
 std::string noise_text(double variance) { return std::isnan(variance) ? std::string() : text_of(variance); }
 
 }  // namespace
@@ -201,6 +228,7 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
     file.palpations.push_back(std::move(palpation));
   }
   check_range(table, file.palpations);
+  set_aside_copies(table, surface, file.palpations, file.warnings);
   file.places = static_cast<int>(repeats.places());
   if (landing.moved() > 0) {
     file.warnings.push_back(table.name() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(table.row_count()) +

@@ -116,7 +116,8 @@ void add_values(Cases& cases) {
           {":4: the reading 8 contradicts 7 in line 2: both are at one place and without noise"});
   refused("S03", "above each other", with_noise("0.01,0.012,0,7,0\n0.01,0.012,0.00001,8,0\n"),
           {":3: the reading 8 contradicts 7 in line 2"});
-  cases.push_back({"S03", "without noise, but alike", with_noise("0.01,0.012,0,7,0\n0.01,0.012,0,7,0\n"), {}, 2, 1});
+  cases.push_back(
+      {"S03", "without noise, but alike", with_noise("0.01,0.012,0,7,0\n0.01,0.012,0,7,0\n"), {}, 2, 1, {"line 3 repeats line 2"}});
   cases.push_back({"S03", "one without noise", with_noise("0.01,0.012,0,7,0\n0.01,0.012,0,8,1\n"), {}, 2, 1});
   cases.push_back(
       {"S03", "one set aside", "x,y,z,reading,noise_variance,set_aside\n0.01,0.012,0,7,0,\n0.01,0.012,0,8,0,jammed\n", {}, 2, 1});
@@ -126,7 +127,7 @@ void add_values(Cases& cases) {
                    {},
                    2,
                    1,
-                   {"1 position lies within a nanometre of an earlier one, and counts as the same place"}});
+                   {"line 3 repeats line 2", "1 position lies within a nanometre of an earlier one, and counts as the same place"}});
   cases.push_back({"S05", "places two nanometres apart", table("0.01,0.012,0,7\n0.010000002,0.012,0,7\n"), {}, 2, 2});
   refused("S05", "places a picometre apart, without noise", with_noise("0.01,0.012,0,7,0\n0.010000000001,0.012,0,8,0\n"),
           {":3: the reading 8 contradicts 7 in line 2"});
@@ -158,7 +159,7 @@ void add_values(Cases& cases) {
                    10,
                    {"1 reading stands more than 1000 times as far out"}});
   cases.push_back({"S14", "negative readings", table("0.01,0.012,0,-7\n0.01,0.013,0,-8\n"), {}, 2, 2});
-  cases.push_back({"S15", "the same row twice: a repeat", table("0.01,0.012,0,7\n0.01,0.012,0,7\n"), {}, 2, 1});
+  cases.push_back({"S15", "the same row twice: a copy", table("0.01,0.012,0,7\n0.01,0.012,0,7\n"), {}, 2, 1, {"line 3 repeats line 2"}});
   cases.push_back(
       {"S17", "times are not looked at", "t,x,y,z,reading\n9,0.01,0.012,0,7\n-1e99,0.01,0.013,0,7\nnan,0.01,0.014,0,7\n", {}, 3, 3});
   cases.push_back({"S19", "no row", table(""), {}, 0, 0});
@@ -213,7 +214,7 @@ const std::vector<MeasurementRowElsewhere>& measurement_rows_elsewhere() {
       {"S11", "a file has no clock, and rows of a scan rise and fall with the tissue: what drifts is not told from what differs"},
       {"S13", "there is no range of readings to configure: a slip in some rows is told as an outlier, one in all rows is another unit"},
       {"S14", "readings have any unit and any origin: negative ones are allowed"},
-      {"S15", "rows have no identity: the same row twice is the same touch twice"},
+      {"S15", "rows have no identity: the same row twice is a copy, one that reads otherwise a touch of its own"},
       {"S16", "rows have no identity: their order does not change the answer, as measurement_belief_test.cpp shows"},
       {"S18", "a file has no session that could be closed"},
       {"S20", "a file names no mesh: positions that are not on this one are refused"},

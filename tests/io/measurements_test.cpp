@@ -41,6 +41,25 @@ TEST(ReadMeasurements, TakesEmptyVariancesForNoneWhereTheFieldHasNoNoise) {
   EXPECT_TRUE(contains(error, "m.csv:3: the reading 2 contradicts 1 in line 2")) << error;
 }
 
+TEST(ReadMeasurements, SetsAsideRowsThatWereGivenTwice) {
+  const TemporaryFolder folder;
+  const std::string rows = "0,0,0,1.5\n0.01,0,0,2.25\n0,0.01,0,1.75\n";
+  const MeasurementsFile file = read_measurements(folder.file("m.csv", "x,y,z,reading\n" + rows + rows), square());
+  ASSERT_EQ(file.palpations.size(), 6u);
+  for (std::size_t row = 0; row < 3; ++row) {
+    EXPECT_EQ(file.palpations[row].set_aside, "");
+    EXPECT_EQ(file.palpations[row + 3].set_aside, "copy of line " + std::to_string(row + 2));
+  }
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_TRUE(contains(file.warnings[0], "3 rows repeat earlier ones")) << file.warnings[0];
+  EXPECT_TRUE(contains(file.warnings[0], "line 5 repeats line 2")) << file.warnings[0];
+}
+
+TEST(ReadMeasurements, KeepsWhatASensorThatCountsRepeatsNowAndThen) {
+  for (const Palpation& palpation : measured("x,y,z,reading\n0,0,0,7\n0,0,0,8\n0,0,0,7\n0,0,0,6\n0,0,0,9\n"))
+    EXPECT_EQ(palpation.set_aside, "");
+}
+
 TEST(MeasurementsCsv, ComesBackAsItWasWritten) {
   const Surface surface = square();
   std::vector<Palpation> palpations(2);

@@ -6,7 +6,8 @@
 ///
 /// Each position goes to the closest point of the surface, from at most 5 mm above or below it and 1 mm beside its border. Places within a
 /// nanometre of an earlier row's are that row's place: readings there are repeats, and if they are without noise and differ, they
-/// contradict each other. Readings are at most 1e30 in size and, where they differ, do so by 1e-30 at least; a noise
+/// contradict each other. Rows that repeat an earlier one, place and reading alike to every digit, are set aside, unless places that were
+/// touched again mostly read otherwise. Readings are at most 1e30 in size and, where they differ, do so by 1e-30 at least; a noise
 /// variance is 0, or 1e-60 to 1e60: what is computed from these stays within the range of doubles.
 #pragma once
 
@@ -23,7 +24,8 @@ namespace palpation {
 struct MeasurementsFile {
   std::vector<Palpation> palpations;  ///< one a row, in the order of the rows
   int places = 0;                     ///< distinct ones, of the readings that are not set aside
-  /// Plain sentences: positions more than 0.1 mm off the surface, places within a nanometre of others, readings far from all others.
+  /// Plain sentences: positions more than 0.1 mm off the surface, places within a nanometre of others, copies, readings far from all
+  /// others.
   std::vector<std::string> warnings;
 };
 
