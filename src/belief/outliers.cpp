@@ -16,6 +16,7 @@ constexpr std::size_t kListed = 40;        // neighbours, of whom some may be se
 constexpr double kSure = 5.0;              // standard deviations
 constexpr double kSameWay = 0.9;           // cosine: within 25 degrees, where a lag moves both alike
 constexpr double kLeastNoise = 0.03;       // of the field's standard deviation: no model of an edge is better
+constexpr double kShown = 6.0;             // noises between the least and the greatest reading: the others show a contrast of their own
 constexpr double kMostShare = 0.1;         // of the readings
 constexpr std::size_t kLeastReadings = 5;  // fewer cannot say which of them is wrong
 constexpr Kernel kRough{.family = KernelFamily::Matern32, .length_m = 0.0035};
@@ -41,7 +42,7 @@ class Neighbourhoods {
   bool is_out(std::size_t i) const { return out_[i]; }
   void take_out(std::size_t i) { out_[i] = true; }
 
-  /// Half the range of all that is left, and the noise by which a reading and its nearest one differ.
+  /// The range of all that is left, and the noise by which a reading and its nearest one differ.
   void restate_scales() {
     std::vector<double> left, differences;
     for (std::size_t i : used_) {
@@ -50,11 +51,9 @@ class Neighbourhoods {
       const std::vector<std::size_t> around = left_around(i, 1);
       if (!around.empty()) differences.push_back(std::abs(palpations_[i].reading - palpations_[around.front()].reading));
     }
-    if (left.empty()) return;
-    const auto [least, greatest] = std::minmax_element(left.begin(), left.end());
-    signal_ = 0.5 * (*greatest - *least);
-    noise_ = differences.empty() ? signal_ : 1.4826 * median(differences) / std::sqrt(2.0);
-    noise_ = std::max(noise_, kLeastNoise * signal_);
+    std::sort(left.begin(), left.end());
+    sorted_ = std::move(left);
+    noise_ = differences.empty() ? 0.5 * range(0, 0) : 1.4826 * median(differences) / std::sqrt(2.0);
   }
 
   std::vector<std::size_t> left_around(std::size_t i, std::size_t most) const {
@@ -69,7 +68,9 @@ class Neighbourhoods {
   double deviation(std::size_t i) const {
     const std::vector<std::size_t> around = left_around(i, kAround);
     const auto n = static_cast<Eigen::Index>(around.size());
-    if (n < 2 || signal_ == 0.0) return 0.0;
+    const double signal = signal_without(palpations_[i].reading);
+    if (n < 2 || signal == 0.0) return 0.0;
+    const double noise = std::max(noise_, kLeastNoise * signal), noise_ratio = noise * noise / (signal * signal);
     Eigen::MatrixXd k(n, n);
     Eigen::MatrixXd right_sides(n, 3);  // correlations with the place, ones, readings
     for (Eigen::Index a = 0; a < n; ++a) {
@@ -77,7 +78,7 @@ class Neighbourhoods {
       for (Eigen::Index b = 0; b < n; ++b) {
         k(a, b) = correlation(kRough, places_[here] - places_[around[static_cast<std::size_t>(b)]]);
       }
-      k(a, a) += noise_ratio();
+      k(a, a) += noise_ratio;
       right_sides.row(a) << correlation(kRough, places_[i] - places_[here]), 1.0, palpations_[here].reading - palpations_[i].reading;
     }
     const Eigen::MatrixXd solved = k.llt().solve(right_sides);
@@ -85,12 +86,21 @@ class Neighbourhoods {
     const double mean = solved.col(2).sum() / precision;
     const double residual_one = 1.0 - solved.col(0).sum();
     const double predicted = right_sides.col(0).dot(solved.col(2)) + residual_one * mean;
-    const double variance = 1.0 + noise_ratio() - right_sides.col(0).dot(solved.col(0)) + residual_one * residual_one / precision;
-    return std::abs(predicted) / (signal_ * std::sqrt(variance));
+    const double variance = 1.0 + noise_ratio - right_sides.col(0).dot(solved.col(0)) + residual_one * residual_one / precision;
+    return std::abs(predicted) / (signal * std::sqrt(variance));
   }
 
  private:
-  double noise_ratio() const { return noise_ * noise_ / (signal_ * signal_); }
+  double range(std::size_t from_least, std::size_t from_greatest) const {
+    return sorted_.size() < 2 ? 0.0 : sorted_[sorted_.size() - 1 - from_greatest] - sorted_[from_least];
+  }
+
+  /// Half the range of the readings, without this one where the others show contrast: one that is far off would hide behind itself.
+  double signal_without(double reading) const {
+    if (sorted_.empty()) return 0.0;
+    const double others = range(reading == sorted_.front(), reading == sorted_.back());
+    return 0.5 * (others > kShown * noise_ ? others : range(0, 0));
+  }
 
   std::vector<std::size_t> nearest(std::size_t i) const {
     std::vector<std::pair<double, std::size_t>> others;
@@ -110,7 +120,7 @@ class Neighbourhoods {
   std::vector<std::size_t> used_;
   std::vector<bool> out_;
   std::vector<std::vector<std::size_t>> around_;
-  double signal_ = 0.0;
+  std::vector<double> sorted_;
   double noise_ = 0.0;
 };
 

@@ -19,15 +19,16 @@ constexpr double kAcross = 0.6;        // of the longest pass: a row that crosse
 constexpr std::size_t kLeastRows = 3;  // fewer say nothing about what rows have in common
 constexpr double kMostOfAll = 0.5;     // of all readings lie on rows, or it is no scan
 
-constexpr double kFlat = 0.05;         // of the rows' usual range: no contact, no change
-constexpr double kGapWidth = 0.25;     // of the way between two groups of readings, without ...
-constexpr double kGapShare = 0.03;     // ... this share of the smaller group: an edge of tissue leaves four times as many
-constexpr double kLeastGroup = 0.01;   // of the readings: fewer are outliers, judged one by one
-constexpr double kSoundShare = 0.15;   // of the readings: tissue's own group is no smaller
-constexpr double kStartUp_m = 0.003;   // after rest until the probe reads true
-constexpr double kSliding_m = 0.0011;  // between readings made in motion; farther apart they are pokes, each from rest
-constexpr double kDense_m = 0.0005;    // between readings: several to a millimetre, where tissue turns slowly ...
-constexpr double kTurnShare = 0.05;    // ... by less than this part of a step at one reading
+constexpr double kFlat = 0.05;            // of the rows' usual range: no contact, no change
+constexpr double kGapWidth = 0.25;        // of the way between two groups of readings, without ...
+constexpr double kGapShare = 0.03;        // ... this share of the smaller group: an edge of tissue leaves four times as many
+constexpr double kLeastGroup = 0.01;      // of the readings: fewer are outliers, judged one by one
+constexpr double kSoundShare = 0.15;      // of the readings: tissue's own group is no smaller
+constexpr double kMostPokesApart = 0.05;  // of the readings: a poke fails alone, and few pokes fall on a tumour's edge
+constexpr double kStartUp_m = 0.003;      // after rest until the probe reads true
+constexpr double kSliding_m = 0.0011;     // between readings made in motion; farther apart they are pokes, each from rest
+constexpr double kDense_m = 0.0005;       // between readings: several to a millimetre, where tissue turns slowly ...
+constexpr double kTurnShare = 0.05;       // ... by less than this part of a step at one reading
 constexpr std::size_t kLeastToBeGross = 20;
 constexpr double kGrossBelow = 10.0;    // ranges of nine tenths of the readings
 constexpr double kGrossAbove = 1000.0;  // the same: a tumour stands out of noise of 0.1 % by three hundred
@@ -151,7 +152,7 @@ Gap empty_part(const std::vector<double>& sorted, const Gap& gap) {
 }
 
 /// Jams lie above tissue's readings, lost contact below them.
-void find_levels_apart(Screen& screen) {
+void find_levels_apart(Screen& screen, bool pokes) {
   for (int round = 0; round < 4; ++round) {
     std::vector<double> sorted = screen.used();
     if (sorted.empty()) return;
@@ -163,6 +164,7 @@ void find_levels_apart(Screen& screen) {
     const double spread = lower_is_tissue ? sorted[gap.below - 1] - sorted[gap.below / 50] : sorted.back() - gap.high;
     if (gap.width() <= 0.5 * spread) return;
     gap = empty_part(sorted, gap);
+    if (pokes && static_cast<double>(std::min(gap.below, gap.above)) > kMostPokesApart * static_cast<double>(sorted.size())) return;
     for (std::size_t i = 0; i < screen.palpations.size(); ++i) {
       if (lower_is_tissue && screen.reading(i) > gap.low) screen.set_aside(i, kJammed);
       if (!lower_is_tissue && screen.reading(i) < gap.high) screen.set_aside(i, kNoContact);
@@ -370,7 +372,8 @@ std::vector<Palpation> screened(const Surface& surface, std::span<const Palpatio
   find_frozen(screen);
   if (!rows.empty()) {
     find_flat_rows(screen, rows);
-    find_levels_apart(screen);
+    const bool pokes = std::ranges::all_of(rows, [&](const Pass& row) { return median_step_m(screen.places, row) > kSliding_m; });
+    find_levels_apart(screen, pokes);
     find_start_ups(screen, rows);
     find_parts_apart(screen, rows);
     find_transitions(screen, rows);

@@ -161,6 +161,24 @@ TEST(Screened, PokesThatContradictTheirNeighboursAreSetAside) {
   for (std::size_t i : slipped) EXPECT_EQ(result[i].set_aside, kOutlier) << i;
 }
 
+// Touches 2 mm apart: the farther off the one that failed is, the less it may hide behind itself.
+TEST(Screened, AnOutlierFarBeyondTheContrastDoesNotHideBehindItself) {
+  const Surface tissue = sheet();
+  for (const double far : {3500.0, 5000.0, 20000.0, 1e6, -1e6}) {
+    std::vector<Palpation> few;
+    Random random(5);
+    for (int i = 0; i < 225; ++i) {
+      Palpation palpation;
+      palpation.where = tissue.project(Vec3(0.001 + 0.002 * (i % 15), 0.002 + 0.002 * (i / 15), 0.0));
+      palpation.reading = counts(tissue.position(palpation.where)) + 75.0 * random.normal() + (i == 18 ? far : 0.0);
+      few.push_back(palpation);
+    }
+    const std::vector<Palpation> result = screened(tissue, few);
+    EXPECT_EQ(reasons(result), (Found{{kOutlier, 1}})) << far;
+    EXPECT_EQ(result[18].set_aside, kOutlier) << far;
+  }
+}
+
 // Sixteen touches of healthy tissue and one of a tumour, 8 mm apart: nothing contradicts it.
 TEST(Screened, AStiffPlaceThatWasFeltOnceIsKept) {
   const Surface tissue = sheet();
