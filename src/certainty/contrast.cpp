@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace palpation {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kEnoughSignal = 5.0;
 constexpr double kEnoughContrast = 5.0;
 constexpr std::size_t kFewReadings = 10;
+constexpr std::size_t kManyReadings = 30;
 constexpr int kRounds = 60;
 constexpr std::array kHighShares = {0.01, 0.05, 0.1, 0.2, 0.35};
 /// Noise below this part of the readings' variance is no noise: the ratio would grow without bound.
@@ -86,6 +88,18 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings) {
     }
   }
   return best;
+}
+
+std::optional<std::size_t> lone_reading(std::span<const double> readings) {
+  if (readings.size() < kManyReadings) return std::nullopt;
+  std::vector<std::size_t> order(readings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return readings[a] < readings[b]; });
+  const auto at = [&](std::size_t rank) { return readings[order[rank]]; };
+  const std::size_t last = order.size() - 1;
+  if (at(last) - at(last - 1) > at(last - 1) - at(0)) return order[last];
+  if (at(1) - at(0) > at(last) - at(1)) return order[0];
+  return std::nullopt;
 }
 
 bool shows_contrast(std::span<const double> readings, double signal_evidence) {

@@ -40,6 +40,15 @@ bool has_range(const Marginals& marginals) {
   return greatest - least > kRounding * scale;
 }
 
+/// Of the palpations that are not set aside.
+std::optional<std::size_t> lone_palpation(std::span<const Palpation> palpations) {
+  const std::optional<std::size_t> lone = lone_reading(used_readings(palpations));
+  if (!lone) return std::nullopt;
+  std::size_t number = 0;
+  for (std::size_t used = 0; !palpations[number].set_aside.empty() || used < *lone; ++number) used += palpations[number].set_aside.empty();
+  return number;
+}
+
 /// A smooth field is slow to believe in a few readings of many; a disk is not.
 bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpations) {
   const std::vector<double> readings = used_readings(palpations);
@@ -126,12 +135,7 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   } else {
     belief_ = belief_.condition_on(palpations);
   }
-  // Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back.
-  if (needs_contrast() && !trend_is_missing()) {
-    const std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : all;
-    if (!field_.learns()) evidence = evidence_of_fixed(belief_, flat);
-    contrast_seen_ = shows_contrast(used_readings(flat), evidence) || a_disk_stands_out(Layout(belief_.prior()), flat);
-  }
+  if (!trend_is_missing()) judge_contrast(field_.linear_trend ? belief_.palpations() : all, evidence);
   recorded_ = std::move(recorded);
   palpations_ = std::move(all);
   marginals_ = belief_.at_vertices();
@@ -156,6 +160,25 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   if (field_.indenter_radius_m > 0.0 && level_) component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
+}
+
+/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back. Nor is it contrast what
+/// one of many readings shows alone. `evidence`: for the field, where it is learned.
+void Exploration::judge_contrast(std::vector<Palpation> palpations, double evidence) {
+  const auto shows = [&](const Belief& belief, double for_field) {
+    const std::vector<Palpation> flat = field_.linear_trend ? belief.detrended_palpations() : palpations;
+    return shows_contrast(used_readings(flat), field_.learns() ? for_field : evidence_of_fixed(belief, flat)) ||
+           a_disk_stands_out(Layout(belief.prior()), flat);
+  };
+  const std::optional<std::size_t> lone = lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : palpations);
+  lone_reading_ = lone ? std::optional(palpations[*lone]) : std::nullopt;
+  if (!needs_contrast()) return;
+  contrast_seen_ = shows(belief_, evidence);
+  if (!contrast_seen_ || !lone) return;
+  palpations.erase(palpations.begin() + static_cast<std::ptrdiff_t>(*lone));
+  const FieldFit without =
+      field_.learns() ? fit_field(surface_, field_, palpations, learned_) : FieldFit{fixed_field(surface_, field_, palpations), learned_};
+  contrast_seen_ = shows(without.belief, without.signal_evidence);
 }
 
 /// Weights and field in turn; the readings stay where the lag that was found puts them. Returns the evidence for the field.

@@ -28,10 +28,6 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string place_words(const Vec3& place) {
-  return "(" + fixed(place.x() * 1e3, 2) + ", " + fixed(place.y() * 1e3, 2) + ", " + fixed(place.z() * 1e3, 2) + ") mm";
-}
-
 /// A component or a border, to be listed by size.
 struct Part {
   double size = 0.0;
@@ -45,7 +41,7 @@ std::string list_words(std::vector<Part> parts, const std::string& each, double 
   std::string words;
   for (std::size_t i = 0; i < std::min(parts.size(), kMostListed); ++i) {
     words += "  " + fixed(parts[i].size * scale, 3) + " " + unit + ", " + std::to_string(parts[i].count) + " " + each + ", around " +
-             place_words(parts[i].middle()) + "\n";
+             place_words(parts[i].middle(), 2) + "\n";
   }
   if (parts.size() > kMostListed) words += "  and " + std::to_string(parts.size() - kMostListed) + " smaller ones\n";
   return words;
@@ -167,7 +163,7 @@ std::string crossing_words(const Surface& surface) {
   const auto [a, b] = *found.first;
   const Vec3 place = surface.position({a, Vec3::Constant(1.0 / 3.0)});
   return "Warning: it runs through itself: " + counted(found.pairs, "pair", "pairs") + " of triangles meet, such as triangles " +
-         std::to_string(a) + " and " + std::to_string(b) + " around " + place_words(place) +
+         std::to_string(a) + " and " + std::to_string(b) + " around " + place_words(place, 2) +
          ".\n  Tissue does not do so. Cut away one of the sheets, or work on a patch away from it.\n";
 }
 

@@ -65,11 +65,7 @@ json place_json(const TumourPart& part) {
 
 json part_json(const TumourPart& part, const Surface& surface) {
   json result = place_json(part);
-  const Points2& uv = surface.chart().uv;
-  Eigen::Index nearest = 0;
-  (uv.rowwise() - part.centroid_m.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-  const Vec3 position = surface.vertex(static_cast<int>(nearest));
-  result["position_mm"] = {position.x() * kMm, position.y() * kMm, position.z() * kMm};  // of the vertex nearest to the centroid
+  result["position_mm"] = {part.position_m.x() * kMm, part.position_m.y() * kMm, part.position_m.z() * kMm};
   result["probability"] = part.probability;
   result["touches_border"] = part.touches_border;
   result["holes"] = json::array();

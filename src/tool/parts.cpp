@@ -38,6 +38,9 @@ TumourPart measured(const PolygonWithHoles& polygon, const Surface& surface) {
   for (const Ring& hole : polygon.holes) add(hole);
   part.area_m2 = area_on_tissue(polygon, 0.5 * twice_area, surface);
   part.centroid_m = origin + moment / twice_area;
+  Eigen::Index nearest = 0;
+  (surface.chart().uv.rowwise() - part.centroid_m.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  part.position_m = surface.vertex(static_cast<int>(nearest));
   return part;
 }
 

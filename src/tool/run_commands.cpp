@@ -28,7 +28,9 @@ void warn(OutputFolder& output, const std::vector<std::string>& warnings) {
 /// What was found, and what is odd about it; that there is nothing is a finding.
 void report(const Episode& episode, bool quiet) {
   if (!quiet) std::fputs(episode_words(episode).c_str(), stdout);
-  if (episode.exploration.level()) tell(boundary_remarks(episode));
+  std::vector<std::string> remarks = boundary_remarks(episode);
+  if (!episode.exploration.level() && !remarks.empty()) remarks.pop_back();  // that nothing was found
+  tell(remarks);
 }
 
 MeasurementsFile measured_on(const Scene& scene, const Surface& surface, const std::filesystem::path& path) {

@@ -26,15 +26,6 @@ constexpr double kNoNoise = 1e-3;           // of the contrast: so little does n
 
 std::string counted(std::size_t count, const std::string& noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
-/// Readings have any unit: three digits behind the point where that says something.
-std::string reading_text(double value) {
-  const double size = std::abs(value);
-  if (size == 0.0 || (size >= 0.1 && size < 1e6)) return fixed(value, 3);
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", size >= 1e6 && size < 1e15 ? 15 : 4, value);
-  return text.data();
-}
-
 std::string no_level_words(const Exploration& exploration) { return exploration.trend_is_missing() ? kTooFewForTrend : kNoContrast; }
 
 std::string percent(double probability) {
@@ -44,9 +35,7 @@ std::string percent(double probability) {
 
 std::string part_words(const TumourPart& part) {
   const Vec2 size = (part.most_m - part.least_m) * 1e3;
-  const Vec2 middle = (part.most_m + part.least_m) * 500.0;
-  std::string words =
-      "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around (" + fixed(middle.x(), 1) + ", " + fixed(middle.y(), 1) + ") mm";
+  std::string words = "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around " + place_words(part.position_m, 1);
   if (!part.polygon.holes.empty()) words += ", with " + counted(part.polygon.holes.size(), "hole");
   if (part.touches_border) words += ", reaching the border of the tissue";
   if (part.probability < kSure) words += ", tumour with probability " + percent(part.probability) + " only";
@@ -140,6 +129,13 @@ std::string level_outside_words(const Exploration& exploration) {
          " to " + reading_text(greatest) + ": " + (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
 }
 
+std::string lone_reading_words(const Surface& surface, const Palpation& lone) {
+  return "One reading, " + reading_text(lone.reading) + " at " + place_words(surface.position(lone.where), 1) +
+         ", lies farther from all others than they lie from each other: touch there again, or take it out if it is a fault "
+         "(field.screening "
+         "sets aside what readings around it contradict).";
+}
+
 double perimeter_m(const Region& region) {
   double sum = 0.0;
   const auto add = [&](const Ring& ring) {
@@ -177,6 +173,19 @@ std::string fixed(double value, int digits) {
   return text.data();
 }
 
+std::string reading_text(double value) {
+  const double size = std::abs(value);
+  if (size == 0.0 || (size >= 0.1 && size < 1e6)) return fixed(value, 3);
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", size >= 1e6 && size < 1e15 ? 15 : 4, value);
+  return text.data();
+}
+
+std::string place_words(const Vec3& place_m, int digits) {
+  return "(" + fixed(place_m.x() * 1e3, digits) + ", " + fixed(place_m.y() * 1e3, digits) + ", " + fixed(place_m.z() * 1e3, digits) +
+         ") mm";
+}
+
 std::string without(const std::string& start, const std::string& words) {
   return words.starts_with(start) ? words.substr(start.size()) : words;
 }
@@ -185,6 +194,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   if (exploration.belief().site_count() == 0) return {};
   std::vector<std::string> remarks = screening_remarks(exploration);
+  if (exploration.lone_reading()) remarks.push_back(lone_reading_words(exploration.surface(), *exploration.lone_reading()));
   if (exploration.lag() && exploration.lag()->at_bound) {
     remarks.push_back("The lag found, " + fixed(exploration.lag()->value_m * 1e3, 2) +
                       " mm, is as far as any was looked for: the readings do not tell it. Give field.lag_mm, or touch in more directions.");

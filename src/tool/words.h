@@ -17,6 +17,10 @@ inline constexpr const char* kNoContrast = "Nothing found: the readings show no 
 inline constexpr const char* kTooFewForTrend = "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
 
 std::string fixed(double value, int digits);
+/// Readings have any unit: three digits behind the point where that says something.
+std::string reading_text(double value);
+/// "(5.0, 14.0, 0.0) mm".
+std::string place_words(const Vec3& place_m, int digits);
 /// The words after this start, where they have it.
 std::string without(const std::string& start, const std::string& words);
 

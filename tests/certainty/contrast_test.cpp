@@ -32,6 +32,22 @@ TEST(ShowsContrast, IsSeldomFooledByNoise) {
   EXPECT_LE(fooled, 5);
 }
 
+TEST(LoneReading, LiesFartherFromAllOthersThanTheyFromEachOther) {
+  Random random(4);
+  std::vector<double> readings = noise(40, 0.1, random);
+  EXPECT_FALSE(lone_reading(readings));
+  readings[17] = 9.0;
+  EXPECT_EQ(lone_reading(readings), 17u);
+  readings[17] = 4.0;
+  EXPECT_EQ(lone_reading(readings), 17u);
+  readings[18] = 4.1;  // two are no longer alone
+  EXPECT_FALSE(lone_reading(readings));
+  std::vector<double> few = noise(29, 0.1, random);
+  few[3] = 9.0;
+  EXPECT_FALSE(lone_reading(few));
+  EXPECT_FALSE(lone_reading(std::vector<double>(40, 7.0)));
+}
+
 TEST(TwoPlateaus, FindsThemWhereNoiseIsAQuarterOfTheirDistance) {
   Random random(3);
   std::vector<double> readings = noise(80, 0.5, random);

@@ -49,6 +49,42 @@ TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
   EXPECT_LE(lost, readings / 200) << readings;
 }
 
+/// Readings of healthy tissue, one of which failed.
+std::vector<Palpation> healthy_but_one(const Surface& tissue, int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Palpation> readings;
+  for (int i = 0; i < count; ++i) readings.push_back(touch(tissue, random.below(tissue.vertex_count()), 7.0 + 0.1 * random.normal()));
+  readings[static_cast<std::size_t>(count / 3)].reading = 8.5;
+  return readings;
+}
+
+TEST(Exploration, FindsNoTumourInOneReadingOfAHundred) {
+  const Surface tissue = plane(41, 41);
+  for (const bool trend : {false, true}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const std::vector<Palpation> readings = healthy_but_one(tissue, 100, seed);
+      Exploration exploration(tissue, FieldModel{.linear_trend = trend}, {}, {}, 1);
+      exploration.take_up(readings);
+      EXPECT_FALSE(exploration.contrast_seen()) << seed << " " << trend;
+      EXPECT_FALSE(exploration.level()) << seed << " " << trend;
+      ASSERT_TRUE(exploration.lone_reading()) << seed << " " << trend;
+      EXPECT_EQ(tissue.vertex_at(exploration.lone_reading()->where), tissue.vertex_at(readings[33].where)) << seed;
+    }
+  }
+}
+
+// What is felt again is no fault.
+TEST(Exploration, FindsATumourThatASecondReadingConfirms) {
+  const Surface tissue = plane(41, 41);
+  std::vector<Palpation> readings = healthy_but_one(tissue, 100, 1);
+  readings.push_back(readings[33]);
+  readings.back().reading = 8.6;
+  Exploration exploration(tissue, {}, {}, {}, 1);
+  exploration.take_up(readings);
+  EXPECT_TRUE(exploration.contrast_seen());
+  EXPECT_FALSE(exploration.lone_reading());
+}
+
 TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> hung;

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -66,6 +67,18 @@ class Tool(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("smaller than a triangle", result.stderr)
         self.assertIn("smaller than a triangle", json.loads((self.folder / "out" / "summary.json").read_text())["warnings"][0])
+
+    def test_readings_that_look_wrong_are_told(self):
+        dice = random.Random(1)
+        healthy = [f"{x / 1000},{y / 1000},0,{dice.gauss(7, 0.1)}" for x in range(2, 20, 3) for y in range(2, 20, 3)]
+        scene = self.write("flat.json", json.dumps({"version": 1, "surface": {"plane": {"size_mm": [20, 20], "vertices": [21, 21]}}}))
+        for rows, words in ((healthy[:-1] + ["0.017,0.017,0,9"], "One reading, 9.000 at (17.0, 17.0, 0.0) mm"),
+                            (healthy + healthy[:5], "5 rows repeat earlier ones, place and reading alike to every digit, and are set aside: line 38 repeats line 2")):
+            measured = self.write("odd.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
+            result = palpate("boundary", scene, "--measurements", measured)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(words, result.stderr)
+            self.assertIn("Nothing found", result.stdout)
 
     def test_a_known_level_that_nothing_comes_near_is_told(self):
         for level, words in (("20", "above every reading"), ("0", "below every reading")):

@@ -1,6 +1,7 @@
 /// Whether readings show more than noise.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -21,5 +22,9 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings);
 /// tumour that few touches hit shows in their values before it shows in where they are. Noise alone passes in fewer than one run in a
 /// hundred.
 bool shows_contrast(std::span<const double> readings, double signal_evidence);
+
+/// The number of the one reading that lies farther from all others than they lie from each other: a fault, or the one touch that hit
+/// something. Nothing for fewer than thirty readings, where a tumour may well have been hit but once.
+std::optional<std::size_t> lone_reading(std::span<const double> readings);
 
 }  // namespace palpation

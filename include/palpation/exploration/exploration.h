@@ -151,6 +151,9 @@ class Exploration {
   Field acquisition_field() const;
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
+  /// A reading that lies farther from all others than they from each other (lone_reading), the trend apart: what it alone shows is no
+  /// contrast.
+  const std::optional<Palpation>& lone_reading() const { return lone_reading_; }
   bool is_screened() const { return field_.screening; }
   /// Whether a trend is modelled, but too few places are touched yet to tell a tumour from a tilt.
   bool trend_is_missing() const;
@@ -160,6 +163,7 @@ class Exploration {
  private:
   void learn_from(std::span<const Palpation> palpations);
   bool needs_contrast() const;
+  void judge_contrast(std::vector<Palpation> palpations, double evidence);
   double weigh_for_heavy_tails(std::span<const Palpation> palpations);
   void estimate_boundary();
   void doubt_where_contact_fades();
@@ -195,6 +199,7 @@ class Exploration {
   Hyperparameters learned_;
   std::optional<Lag> lag_;
   bool contrast_seen_ = false;
+  std::optional<Palpation> lone_reading_;
   int batch_ = 0;
   std::optional<SurfacePoint> probe_;
   std::vector<int> next_;
