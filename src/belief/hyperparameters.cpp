@@ -36,7 +36,8 @@ struct Objective {
   Likelihood likelihood;
   const LearnOptions& options;
   Hyperparameters fixed;
-  std::array<int, 3> slot{-1, -1, -1};  // of length, signal, noise among the free variables
+  double readings;                      // how many
+  std::array<int, 3> slot{-1, -1, -1};  // of the logarithms of length, signal, noise / signal among the free variables
   Optimum best{};
   std::optional<double> first{};  // log posterior where the search began
 
@@ -44,16 +45,17 @@ struct Objective {
     Hyperparameters values = fixed;
     if (slot[0] >= 0) values.length_m = std::exp(x[slot[0]]);
     if (slot[1] >= 0) values.signal_sd = std::exp(x[slot[1]]);
-    if (slot[2] >= 0) values.noise_sd = std::exp(x[slot[2]]);
+    if (slot[2] >= 0) values.noise_sd = values.signal_sd * std::exp(x[slot[2]]);
     return values;
   }
 
-  /// Log posterior and its gradient by the logarithms; remembers the best.
+  /// Log posterior and its gradient by the variables; remembers the best.
   LikelihoodGradient operator()(const double* x, unsigned count) {
     const Hyperparameters values = at(x);
     LikelihoodGradient result = likelihood(values);
     const double log_likelihood = result.value;
     if (!options.likelihood_alone) add_priors(values, result);
+    if (slot[2] >= 0) result.gradient[1] += result.gradient[2];  // signal and noise together
     if (!first) first = result.value;
     if (result.value > best.value) best = {{x, x + count}, result.value, log_likelihood};
     return result;
@@ -88,15 +90,26 @@ double nlopt_objective(unsigned count, const double* x, double* gradient, void* 
   }
 }
 
+/// Signal and noise times the factor that suits the readings best, which one gradient tells: y' S^-1 y is `readings` there, and falls with
+/// the factor's square.
+void scale(Objective& objective, std::vector<double>& x, const std::vector<double>& lower, const std::vector<double>& upper) {
+  std::array<double, 3> gradient{};
+  const double here = nlopt_objective(static_cast<unsigned>(x.size()), x.data(), gradient.data(), &objective);
+  const auto signal = static_cast<std::size_t>(objective.slot[1]);
+  const double square = 1.0 + gradient[signal] / objective.readings;
+  if (std::isfinite(here) && square > 0.0) x[signal] = std::clamp(x[signal] + 0.5 * std::log(square), lower[signal], upper[signal]);
+}
+
 /// Whatever the optimizer returns, the objective knows the best point it saw.
 void climb(Objective& objective, std::vector<double> x, const std::vector<double>& lower, const std::vector<double>& upper) {
+  if (objective.slot[1] >= 0 && objective.slot[2] >= 0) scale(objective, x, lower, upper);
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimizer(nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(x.size())),
                                                                          &nlopt_destroy);
   nlopt_set_lower_bounds(optimizer.get(), lower.data());
   nlopt_set_upper_bounds(optimizer.get(), upper.data());
   nlopt_set_max_objective(optimizer.get(), nlopt_objective, &objective);
   nlopt_set_xtol_abs1(optimizer.get(), 1e-5);
-  nlopt_set_ftol_abs(optimizer.get(), 1e-8);
+  nlopt_set_ftol_abs(optimizer.get(), 1e-6);
   nlopt_set_maxeval(optimizer.get(), kMostEvaluations);
   double value = 0.0;
   nlopt_optimize(optimizer.get(), x.data(), &value);
@@ -168,9 +181,11 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   // Around a plane, what is left of readings that lie on one is rounding.
   if (prior.has_slope()) range = std::max(range, kLeastNoise * std::abs(readings.front()));
 
+  const auto counts = [](const Palpation& palpation) { return palpation.set_aside.empty(); };
   Objective objective{Likelihood(prior, sites),
                       options,
                       {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)},
+                      static_cast<double>(std::count_if(palpations.begin(), palpations.end(), counts)),
                       {}};
   std::vector<double> lower, upper, from_start, from_prior;
   const auto free_variable = [&](int parameter, const std::optional<double>& fixed_value, double least_value, double most, double first,
@@ -198,7 +213,9 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   const double least_signal = options.likelihood_alone ? range / kReachAlone : 0.25 * range;
   const double most_signal = options.likelihood_alone ? range * kReachAlone : 10.0 * range;
   free_variable(1, options.signal_sd, least_signal, most_signal, start.signal_sd, 0.5 * range);
-  free_variable(2, options.noise_sd, kLeastNoise * range, 2.0 * range, start.noise_sd, std::sqrt(kRatioMedian) * 0.5 * range);
+  const double signal = options.signal_sd.value_or(0.5 * range), start_signal = options.signal_sd.value_or(start.signal_sd);
+  free_variable(2, options.noise_sd, kLeastNoise * range / signal, 2.0 * range / signal,
+                start_signal > 0.0 ? start.noise_sd / start_signal : 0.0, std::sqrt(kRatioMedian) * 0.5 * range / signal);
 
   double at_start = -std::numeric_limits<double>::infinity();
   if (lower.empty()) {
