@@ -217,7 +217,8 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   const Exploration ignored = explored({}), learned = explored({.learn = true}), known = explored({.known_m = 0.0015});
   EXPECT_FALSE(ignored.lag().has_value());
   ASSERT_TRUE(learned.lag().has_value());
-  EXPECT_NEAR(learned.lag()->value_m, 0.0015, 0.0002);
+  EXPECT_NEAR(learned.lag()->value_m, 0.0015, 2.0 * learned.lag()->stddev_m);
+  EXPECT_LT(learned.lag()->stddev_m, 0.0005);
   EXPECT_EQ(known.lag()->value_m, 0.0015);
   EXPECT_LT(wrong_mm2(learned), 0.6 * wrong_mm2(ignored));
   EXPECT_LT(wrong_mm2(known), 0.6 * wrong_mm2(ignored));
