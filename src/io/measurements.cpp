@@ -211,9 +211,11 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   Repeats repeats;
   MeasurementsFile file;
   file.palpations.reserve(table.row_count());
+  std::size_t farthest_row = 0;
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     Vec3 position;
     for (std::size_t i = 0; i < 3; ++i) position[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, columns.position[i]);
+    const double farthest_m = landing.farthest_m();
     Palpation palpation{.where = place_at(landing, position, table, row),
                         .reading = reading_at(table, row, columns.reading),
                         .noise_variance = noise_variance_at(table, row, columns.noise_variance),
@@ -221,6 +223,7 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
                         .kind = kind_at(table, row, columns.kind),
                         .travel = travel_at(table, row, columns.travel),
                         .set_aside = std::string(word_at(table, row, columns.set_aside))};
+    if (landing.farthest_m() > farthest_m) farthest_row = row;
     if (palpation.set_aside.empty()) {
       const bool exact = palpation.noise_variance == 0.0 || (rules.empty_noise_is_none && std::isnan(palpation.noise_variance));
       palpation.where = repeats.settle(palpation.where, surface.position(palpation.where), table, row, palpation.reading, exact);
@@ -232,8 +235,8 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   file.places = static_cast<int>(repeats.places());
   if (landing.moved() > 0) {
     file.warnings.push_back(table.name() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(table.row_count()) +
-                            " positions lay off the surface, by up to " + text_of(landing.farthest_m()) +
-                            " m, and were taken to its closest points.");
+                            " positions lay off the surface, by up to " + text_of(landing.farthest_m()) + " m in line " +
+                            std::to_string(table.line(farthest_row)) + ", and were taken to its closest points.");
   }
   repeats.tell(table.name(), file.warnings);
   tell_outliers(table, file.palpations, file.warnings);

@@ -4,22 +4,37 @@
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
 #include "palpation/boundary/region_error.h"
+#include "palpation/io/atomic_file.h"
 #include "palpation/io/read_boundary.h"
 #include "palpation/io/wkt.h"
 #include "tool/commands.h"
 #include "tool/output_folder.h"
+#include "tool/scene_json.h"
 #include "tool/tissue.h"
 #include "tool/words.h"
 
 namespace palpation::tool {
 namespace {
 
+constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr double kMargin_m = 0.005;
 constexpr double kRounding = 1e-9;  // of the tissue's area: corners on its border, rounded
+
+/// Curved tissue's chart is of one mesh and one patch; the summary beside a run's boundary tells of which.
+void check_chart(const std::filesystem::path& path, const Surface& surface) {
+  const std::filesystem::path summary = path.parent_path() / "summary.json";
+  if (surface.is_planar() || !std::filesystem::exists(summary)) return;
+  const nlohmann::json told = parse_json(read_file(summary, kMostBytes), summary.string());
+  const std::string here = surface.chart().hash(), there = told.is_object() ? told.value("chart_hash", here) : here;
+  if (there != here)
+    throw IoError(path.string() + ": was drawn in the chart of another mesh or patch (" + summary.string() + ": chart_hash is " + there +
+                  ", of the scene's tissue " + here + "): compare its boundary.vtp, which lies in space");
+}
 
 Region read_any(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
   const bool is_wkt = path.extension() == ".wkt";
   if (!is_wkt && path.extension() != ".vtp") throw IoError(path.string() + ": a boundary is a .wkt or a .vtp file");
+  if (is_wkt) check_chart(path, surface);
   const BoundaryFile file = is_wkt ? read_wkt(path) : read_boundary_vtp(path, surface);
   warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   return file.region;

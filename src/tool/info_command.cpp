@@ -69,10 +69,11 @@ std::string weld_words(const InfoArguments& arguments) {
   }
 }
 
+bool is_plausible(double extent_m) { return extent_m >= kLeastExtent_m && extent_m <= kMostExtent_m; }
+
 void print_file(const InfoArguments& arguments, const MeshFile& file) {
   print(arguments.file.string() + ": " + file.format + ", " + counts_and_size(file.mesh) + "\n");
-  const double extent = extent_m(file.mesh);
-  if (extent < kLeastExtent_m || extent > kMostExtent_m) {
+  if (!is_plausible(extent_m(file.mesh))) {
     print("Implausible size: tissue is between 1 mm and 2 m across. Is --unit right?\n");
   }
   for (const MeshWarning& warning : file.warnings) print("Warning: " + warning.text + "\n  " + warning.advice + "\n");
@@ -94,8 +95,10 @@ void info_on_mesh(const InfoArguments& arguments) {
   const Attempt mesh = attempt(file.mesh);
   const double extent = extent_m(file.mesh);
   if (mesh.surface) {
-    print(surface_words(*mesh.surface,
-                        "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate simulate or palpate plan.\n"));
+    print(surface_words(*mesh.surface, is_plausible(extent)
+                                           ? "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate "
+                                             "simulate or palpate plan.\n"
+                                           : "Next: run this again with the unit that makes it as large as it is.\n"));
   } else if (extent > kLeastCountable_m && extent < kMostCountable_m) {
     print(fault_words(file.mesh, mesh.reason));
   } else {

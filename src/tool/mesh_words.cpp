@@ -168,7 +168,8 @@ std::string crossing_words(const Surface& surface) {
 }
 
 const std::string kChoosePart =
-    "Next: choose a part to work on by surface.patch (centre_mm, radius_mm) in a scene; palpate info SCENE.json looks at it.\n";
+    "Next: choose a part to work on by surface.patch (centre_mm and radius_mm, box_mm, or facing) in a scene; palpate info SCENE.json "
+    "looks at it.\n";
 
 std::string disk_advice(const Surface& surface, const std::string& next) {
   if (surface.face_count() > kMostFacesToFlatten)
@@ -219,8 +220,10 @@ std::string stretch_words(const Distortion& distortion) {
 }
 
 std::string size_words(const TriangleMesh& mesh) {
-  const Vec3 size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).transpose() * 1e3;
-  return fixed(size.x(), 2) + " x " + fixed(size.y(), 2) + " x " + fixed(size.z(), 2) + " mm";
+  const Vec3 least = mesh.vertices.colwise().minCoeff(), most = mesh.vertices.colwise().maxCoeff();
+  const Vec3 size = (most - least) * 1e3;
+  return fixed(size.x(), 2) + " x " + fixed(size.y(), 2) + " x " + fixed(size.z(), 2) + " mm, from " + place_words(least, 2) + " to " +
+         place_words(most, 2);
 }
 
 std::string surface_words(const Surface& surface, const std::string& next) {

@@ -40,12 +40,16 @@ json::json_pointer pointer_to(const std::string& path) {
 }
 
 std::string unknown_words(const std::string& path) {
+  const std::string list = path.substr(0, path.find_first_of("[0123456789"));
+  const std::string key = list.substr(0, list.find_last_not_of(".[") + 1);
+  if (key.size() < path.size() && find_key(key) != nullptr) return "is a part of " + key + ": a list is set as a whole";
   return "is not a key of a scene; the nearest is " + nearest_key(path, scene_keys()) + " (palpate help scene lists all)";
 }
 
-/// A value as --set has it: JSON, or else a plain word. Paths need no quotes.
+/// A value as --set has it: JSON, or else a plain word. Paths need no quotes; null takes a key away.
 json override_value(const SceneKey& key, const std::string& text, const std::string& name) {
   if (text.empty()) throw IoError(name + ": has no value: write KEY=VALUE, such as plan.batch=5");
+  if (text == "null") return nullptr;
   const bool is_word = key.kind == ValueKind::Text || key.kind == ValueKind::Word;
   if (is_word && text.front() != '"') return text;
   try {
@@ -84,7 +88,13 @@ json overridden(json given, std::span<const std::string> overrides) {
     }
     if (!seen.insert(key).second) throw IoError(name + ": is given twice");
     const json value = override_value(*known, override.substr(equals + 1), name);
-    if (leads_through_objects(given, key)) given[pointer_to(key)] = value;
+    if (!value.is_null()) {
+      if (const std::optional<Fault> fault = fault_of(*known, value)) throw IoError(name + fault->place + ": " + fault->words);
+      if (leads_through_objects(given, key)) given[pointer_to(key)] = value;
+    } else if (given.contains(pointer_to(key))) {
+      const auto parent = pointer_to(key).parent_pointer();
+      given[parent].erase(pointer_to(key).back());
+    }
   }
   return given;
 }

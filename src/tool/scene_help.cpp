@@ -71,7 +71,8 @@ std::string range_text(const SceneKey& key) {
 
 std::string scene_help() {
   std::ostringstream out;
-  out << "A scene is a JSON file. Its keys, in groups: \"surface\": { \"mesh\": ... } is written surface.mesh here and in --set.\n"
+  out << "A scene is a JSON file. Its keys, in groups: \"surface\": { \"mesh\": ... } is written surface.mesh here and in --set,\n"
+      << "which sets a list as a whole, and takes a key away with null.\n"
       << "Lengths are millimetres where a key says so; \"reading\" is the sensor's own unit. Paths are relative to the scene.\n\n";
   std::string group;
   for (const SceneKey& key : scene_keys()) {

@@ -277,7 +277,7 @@ std::string episode_words(const Episode& episode) {
 }
 
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m) {
-  if (stops.empty()) return "Nothing more to touch: " + episode.stop_reason() + ".\n";
+  if (stops.empty()) return "Nothing more to touch. " + stop_words(episode.stop_reason());
   std::string words = "Touch next, in this order (" + fixed(path_m * 1e3, 0) + " mm to travel), in the robot's frame [mm]:\n";
   for (const Waypoint& stop : stops) {
     words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) + "  " +

@@ -176,7 +176,7 @@ void add_places(Cases& cases) {
   };
   read("S06", "a tenth of a millimetre above", "0.01,0.01,0.0001");
   read("S06", "a millimetre above", "0.01,0.01,0.001",
-       {"1 of 2 positions lay off the surface, by up to 0.001 m, and were taken to its closest points"});
+       {"1 of 2 positions lay off the surface, by up to 0.001 m in line 3, and were taken to its closest points"});
   read("S06", "five millimetres below", "0.01,0.01,-0.005", {"1 of 2 positions lay off the surface, by up to 0.005 m"});
   refused("S06", "more than five millimetres above", "0.01,0.01,0.006",
           {":3: the position (0.01, 0.01, 0.006) m is 0.006 m or more from the surface; at most 0.005 m is allowed"});

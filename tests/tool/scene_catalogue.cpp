@@ -391,6 +391,9 @@ void add_overrides(Cases& cases) {
   };
   add("C01", "plan.batch", {"--set plan.batch: must have the form KEY=VALUE"});
   add("C01", "plan.batch=", {"--set plan.batch: has no value"});
+  add("C02", "probe.tumours[0].radius_mm=3", {"--set probe.tumours[0].radius_mm: is a part of probe.tumours: a list is set as a whole"});
+  add("C02", "surface.plane.vertices.0=3",
+      {"--set surface.plane.vertices.0: is a part of surface.plane.vertices: a list is set as a whole"});
   add("C01", "=3", {"--set =3: must have the form KEY=VALUE"});
   add("C01", "", {"--set : must have the form KEY=VALUE"});
   add("C01", "probe.tumours=[{\"shape\": \"disk\"", {"--set probe.tumours:1:17: not JSON"});
@@ -398,13 +401,12 @@ void add_overrides(Cases& cases) {
   add("C02", "plan=3", {"--set plan: is a group of keys: set one of them, such as plan.acquisition"});
   add("C02", "/plan/batch=3", {"--set /plan/batch: is not a key of a scene"});
   add("C02", std::string(100000, 'x') + "=3", {"xxx...: is not a key of a scene"});
-  add("C04", "plan.batch=many", {": plan.batch: is \"many\", but must be a number"});
-  add("C04", "plan.batch=\"3\"", {": plan.batch: is \"3\", but must be a number"});
-  add("C04", "plan.batch=2.5", {": plan.batch: is 2.5, but must be a whole number"});
-  add("C04", "plan.batch=null", {": plan.batch: is null, but must be a number"});
-  add("C04", "plan.acquisition=\xff\xfe", {": plan.acquisition: is \"\\ufffd\\ufffd\", but must be one of"});
+  add("C04", "plan.batch=many", {"--set plan.batch: is \"many\", but must be a number"});
+  add("C04", "plan.batch=\"3\"", {"--set plan.batch: is \"3\", but must be a number"});
+  add("C04", "plan.batch=2.5", {"--set plan.batch: is 2.5, but must be a whole number"});
+  add("C04", "plan.acquisition=\xff\xfe", {"--set plan.acquisition: is \"\\ufffd\\ufffd\", but must be one of"});
   add("C05", "plan.batch=1e999", {"--set plan.batch:1:5: '1e999' is too large for a double"});
-  add("C05", "plan.gamma=nan", {": plan.gamma: is \"nan\", but must be a number"});
+  add("C05", "plan.gamma=nan", {"--set plan.gamma: is \"nan\", but must be a number"});
   add("C06", "plan.batch=" + nested(60000), {"--set plan.batch: [0]", ": is nested deeper than 32 levels"});
   add("C06", "plan.batch=" + nested(60000) + std::string(60000, ']'), {"--set plan.batch: [0]", ": is nested deeper than 32 levels"});
   cases.push_back({"C03", "--set the same key twice", scene(), {"--set plan.batch: is given twice"}, {"plan.batch=2", "plan.batch=3"}});

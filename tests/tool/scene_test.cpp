@@ -37,6 +37,14 @@ TEST(Scene, TakesOverrides) {
   EXPECT_EQ(scene.with_overrides(std::vector<std::string>{"plan.batch=8"}).integer("plan.batch"), 8);
 }
 
+TEST(Scene, LosesAKeyThatNullTakesAway) {
+  const std::vector<std::string> overrides{"surface.mesh=null", "surface.plane.vertices=[3,3]", "plan.gamma=null", "plan.batch=null"};
+  const Scene scene = Scene::parse(R"({"surface": {"mesh": "a.ply"}, "plan": {"batch": 5}})", "test", ".", overrides);
+  EXPECT_FALSE(scene.gives("surface.mesh"));
+  EXPECT_TRUE(scene.gives("surface.plane.vertices"));
+  EXPECT_EQ(scene.integer("plan.batch"), 10);
+}
+
 TEST(Scene, WarnsOfNothingWhereEverythingHasAnEffect) {
   EXPECT_TRUE(Scene::parse(R"({"level": {"estimate": "known", "value": 8}})", "test", ".").warnings().empty());
   EXPECT_TRUE(Scene(json::object(), "test", ".").warnings().empty());

@@ -254,7 +254,7 @@ class Tool(unittest.TestCase):
         words = self.done("plan", self.scene, "--set", "plan.batches=9", "--measurements", run / "measurements.csv", "--out", planned)
         self.assertIn("Touch next", words)
         self.assertEqual(len((planned / "waypoints.csv").read_text().splitlines()), 1 + 10)
-        self.assertIn("budget", self.done("plan", self.scene, "--measurements", run / "measurements.csv"))
+        self.assertIn("all planned batches", self.done("plan", self.scene, "--measurements", run / "measurements.csv"))
 
     def test_a_second_run_leaves_nothing_of_the_first(self):
         out = self.folder / "out"
@@ -293,6 +293,11 @@ class Tool(unittest.TestCase):
         self.assertIn("no boundary", self.refused(3, "compare", self.scene, run / "surface.vtp", a))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", self.scene, run / "boundary.wkt", run / "boundary.vtp"))
         self.assertIn("holds a run", self.refused(3, "compare", self.scene, a, b, "--out", run))
+        curved, bent = "examples/dome.json", self.folder / "bent"
+        self.done("simulate", ROOT / curved, "--set", "plan.batches=1", "--out", bent)
+        finer = ["--set", "surface.refine_mm=0.4"]
+        self.assertIn("the chart of another mesh", self.refused(3, "compare", ROOT / curved, bent / "boundary.wkt", bent / "boundary.vtp", *finer))
+        self.assertIn(" 0.00 mm2 wrong", self.done("compare", ROOT / curved, bent / "boundary.vtp", bent / "boundary.vtp", *finer))
 
     def test_mesh_makes_what_info_describes(self):
         plane = self.folder / "plane.ply"
