@@ -11,6 +11,7 @@
 #include "certainty/edge_belief_fit.h"
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
 
 namespace palpation {
 namespace {
@@ -28,11 +29,13 @@ constexpr int kMostRounds = 4;
 /// Laplace's approximation takes the profile as straight. Where the boundary may be off by a good part of the edge's width, readings tell
 /// less than that: the offset's variance grows by this much for a standard deviation of 1 / slope (found on simulated tumours).
 constexpr double kCurved = 3.0;
-/// And its tails are heavier than a normal's, the more so the less sure the edge is: a missed arm of a horseshoe lies far out. The band
-/// grows by p (1 + 0.3 p) for a mean standard deviation of p / slope (found in the same way).
-constexpr double kHeavierTail = 0.3;
-/// By a tenth it grows for all that, and for a noise that is found with the boundary (found in the same way).
-constexpr double kWider = 1.1;
+/// Its tails are heavier than a normal's: the band is this many times as wide where the mean standard deviation is 1 / slope and the tumour
+/// as broad as given, as a sixth root less where the edge is surer, and as a square root more where the tumour is slenderer, since a
+/// smooth field takes narrow bends too wide. Both within what was simulated (found in the same way).
+constexpr double kHeavyTail = 2.3;
+constexpr double kBreadth_m = 0.005;
+constexpr double kSurest = 0.03;
+constexpr double kSlenderest_m = 0.004, kBroadest_m = 0.010;
 /// Outlines are smoother than the correction's prior, which has corners. That overstates the wrong area the more, the less the readings'
 /// noise adds: by this part where it adds nothing, fading as the mean standard deviation grows past that part of 1 / slope (found in the
 /// same way).
@@ -245,14 +248,17 @@ void EdgeBelief::survey_boundary() {
   const Eigen::VectorXd as_if_straight = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::ArrayXd part_of_edge = as_if_straight.array() * profile_.slope_per_m;
   const Eigen::VectorXd sd = as_if_straight.array() * (1.0 + kCurved * part_of_edge.square()).sqrt();
+  double length_m = 0.0;
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
     const auto here = static_cast<Eigen::Index>(i), before = here - 1;
     expected_error_m2_ += std::sqrt(2.0 / std::numbers::pi) * nodes.length_m[i] * sd[here];
+    length_m += nodes.length_m[i];
     if (!nodes.follows_last[i]) continue;
     const double scale = as_if_straight[here] * as_if_straight[before];
     if (scale > 0.0) turn_ += std::acos(std::clamp(covariance(here, before) / scale, -1.0, 1.0));
   }
   if (sd.size() > 0) mean_part_of_edge_ = sd.mean() * profile_.slope_per_m;
+  if (length_m > 0.0) breadth_m_ = 2.0 * superlevel_area(surface_, depth_, 0.0) / length_m;
   expected_error_m2_ *= 1.0 - kSmoother * std::exp(-mean_part_of_edge_ / kNoisePart);
   offset_sd_ = spread_from_nodes(Layout(fit_->correction), nodes, sd);
 }
@@ -270,7 +276,9 @@ double EdgeBelief::band_score(double probability) const {
   for (double middle = 20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {
     (misses(middle) > 1.0 - probability ? below : above) = middle;
   }
-  return (kWider + mean_part_of_edge_ * (1.0 + kHeavierTail * mean_part_of_edge_)) * above;
+  const double unsure = std::pow(std::max(mean_part_of_edge_, kSurest), 1.0 / 6.0);
+  const double slender = std::sqrt(kBreadth_m / std::clamp(breadth_m_, kSlenderest_m, kBroadest_m));
+  return kHeavyTail * unsure * slender * above;
 }
 
 }  // namespace palpation

@@ -60,7 +60,7 @@ class EdgeBelief {
   double expected_error_m2() const { return expected_error_m2_; }
   /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
   /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary, the noise integrated out; widened for the tails
-  /// of an unsure edge.
+  /// of an unsure edge and the bends of a slender tumour.
   double band_score(double probability) const;
 
   /// Where touches would tell the most: one after the other, the candidate whose reading lowers the depth's expected error along the
@@ -80,6 +80,7 @@ class EdgeBelief {
   Field depth_;
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
+  double breadth_m_ = 0.0;          // twice the area inside over the boundary's length: a disk's radius
   double mean_part_of_edge_ = 0.0;  // the offset's standard deviation over the edge's width, 1 / slope
   double noise_log_sd_ = 0.0;
   double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
