@@ -92,7 +92,7 @@ LevelRule level_rule_of(const Scene& scene) {
   LevelRule rule;
   rule.fraction = scene.number("level.fraction");
   if (scene.word("level.estimate") == "known") rule.known = scene.number("level.value");
-  if (scene.word("level.estimate") == "edge") rule.estimate = LevelEstimate::Edge;
+  rule.estimate = scene.word("level.estimate") == "range" ? LevelEstimate::Range : LevelEstimate::Edge;
   return rule;
 }
 

@@ -102,6 +102,15 @@ TEST(Setup, CutsARefinedPatchAtItsRadiusWhateverTheMeshWas) {
     EXPECT_LE((patch.vertex(vertex) - Vec3(0.020, 0.020, 0.0)).norm(), 0.010 + 1e-12);
 }
 
+TEST(Setup, TakesTheLevelFromWhereTheSceneSays) {
+  const auto rule = [](const char* estimate) {
+    return level_rule_of(Scene(json{{"level", {{"estimate", estimate}, {"value", 8}}}}, "test", "."));
+  };
+  EXPECT_EQ(rule("range").estimate, LevelEstimate::Range);
+  EXPECT_EQ(rule("edge").estimate, LevelEstimate::Edge);
+  EXPECT_EQ(rule("known").known, 8.0);
+}
+
 TEST(Setup, ReadsThePapersModel) {
   const json given = {{"field", {{"length_mm", 3.3}, {"signal_sd", 5}, {"noise_to_signal", 0.2}, {"constant_sd", 7.2}}}};
   const FieldModel field = field_of(Scene(given, "test", "."));
