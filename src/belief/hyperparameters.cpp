@@ -14,6 +14,7 @@
 #include "belief/likelihood.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/rounding.h"
 
 namespace palpation {
 namespace {
@@ -37,6 +38,7 @@ struct Objective {
   const LearnOptions& options;
   Hyperparameters fixed;
   double readings;                      // how many
+  double least_noise;                   // where it is learned
   std::array<int, 3> slot{-1, -1, -1};  // of the logarithms of length, signal, noise / signal among the free variables
   Optimum best{};
   std::optional<double> first{};  // log posterior where the search began
@@ -45,7 +47,7 @@ struct Objective {
     Hyperparameters values = fixed;
     if (slot[0] >= 0) values.length_m = std::exp(x[slot[0]]);
     if (slot[1] >= 0) values.signal_sd = std::exp(x[slot[1]]);
-    if (slot[2] >= 0) values.noise_sd = values.signal_sd * std::exp(x[slot[2]]);
+    if (slot[2] >= 0) values.noise_sd = std::max(least_noise, values.signal_sd * std::exp(x[slot[2]]));
     return values;
   }
 
@@ -55,6 +57,7 @@ struct Objective {
     LikelihoodGradient result = likelihood(values);
     const double log_likelihood = result.value;
     if (!options.likelihood_alone) add_priors(values, result);
+    if (slot[2] >= 0 && values.noise_sd == least_noise) result.gradient[2] = 0.0;
     if (slot[2] >= 0) result.gradient[1] += result.gradient[2];  // signal and noise together
     if (!first) first = result.value;
     if (result.value > best.value) best = {{x, x + count}, result.value, log_likelihood};
@@ -186,6 +189,7 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
                       options,
                       {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)},
                       static_cast<double>(std::count_if(palpations.begin(), palpations.end(), counts)),
+                      std::max(kLeastNoise * range, std::sqrt(rounding_variance(palpations))),
                       {}};
   std::vector<double> lower, upper, from_start, from_prior;
   const auto free_variable = [&](int parameter, const std::optional<double>& fixed_value, double least_value, double most, double first,
@@ -214,7 +218,7 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   const double most_signal = options.likelihood_alone ? range * kReachAlone : 10.0 * range;
   free_variable(1, options.signal_sd, least_signal, most_signal, start.signal_sd, 0.5 * range);
   const double signal = options.signal_sd.value_or(0.5 * range), start_signal = options.signal_sd.value_or(start.signal_sd);
-  free_variable(2, options.noise_sd, kLeastNoise * range / signal, 2.0 * range / signal,
+  free_variable(2, options.noise_sd, objective.least_noise / signal, 2.0 * range / signal,
                 start_signal > 0.0 ? start.noise_sd / start_signal : 0.0, std::sqrt(kRatioMedian) * 0.5 * range / signal);
 
   double at_start = -std::numeric_limits<double>::infinity();

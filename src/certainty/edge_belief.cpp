@@ -11,6 +11,7 @@
 #include "certainty/edge_belief_fit.h"
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/rounding.h"
 #include "palpation/boundary/level_set.h"
 
 namespace palpation {
@@ -229,7 +230,8 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
   }
   if (!best) return std::nullopt;
   const bool noise_is_learned = noise_log_sd > 0.0 && all_have_the_field_noise(belief.palpations());
-  const EdgeFit edge = with_scatter(std::move(best->edge), best->data, best->prior_covariance, profile, noise_is_learned, model_variance);
+  const EdgeFit edge = with_scatter(std::move(best->edge), best->data, best->prior_covariance, profile, noise_is_learned,
+                                    std::max(model_variance, rounding_variance(belief.palpations())));
   EdgeBelief made(surface,
                   std::make_shared<const Fit>(Fit{correction, profile, fraction, touch_variance * edge.scatter, best->data.places, edge}));
   made.noise_log_sd_ = noise_log_sd;
