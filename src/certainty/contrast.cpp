@@ -90,20 +90,23 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings) {
   return best;
 }
 
-std::optional<std::size_t> lone_reading(std::span<const double> readings) {
+std::optional<LoneReading> lone_reading(std::span<const double> readings) {
   if (readings.size() < kManyReadings) return std::nullopt;
   std::vector<std::size_t> order(readings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return readings[a] < readings[b]; });
   const auto at = [&](std::size_t rank) { return readings[order[rank]]; };
   const std::size_t last = order.size() - 1;
-  if (at(last) - at(last - 1) > at(last - 1) - at(0)) return order[last];
-  if (at(1) - at(0) > at(last) - at(1)) return order[0];
+  const double above = at(last) - at(last - 1), below = at(1) - at(0);
+  if (const double span = at(last - 1) - at(0); above > span) return LoneReading{order[last], above / span};
+  if (const double span = at(last) - at(1); below > span) return LoneReading{order[0], below / span};
   return std::nullopt;
 }
 
+bool shows_field(double signal_evidence) { return signal_evidence > kEnoughSignal; }
+
 bool shows_contrast(std::span<const double> readings, double signal_evidence) {
-  if (signal_evidence > kEnoughSignal) return true;
+  if (shows_field(signal_evidence)) return true;
   const std::optional<TwoPlateaus> plateaus = two_plateaus(readings);
   return plateaus && plateaus->evidence > kEnoughContrast;
 }

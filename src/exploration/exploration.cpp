@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "exploration/field_fit.h"
@@ -29,6 +30,8 @@ constexpr double kSecondLooks = 0.3;
 constexpr double kDoubt = 0.7;
 /// The fourth changes weights by less than a part in ten.
 constexpr int kRoundsOfWeighing = 4;
+/// What lies farther from others than so many times their span is no plateau of which they felt the edge.
+constexpr double kFarAlone = 10.0;
 /// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
 constexpr double kDistinct_m = 1e-12;
 constexpr double kRounding = 1e-13;
@@ -41,12 +44,14 @@ bool has_range(const Marginals& marginals) {
 }
 
 /// Of the palpations that are not set aside.
-std::optional<std::size_t> lone_palpation(std::span<const Palpation> palpations) {
-  const std::optional<std::size_t> lone = lone_reading(used_readings(palpations));
+std::optional<LoneReading> lone_palpation(std::span<const Palpation> palpations) {
+  std::optional<LoneReading> lone = lone_reading(used_readings(palpations));
   if (!lone) return std::nullopt;
   std::size_t number = 0;
-  for (std::size_t used = 0; !palpations[number].set_aside.empty() || used < *lone; ++number) used += palpations[number].set_aside.empty();
-  return number;
+  for (std::size_t used = 0; !palpations[number].set_aside.empty() || used < lone->number; ++number)
+    used += palpations[number].set_aside.empty();
+  lone->number = number;
+  return lone;
 }
 
 /// A smooth field is slow to believe in a few readings of many; a disk is not.
@@ -122,20 +127,8 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   std::vector<Palpation> recorded = recorded_;
   recorded.insert(recorded.end(), palpations.begin(), palpations.end());
   std::vector<Palpation> all = screened_readings(surface_, field_, recorded, lag_);
-  double evidence = 0.0;  // for the field, where it is learned
-  if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
-    LagFit fit = may_grow(field_) ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
-                                  : fit_lagged(surface_, field_, all, learned_, lag_);
-    belief_ = std::move(fit.field.belief);
-    learned_ = fit.field.learned;
-    if (field_.lag.is_modelled()) lag_ = fit.lag;
-    evidence = field_.heavy_tails ? weigh_for_heavy_tails(all) : fit.field.signal_evidence;
-  } else if (trend_is_missing()) {
-    belief_ = fixed_field(surface_, field_, all);
-  } else {
-    belief_ = belief_.condition_on(palpations);
-  }
-  if (!trend_is_missing()) judge_contrast(field_.linear_trend ? belief_.palpations() : all, evidence);
+  const double evidence = believe(all, palpations);
+  if (!trend_is_missing()) judge_contrast(all, evidence);
   recorded_ = std::move(recorded);
   palpations_ = std::move(all);
   marginals_ = belief_.at_vertices();
@@ -162,44 +155,69 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   plan_next();
 }
 
-/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back. Nor is it contrast what
-/// one of many readings shows alone. `evidence`: for the field, where it is learned.
-void Exploration::judge_contrast(std::vector<Palpation> palpations, double evidence) {
-  const auto shows = [&](const Belief& belief, double for_field) {
-    const std::vector<Palpation> flat = field_.linear_trend ? belief.detrended_palpations() : palpations;
-    return shows_contrast(used_readings(flat), field_.learns() ? for_field : evidence_of_fixed(belief, flat)) ||
-           a_disk_stands_out(Layout(belief.prior()), flat);
-  };
-  const std::optional<std::size_t> lone = lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : palpations);
-  lone_reading_ = lone ? std::optional(palpations[*lone]) : std::nullopt;
-  if (!needs_contrast()) return;
-  contrast_seen_ = shows(belief_, evidence);
-  if (!contrast_seen_ || !lone) return;
-  palpations.erase(palpations.begin() + static_cast<std::ptrdiff_t>(*lone));
-  const FieldFit without =
-      field_.learns() ? fit_field(surface_, field_, palpations, learned_) : FieldFit{fixed_field(surface_, field_, palpations), learned_};
-  contrast_seen_ = shows(without.belief, without.signal_evidence);
+/// The field by all readings, of which the last ones are `fresh`; returns the evidence for it, where it is learned. While a reading stands
+/// alone, what is used of the others may change: then nothing grows.
+double Exploration::believe(std::span<const Palpation> all, std::span<const Palpation> fresh) {
+  const bool grows = !lone_reading_;
+  if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
+    LagFit fit = may_grow(field_) && grows ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
+                                           : fit_lagged(surface_, field_, all, learned_, lag_);
+    belief_ = std::move(fit.field.belief);
+    learned_ = fit.field.learned;
+    if (field_.lag.is_modelled()) lag_ = fit.lag;
+    if (field_.heavy_tails) weigh_for_heavy_tails(all);
+    return fit.field.signal_evidence;
+  }
+  belief_ = trend_is_missing() || !grows ? fixed_field(surface_, field_, all) : belief_.condition_on(fresh);
+  return 0.0;
 }
 
-/// Weights and field in turn; the readings stay where the lag that was found puts them. Returns the evidence for the field.
-double Exploration::weigh_for_heavy_tails(std::span<const Palpation> palpations) {
+/// `evidence`: for the field, where it is learned.
+bool Exploration::shows_contrast(std::span<const Palpation> all, double evidence) const {
+  std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : std::vector<Palpation>(all.begin(), all.end());
+  if (field_.heavy_tails) flat = drawn_in(std::move(flat));
+  if (!field_.learns()) {
+    evidence = evidence_of_fixed(belief_, flat);
+  } else if (field_.heavy_tails) {
+    evidence = fit_field(surface_, field_, flat, learned_).signal_evidence;
+  }
+  if (a_disk_stands_out(Layout(belief_.prior()), flat)) return true;
+  // Values alone are no contrast where noise may have heavy tails: what is drawn in gathers at both ends.
+  return field_.heavy_tails ? shows_field(evidence) : palpation::shows_contrast(used_readings(flat), evidence);
+}
+
+/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back. Nor is it contrast what
+/// one of many readings shows alone: where the others show it, and that one is nothing like them, it is set aside.
+void Exploration::judge_contrast(std::vector<Palpation>& all, double evidence) {
+  const std::optional<LoneReading> lone = lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : all);
+  lone_reading_ = lone ? std::optional(all[lone->number]) : std::nullopt;
+  if (!needs_contrast()) return;
+  if (!lone) {
+    contrast_seen_ = shows_contrast(all, evidence);
+    return;
+  }
+  const auto with_it = std::tuple(belief_, learned_, lag_);
+  all[lone->number].set_aside = kStandsAlone;
+  evidence = believe(all, {});
+  contrast_seen_ = shows_contrast(all, evidence);
+  if (contrast_seen_ && lone->spans > kFarAlone) return;
+  all[lone->number].set_aside.clear();
+  std::tie(belief_, learned_, lag_) = with_it;
+}
+
+/// Weights and field in turn; the readings stay where the lag that was found puts them.
+void Exploration::weigh_for_heavy_tails(std::span<const Palpation> palpations) {
   FieldModel model = field_;
   model.learn_noise = model.belief.noise_is_relative = false;
   const std::vector<Palpation> placed = displaced(surface_, palpations, lag_ ? lag_->value_m : 0.0);
-  double noise_sd = std::sqrt(belief_.noise_variance()), evidence = 0.0;
+  double noise_sd = std::sqrt(belief_.noise_variance());
   for (int round = 0; round < kRoundsOfWeighing; ++round) {
     const WeighedReadings weighed = weighed_for_heavy_tails(belief_, placed, noise_sd);
     noise_sd = field_.learn_noise ? weighed.noise_sd : noise_sd;
     model.belief.noise_sd = noise_sd;
-    if (!model.learns()) {
-      belief_ = fixed_field(surface_, model, weighed.palpations);
-      continue;
-    }
-    FieldFit fit = fit_field(surface_, model, weighed.palpations, learned_);
-    belief_ = std::move(fit.belief);
-    evidence = fit.signal_evidence;
+    belief_ =
+        model.learns() ? fit_field(surface_, model, weighed.palpations, learned_).belief : fixed_field(surface_, model, weighed.palpations);
   }
-  return evidence;
 }
 
 void Exploration::estimate_boundary() {

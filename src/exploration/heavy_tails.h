@@ -19,4 +19,9 @@ struct WeighedReadings {
 /// is the mean of w (e^2 + v).
 WeighedReadings weighed_for_heavy_tails(const Belief& belief, std::span<const Palpation> palpations, double noise_sd);
 
+/// The readings as they would be if their noise were normal and they had nothing else in common but a constant: with the constant and scale
+/// that suit such a t best, each as far from the constant as the root of its weight leaves it. A tumour keeps two scales, and many readings
+/// there agree; a single one far out shows no more than noise does.
+std::vector<Palpation> drawn_in(std::vector<Palpation> palpations);
+
 }  // namespace palpation

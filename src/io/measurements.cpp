@@ -159,8 +159,8 @@ void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpatio
   if (count == 0) return;
   warnings.push_back(table.name() + ": " + (count == 1 ? "1 reading stands" : std::to_string(count) + " readings stand") +
                      " more than 1000 times as far out as the middle half of all readings is wide, in line " + lines +
-                     (count > 5 ? " and others" : "") +
-                     ". It counts like the others; if the probe slipped, say so in the column set_aside.");
+                     (count > 5 ? " and others" : "") + (count == 1 ? ". It counts" : ". They count") +
+                     " like the others; if the probe slipped, say so in the column set_aside.");
 }
 
 void check_range(const CsvTable& table, const std::vector<Palpation>& palpations) {

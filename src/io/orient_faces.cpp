@@ -156,8 +156,9 @@ void orient_alike(std::vector<SoupTriangle>& triangles, PolygonSoup& soup) {
               "Nothing is known across a gap. Delete what is not tissue; if they should be one, weld their seams.");
   }
   if (turned > 0) {
-    soup.warn(std::to_string(turned) + " triangles were turned round to agree with their neighbours.",
-              "Nothing to do, so long as the outside is where it should be.");
+    soup.warn(
+        std::to_string(turned) + (turned == 1 ? " triangle was" : " triangles were") + " turned round to agree with their neighbours.",
+        "Nothing to do, so long as the outside is where it should be.");
   }
   say(one_sided, "cannot be oriented: no turning makes all neighbours agree.",
       "A surface with one side (a Moebius strip) has no outside to touch. Delete the faces where it closes on itself.");

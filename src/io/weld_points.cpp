@@ -120,9 +120,9 @@ std::int64_t warn_of_close_points(PolygonSoup& soup) {
   }
   const auto say = [&](std::int64_t count, const std::string& what, std::pair<std::size_t, std::size_t> pair, const std::string& advice) {
     if (count == 0) return;
-    soup.warn(std::to_string(count) + " vertices have " + what + ", such as vertices " + std::to_string(pair.first) + " and " +
-                  std::to_string(pair.second) + " (counted from 0 among those in use) at " + text_of_point(soup.points[pair.first]) +
-                  " in the file's unit: they are not joined unless asked for.",
+    soup.warn(std::to_string(count) + (count == 1 ? " vertex has " : " vertices have ") + what + ", such as vertices " +
+                  std::to_string(pair.first) + " and " + std::to_string(pair.second) + " (counted from 0 among those in use) at " +
+                  text_of_point(soup.points[pair.first]) + " in the file's unit: they are not joined unless asked for.",
               advice);
   };
   say(equal, "the same coordinates as another", first_equal,

@@ -20,21 +20,27 @@ constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr double kMargin_m = 0.005;
 constexpr double kRounding = 1e-9;  // of the tissue's area: corners on its border, rounded
 
-/// Curved tissue's chart is of one mesh and one patch; the summary beside a run's boundary tells of which.
-void check_chart(const std::filesystem::path& path, const Surface& surface) {
+/// Curved tissue's chart is of one mesh and one patch; the summary beside a run's boundary tells of which. Flat tissue's may be that of
+/// another mesh of the same plane.
+void check_chart(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
   const std::filesystem::path summary = path.parent_path() / "summary.json";
-  if (surface.is_planar() || !std::filesystem::exists(summary)) return;
+  if (!std::filesystem::exists(summary)) return;
   const nlohmann::json told = parse_json(read_file(summary, kMostBytes), summary.string());
-  const std::string here = surface.chart().hash(), there = told.is_object() ? told.value("chart_hash", here) : here;
-  if (there != here)
-    throw IoError(path.string() + ": was drawn in the chart of another mesh or patch (" + summary.string() + ": chart_hash is " + there +
-                  ", of the scene's tissue " + here + "): compare its boundary.vtp, which lies in space");
+  if (!told.is_object() || !told.contains("chart_hash")) return;
+  const nlohmann::json& there = told.at("chart_hash");
+  const std::string here = surface.chart().hash();
+  if (there == here) return;
+  if (!surface.is_planar())
+    throw IoError(path.string() + ": was drawn in the chart of another mesh or patch (" + summary.string() + ": chart_hash is " +
+                  shown(there) + ", of the scene's tissue " + here + "): compare its boundary.vtp, which lies in space");
+  warnings.push_back(path.string() + ": was drawn on another mesh (" + summary.string() +
+                     ": chart_hash): it is compared as if that were of the same plane.");
 }
 
 Region read_any(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
   const bool is_wkt = path.extension() == ".wkt";
   if (!is_wkt && path.extension() != ".vtp") throw IoError(path.string() + ": a boundary is a .wkt or a .vtp file");
-  if (is_wkt) check_chart(path, surface);
+  if (is_wkt) check_chart(path, surface, warnings);
   const BoundaryFile file = is_wkt ? read_wkt(path) : read_boundary_vtp(path, surface);
   warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
   return file.region;

@@ -76,5 +76,9 @@ Snapshot snapshot(const Episode& episode);
 /// else outside of what was found. Its contrast is the assumed one, else four times the scatter of the readings, or that of what was found.
 /// Nothing without readings, where no size can be ruled out, or where something stiff is hidden by the probe's tip.
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
+/// Those that are not set aside, the trend taken off.
+std::vector<double> readings_that_count(const Exploration& exploration);
+/// Standard deviation; 0 for readings that are all alike.
+double scatter(const std::vector<double>& readings);
 
 }  // namespace palpation::tool

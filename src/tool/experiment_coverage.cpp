@@ -10,6 +10,7 @@
 #include "palpation/certainty/reference_bound.h"
 #include "palpation/world/random_shape.h"
 #include "tool/experiment.h"
+#include "tool/remarks.h"
 #include "tool/tissue.h"
 #include "tool/words.h"
 #include "tool/worlds.h"

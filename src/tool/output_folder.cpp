@@ -17,6 +17,7 @@
 #include "palpation/io/write_vtp.h"
 #include "tool/boundary_curves.h"
 #include "tool/parts.h"
+#include "tool/remarks.h"
 #include "tool/setup.h"
 #include "tool/words.h"
 

@@ -7,15 +7,6 @@
 namespace palpation::tool {
 namespace {
 
-/// Standard deviation; 0 for readings that are all alike.
-double scatter(const std::vector<double>& readings) {
-  const double count = static_cast<double>(readings.size());
-  double mean = 0.0, square = 0.0;
-  for (const double reading : readings) mean += reading / count;
-  for (const double reading : readings) square += (reading - mean) * (reading - mean) / count;
-  return std::sqrt(square);
-}
-
 /// The tissue outside of what was found.
 struct Healthy {
   std::vector<int> vertices;
@@ -43,21 +34,36 @@ std::optional<double> within(const Surface& surface, const std::optional<double>
 
 }  // namespace
 
+std::vector<double> readings_that_count(const Exploration& exploration) {
+  std::vector<double> readings;
+  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
+    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
+  }
+  return readings;
+}
+
+double scatter(const std::vector<double>& readings) {
+  const double count = static_cast<double>(readings.size());
+  double sum = 0.0, square = 0.0;  // about one of them: 0 where all are alike
+  for (const double reading : readings) sum += reading - readings.front();
+  for (const double reading : readings) square += std::pow(reading - readings.front() - sum / count, 2) / count;
+  return std::sqrt(square);
+}
+
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Surface& surface = exploration.surface();
   if (exploration.belief().site_count() == 0) return std::nullopt;
   const Layout layout(exploration.belief().prior());
   std::vector<Vec3> places;
-  std::vector<double> readings;
-  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
-    if (!palpation.set_aside.empty()) continue;
-    places.push_back(layout.at(palpation.where));
-    readings.push_back(palpation.reading);
+  for (const Palpation& palpation : exploration.belief().palpations()) {
+    if (palpation.set_aside.empty()) places.push_back(layout.at(palpation.where));
   }
   Sought sought{.probability = episode.band_probability};
   if (!exploration.level()) {
-    if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / scatter(readings);
+    const double noise_sd = scatter(readings_that_count(exploration));
+    if (noise_sd == 0.0) return std::nullopt;  // a stuck sensor rules nothing out
+    if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / noise_sd;
     return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));
   }
   const Healthy healthy = healthy_part(exploration);

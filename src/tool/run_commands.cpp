@@ -7,6 +7,7 @@
 #include "tool/episode.h"
 #include "tool/output_folder.h"
 #include "tool/progress.h"
+#include "tool/remarks.h"
 #include "tool/setup.h"
 #include "tool/stopwatch.h"
 #include "tool/tissue.h"

@@ -61,7 +61,8 @@ std::string at(std::size_t index) { return "[" + std::to_string(index) + "]"; }
 std::optional<Fault> numbers_fault(const SceneKey& key, const json& value) {
   if (!value.is_array()) return Fault{"", is_but_must_be(value, "a list of " + std::to_string(key.count) + " numbers")};
   if (value.size() != static_cast<std::size_t>(key.count))
-    return Fault{"", "has " + std::to_string(value.size()) + " members, but must have " + std::to_string(key.count)};
+    return Fault{"", "has " + std::to_string(value.size()) + (value.size() == 1 ? " member" : " members") + ", but must have " +
+                         std::to_string(key.count)};
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (const std::string words = number_fault(key, value[i]); !words.empty()) return Fault{at(i), words};
   }

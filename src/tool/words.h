@@ -16,7 +16,16 @@ inline constexpr const char* kNoContrast = "Nothing found: the readings show no 
 /// What is said where a trend is modelled and too few places are touched for one.
 inline constexpr const char* kTooFewForTrend = "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
 
+/// What is said where no level could be found.
+std::string no_level_words(const Exploration& exploration);
+
+/// Below this probability a part is told as one that may not exist.
+inline constexpr double kSure = 0.95;
+
 std::string fixed(double value, int digits);
+/// "1 reading", "2 readings".
+std::string counted(std::size_t count, const std::string& noun);
+std::string percent(double probability);
 /// Readings have any unit: three digits behind the point where that says something.
 std::string reading_text(double value);
 /// "(5.0, 14.0, 0.0) mm".
@@ -28,8 +37,6 @@ std::string without(const std::string& start, const std::string& words);
 std::string batch_words(const Episode& episode);
 /// What was touched and found, and how wrong it is where the truth is known.
 std::string episode_words(const Episode& episode);
-/// What a person should know before trusting the boundary, a sentence each.
-std::vector<std::string> boundary_remarks(const Episode& episode);
 /// Warnings, to the error stream.
 void tell(const std::vector<std::string>& warnings);
 /// How wrong an estimate is; the sentence starts with what it is compared with.

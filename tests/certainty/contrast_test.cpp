@@ -37,9 +37,9 @@ TEST(LoneReading, LiesFartherFromAllOthersThanTheyFromEachOther) {
   std::vector<double> readings = noise(40, 0.1, random);
   EXPECT_FALSE(lone_reading(readings));
   readings[17] = 9.0;
-  EXPECT_EQ(lone_reading(readings), 17u);
+  EXPECT_EQ(lone_reading(readings)->number, 17u);
   readings[17] = 4.0;
-  EXPECT_EQ(lone_reading(readings), 17u);
+  EXPECT_EQ(lone_reading(readings)->number, 17u);
   readings[18] = 4.1;  // two are no longer alone
   EXPECT_FALSE(lone_reading(readings));
   std::vector<double> few = noise(29, 0.1, random);

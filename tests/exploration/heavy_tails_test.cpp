@@ -49,6 +49,33 @@ TEST(HeavyTails, AResidualOfManyScalesLeavesAReadingHardlyAnyWeight) {
   EXPECT_GT(weighed.palpations[40].noise_variance, 50.0 * usual);
 }
 
+// Weights about a field speak for it: those about a constant are asked for contrast.
+TEST(HeavyTails, MakeNoTumourOfNoise) {
+  const Surface tissue = plane(26, 51);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Random random(seed);
+    std::vector<Palpation> palpations;
+    for (int i = 0; i < 200; ++i) {
+      const double far_out = seed % 2 == 0 && random.below(12) == 0 ? 8.0 : 1.0;
+      palpations.push_back(touch(tissue, random.below(tissue.vertex_count()), 7.0 + 0.1 * far_out * random.normal()));
+    }
+    Exploration exploration(tissue, {.heavy_tails = true}, {}, {}, 1);
+    exploration.take_up(palpations);
+    EXPECT_FALSE(exploration.contrast_seen()) << seed;
+  }
+}
+
+TEST(HeavyTails, DrawnInReadingsLieWithinTheRootOfFiveScales) {
+  const Surface tissue = plane(26, 51);
+  Random random(1);
+  std::vector<Palpation> palpations;
+  for (int i = 0; i < 400; ++i) palpations.push_back(touch(tissue, i, 7.0 + 0.1 * random.normal()));
+  palpations[3].reading = 1e6;
+  const std::vector<Palpation> drawn = drawn_in(palpations);
+  EXPECT_NEAR(drawn[3].reading, 7.0 + std::sqrt(5.0) * 0.1, 0.05);  // the weight's root falls as its distance grows
+  for (const Palpation& palpation : drawn) EXPECT_LT(std::abs(palpation.reading - 7.0), 0.3);
+}
+
 TEST(HeavyTails, LeaveReadingsOfKnownNoiseAlone) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> palpations = {touch(tissue, 0, 7.0), touch(tissue, 500, 7.1), touch(tissue, 900, 9.0)};

@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "belief/tissue.h"
 #include "palpation/belief/screening.h"
+#include "palpation/boundary/level_set.h"
+#include "palpation/certainty/contrast.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/world/phantom.h"
 
@@ -69,6 +73,36 @@ TEST(Exploration, FindsNoTumourInOneReadingOfAHundred) {
       EXPECT_FALSE(exploration.level()) << seed << " " << trend;
       ASSERT_TRUE(exploration.lone_reading()) << seed << " " << trend;
       EXPECT_EQ(tissue.vertex_at(exploration.lone_reading()->where), tissue.vertex_at(readings[33].where)) << seed;
+    }
+  }
+}
+
+// It would drown the tumour in its noise, or be outlined in its place.
+TEST(Exploration, FindsATumourBesideAReadingThatStandsAlone) {
+  const Surface tissue = plane(41, 41);
+  const double tumour_mm2 = 1e6 * std::numbers::pi * 0.006 * 0.006;
+  for (const double wild : {-60.0, 60.0}) {
+    for (const bool learned : {false, true}) {
+      std::vector<Palpation> readings = healthy_but_one(tissue, 200, 4);
+      for (Palpation& palpation : readings) {
+        const double depth_m = 0.006 - (tissue.position(palpation.where) - tissue.position(tissue.at_vertex(20 * 41 + 20))).norm();
+        palpation.reading += 2.0 / (1.0 + std::exp(-1400.0 * depth_m));
+      }
+      readings[66].reading = wild;
+      FieldModel field;
+      if (!learned) {
+        field.learn_length = field.learn_signal = field.learn_noise = false;
+        field.kernel.length_m = 0.004;
+        field.belief.noise_sd = 0.1;
+      }
+      Exploration exploration(tissue, field, {}, {}, 1);
+      exploration.take_up(std::span(readings).first(100));
+      exploration.take_up(std::span(readings).subspan(100));
+      ASSERT_TRUE(exploration.lone_reading()) << wild;
+      EXPECT_EQ(exploration.palpations()[66].set_aside, kStandsAlone);
+      ASSERT_TRUE(exploration.level()) << wild << learned;
+      const Contour contour = exploration.contour();
+      EXPECT_NEAR(1e6 * superlevel_area(tissue, contour.field, contour.level), tumour_mm2, 0.1 * tumour_mm2) << wild << learned;
     }
   }
 }

@@ -544,9 +544,8 @@ void add_faces(Cases& cases) {
   const std::string seam = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 -0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
   cases.push_back({"M26", "vertices at one place", "a.obj", seam,
                    Accepted{6, 2, {"2 components", "2 vertices have the same coordinates as another, such as vertices 0 and 3"}}});
-  cases.push_back(
-      {"M27", "vertices within 1e-12 of the extent", "a.obj", kObj + "v 1 1e-13 0\nv 2 0 0\nv 2 1 0\nf 5 6 7\n",
-       Accepted{7, 3, {"2 components", "1 vertices have a near-duplicate within 1e-12 of the extent, such as vertices 1 and 4"}}});
+  cases.push_back({"M27", "vertices within 1e-12 of the extent", "a.obj", kObj + "v 1 1e-13 0\nv 2 0 0\nv 2 1 0\nf 5 6 7\n",
+                   Accepted{7, 3, {"2 components", "1 vertex has a near-duplicate within 1e-12 of the extent, such as vertices 1 and 4"}}});
   cases.push_back({"M28", "vertices of no face in OBJ", "a.obj",
                    "v 9 9 9\n" + changed(kVertices, "v 0 0 0\n", "v 0 0 0\nv 9 9 9\n") + "f 2 4 5\nf 2 5 6\n",
                    Accepted{4, 2, {"2 vertices belong to no face"}}});
@@ -571,7 +570,7 @@ void add_topology(Cases& cases) {
   cases.push_back({"M31", "two fans at a vertex", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n",
                    NoSurface{5, 2, {"vertex 0", "one fan", "of 2, only 1"}, {"2 components"}}});
   cases.push_back({"M32", "a face turned round", "a.obj", kVertices + "v 2 0 0\nf 1 3 2\nf 1 3 4\nf 2 5 3\n",
-                   Accepted{5, 3, {"1 triangles were turned round"}}});
+                   Accepted{5, 3, {"1 triangle was turned round"}}});
   cases.push_back({"M32", "a closed surface inside out", "a.off",
                    off_of({tetrahedron().points, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}}}),
                    Accepted{4, 4, {"faces that look inward"}}});

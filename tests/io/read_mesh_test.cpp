@@ -101,7 +101,7 @@ TEST(ReadMesh, TurnsTheFewestFacesRoundSoThatNeighboursAgree) {
   const std::string strip = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 3 2\nf 1 3 4\nf 2 5 3\n";
   const MeshFile file = read_text("a.obj", strip);
   EXPECT_EQ(faces_of(file), (Faces{{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}));
-  EXPECT_TRUE(warns(file, "1 triangles were turned round"));
+  EXPECT_TRUE(warns(file, "1 triangle was turned round"));
 }
 
 TEST(ReadMesh, LeavesAMoebiusStripAsItIsAndSaysSo) {

@@ -72,13 +72,16 @@ class Tool(unittest.TestCase):
         dice = random.Random(1)
         healthy = [f"{x / 1000},{y / 1000},0,{dice.gauss(7, 0.1)}" for x in range(2, 20, 3) for y in range(2, 20, 3)]
         scene = self.write("flat.json", json.dumps({"version": 1, "surface": {"plane": {"size_mm": [20, 20], "vertices": [21, 21]}}}))
+        tilted = [f"{x / 1000},{y / 1000},0,{7 + 0.1 * x + dice.gauss(0, 0.1)}" for x in range(2, 20, 2) for y in range(2, 20, 2)]
         for rows, words in ((healthy[:-1] + ["0.017,0.017,0,9"], "One reading, 9.000 at (17.0, 17.0, 0.0) mm"),
+                            ([row.rsplit(",", 1)[0] + ",7" for row in healthy], "all 36 readings are alike, 7.000, to the last digit"),
+                            (tilted, "of how the readings differ: if that is a tilt or a drift, set field.trend to linear"),
                             (healthy + healthy[:5], "5 rows repeat earlier ones, place and reading alike to every digit, and are set aside: line 38 repeats line 2")):
             measured = self.write("odd.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
             result = palpate("boundary", scene, "--measurements", measured)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn(words, result.stderr)
-            self.assertIn("Nothing found", result.stdout)
+            self.assertIn(words, result.stderr + result.stdout)
+            self.assertEqual("Nothing found" in result.stdout, rows is not tilted)
 
     def test_a_known_level_that_nothing_comes_near_is_told(self):
         for level, words in (("20", "above every reading"), ("0", "below every reading")):

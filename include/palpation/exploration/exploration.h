@@ -152,7 +152,7 @@ class Exploration {
   int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
   /// A reading that lies farther from all others than they from each other (lone_reading), the trend apart: what it alone shows is no
-  /// contrast.
+  /// contrast, and where the others show some and it lies ten times as far out, it is set aside (kStandsAlone).
   const std::optional<Palpation>& lone_reading() const { return lone_reading_; }
   bool is_screened() const { return field_.screening; }
   /// Whether a trend is modelled, but too few places are touched yet to tell a tumour from a tilt.
@@ -163,8 +163,10 @@ class Exploration {
  private:
   void learn_from(std::span<const Palpation> palpations);
   bool needs_contrast() const;
-  void judge_contrast(std::vector<Palpation> palpations, double evidence);
-  double weigh_for_heavy_tails(std::span<const Palpation> palpations);
+  double believe(std::span<const Palpation> all, std::span<const Palpation> fresh);
+  bool shows_contrast(std::span<const Palpation> all, double evidence) const;
+  void judge_contrast(std::vector<Palpation>& all, double evidence);
+  void weigh_for_heavy_tails(std::span<const Palpation> palpations);
   void estimate_boundary();
   void doubt_where_contact_fades();
   std::vector<int> chosen_stops() const;
