@@ -4,17 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "exploration/field_fit.h"
-#include "exploration/heavy_tails.h"
-#include "exploration/lag_fit.h"
 #include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/erosion.h"
 #include "palpation/certainty/contrast.h"
-#include "palpation/certainty/detection.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
@@ -23,15 +19,10 @@
 namespace palpation {
 namespace {
 
-constexpr int kFewReadings = 10;
 /// While no contrast is seen: the part of a batch that looks again where readings were high, and how noisy they are taken to be then, as a
 /// part of their standard deviation. Half of the variance noise is what tells a tumour's few readings from a fluke least hastily.
 constexpr double kSecondLooks = 0.3;
 constexpr double kDoubt = 0.7;
-/// The fourth changes weights by less than a part in ten.
-constexpr int kRoundsOfWeighing = 4;
-/// What lies farther from others than so many times their span is no plateau of which they felt the edge.
-constexpr double kFarAlone = 10.0;
 /// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
 constexpr double kDistinct_m = 1e-12;
 constexpr double kRounding = 1e-13;
@@ -41,28 +32,6 @@ bool has_range(const Marginals& marginals) {
   const double least = marginals.mean.minCoeff(), greatest = marginals.mean.maxCoeff();
   const double scale = std::max({std::abs(least), std::abs(greatest), std::sqrt(marginals.variance.maxCoeff())});
   return greatest - least > kRounding * scale;
-}
-
-/// Of the palpations that are not set aside.
-std::optional<LoneReading> lone_palpation(std::span<const Palpation> palpations) {
-  std::optional<LoneReading> lone = lone_reading(used_readings(palpations));
-  if (!lone) return std::nullopt;
-  std::size_t number = 0;
-  for (std::size_t used = 0; !palpations[number].set_aside.empty() || used < lone->number; ++number)
-    used += palpations[number].set_aside.empty();
-  lone->number = number;
-  return lone;
-}
-
-/// A smooth field is slow to believe in a few readings of many; a disk is not.
-bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpations) {
-  const std::vector<double> readings = used_readings(palpations);
-  if (readings.size() < kFewReadings) return false;
-  std::vector<Vec3> places;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) places.push_back(layout.at(palpation.where));
-  }
-  return greatest_excess(layout, places, readings) > kNeededToFind;
 }
 
 }  // namespace
@@ -155,71 +124,6 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   plan_next();
 }
 
-/// The field by all readings, of which the last ones are `fresh`; returns the evidence for it, where it is learned. While a reading stands
-/// alone, what is used of the others may change: then nothing grows.
-double Exploration::believe(std::span<const Palpation> all, std::span<const Palpation> fresh) {
-  const bool grows = !lone_reading_;
-  if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
-    LagFit fit = may_grow(field_) && grows ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
-                                           : fit_lagged(surface_, field_, all, learned_, lag_);
-    belief_ = std::move(fit.field.belief);
-    learned_ = fit.field.learned;
-    if (field_.lag.is_modelled()) lag_ = fit.lag;
-    if (field_.heavy_tails) weigh_for_heavy_tails(all);
-    return fit.field.signal_evidence;
-  }
-  belief_ = trend_is_missing() || !grows ? fixed_field(surface_, field_, all) : belief_.condition_on(fresh);
-  return 0.0;
-}
-
-/// `evidence`: for the field, where it is learned.
-bool Exploration::shows_contrast(std::span<const Palpation> all, double evidence) const {
-  std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : std::vector<Palpation>(all.begin(), all.end());
-  if (field_.heavy_tails) flat = drawn_in(std::move(flat));
-  if (!field_.learns()) {
-    evidence = evidence_of_fixed(belief_, flat);
-  } else if (field_.heavy_tails) {
-    evidence = fit_field(surface_, field_, flat, learned_).signal_evidence;
-  }
-  if (a_disk_stands_out(Layout(belief_.prior()), flat)) return true;
-  // Values alone are no contrast where noise may have heavy tails: what is drawn in gathers at both ends.
-  return field_.heavy_tails ? shows_field(evidence) : palpation::shows_contrast(used_readings(flat), evidence);
-}
-
-/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back. Nor is it contrast what
-/// one of many readings shows alone: where the others show it, and that one is nothing like them, it is set aside.
-void Exploration::judge_contrast(std::vector<Palpation>& all, double evidence) {
-  const std::optional<LoneReading> lone = lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : all);
-  lone_reading_ = lone ? std::optional(all[lone->number]) : std::nullopt;
-  if (!needs_contrast()) return;
-  if (!lone) {
-    contrast_seen_ = shows_contrast(all, evidence);
-    return;
-  }
-  const auto with_it = std::tuple(belief_, learned_, lag_);
-  all[lone->number].set_aside = kStandsAlone;
-  evidence = believe(all, {});
-  contrast_seen_ = shows_contrast(all, evidence);
-  if (contrast_seen_ && lone->spans > kFarAlone) return;
-  all[lone->number].set_aside.clear();
-  std::tie(belief_, learned_, lag_) = with_it;
-}
-
-/// Weights and field in turn; the readings stay where the lag that was found puts them.
-void Exploration::weigh_for_heavy_tails(std::span<const Palpation> palpations) {
-  FieldModel model = field_;
-  model.learn_noise = model.belief.noise_is_relative = false;
-  const std::vector<Palpation> placed = displaced(surface_, palpations, lag_ ? lag_->value_m : 0.0);
-  double noise_sd = std::sqrt(belief_.noise_variance());
-  for (int round = 0; round < kRoundsOfWeighing; ++round) {
-    const WeighedReadings weighed = weighed_for_heavy_tails(belief_, placed, noise_sd);
-    noise_sd = field_.learn_noise ? weighed.noise_sd : noise_sd;
-    model.belief.noise_sd = noise_sd;
-    belief_ =
-        model.learns() ? fit_field(surface_, model, weighed.palpations, learned_).belief : fixed_field(surface_, model, weighed.palpations);
-  }
-}
-
 void Exploration::estimate_boundary() {
   if (level_rule_.estimate == LevelEstimate::Range) {
     level_ = level_from_range(component_, level_rule_.fraction);
@@ -266,9 +170,6 @@ Contour Exploration::contour() const {
   if (edge_) return {eroded(surface_, edge_->depth(), field_.indenter_radius_m).field, 0.0};
   return {component_.mean, level_->value};
 }
-
-/// A level that is given is believed, and so is a field that is given with it.
-bool Exploration::needs_contrast() const { return plan_.safe_start && (field_.learns() || !level_rule_.known); }
 
 bool Exploration::trend_is_missing() const { return field_.linear_trend && !belief_.prior().has_slope(); }
 
