@@ -30,7 +30,7 @@ void warn(OutputFolder& output, const std::vector<std::string>& warnings) {
 void report(const Episode& episode, bool quiet) {
   if (!quiet) std::fputs(episode_words(episode).c_str(), stdout);
   std::vector<std::string> remarks = boundary_remarks(episode);
-  if (!episode.exploration.level() && !remarks.empty()) remarks.pop_back();  // that nothing was found
+  if (!remarks.empty() && remarks.back() == no_level_words(episode.exploration)) remarks.pop_back();  // it was said already
   tell(remarks);
 }
 
@@ -104,14 +104,15 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
+  std::optional<OutputFolder> output;
+  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
   const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
   report(episode, arguments.quiet);
-  if (arguments.out.empty()) return;
-  OutputFolder output(arguments.out, scene, tissue.surface);
-  warn(output, tissue.warnings);
-  warn(output, measured.warnings);
-  output.write(episode, nullptr, {{"run_s", running.seconds()}});
-  finish_output(output, arguments.quiet);
+  if (!output) return;
+  warn(*output, tissue.warnings);
+  warn(*output, measured.warnings);
+  output->write(episode, nullptr, {{"run_s", running.seconds()}});
+  finish_output(*output, arguments.quiet);
 }
 
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements) {
@@ -123,6 +124,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
+  std::optional<OutputFolder> output;
+  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
   const std::vector<Palpation>& palpations = measured.palpations;
   const Episode episode = episode_from(scene, tissue.surface, palpations);
   const std::vector<int> next = episode.exploration.next();
@@ -136,13 +139,12 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const Robot robot = robot_of(scene);
   const std::vector<Waypoint> poses = waypoints(tissue.surface, stops, robot);
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
-  if (arguments.out.empty()) return;
-  OutputFolder output(arguments.out, scene, tissue.surface);
-  warn(output, tissue.warnings);
-  warn(output, measured.warnings);
-  output.write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);
-  output.write(episode, nullptr, {{"run_s", running.seconds()}});
-  finish_output(output, arguments.quiet);
+  if (!output) return;
+  warn(*output, tissue.warnings);
+  warn(*output, measured.warnings);
+  output->write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);
+  output->write(episode, nullptr, {{"run_s", running.seconds()}});
+  finish_output(*output, arguments.quiet);
 }
 
 }  // namespace palpation::tool

@@ -152,7 +152,7 @@ std::string episode_words(const Episode& episode) {
   const auto set_aside = static_cast<std::size_t>(
       std::ranges::count_if(episode.exploration.palpations(), [](const Palpation& one) { return !one.set_aside.empty(); }));
   std::string words = counted(readings, "reading");
-  if (set_aside > 0) words += ", of which " + std::to_string(set_aside) + (set_aside == 1 ? " is" : " are") + " set aside,";
+  if (set_aside > 0) words += " (" + std::to_string(set_aside) + " set aside)";
   if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
   words += ".\n";
   if (!episode.stops.empty()) words += stop_words(episode.stop_reason());

@@ -82,6 +82,10 @@ class Tool(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn(words, result.stderr + result.stdout)
             self.assertEqual("Nothing found" in result.stdout, rows is not tilted)
+        stuck = self.write("stuck.csv", "x,y,z,reading\n" + "".join(f"0.00{x},0.00{y},0,7\n" for y in range(2, 9) for x in range(2, 9)))
+        result = palpate("boundary", scene, "--measurements", stuck, "--set", "field.screening=true")
+        self.assertIn("49 readings (49 set aside).\nAll readings are set aside, so nothing is known.", result.stdout)
+        self.assertIn("49 readings set aside (frozen", result.stderr)
 
     def test_a_known_level_that_nothing_comes_near_is_told(self):
         for level, words in (("20", "above every reading"), ("0", "below every reading")):
