@@ -13,6 +13,7 @@
 #include "belief/rows.h"
 #include "belief/seen.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/readings.h"
 
 namespace palpation {
 namespace {
@@ -25,14 +26,6 @@ constexpr double kLeastNoiseOfRepeat = 1e-6;
 double mean_of(const Eigen::VectorXd& values) {
   const double origin = values[0];
   return origin + (values.array() - origin).sum() / static_cast<double>(values.size());
-}
-
-Eigen::VectorXd used_readings(std::span<const Palpation> palpations) {
-  std::vector<double> used;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) used.push_back(palpation.reading);
-  }
-  return Eigen::Map<const Eigen::VectorXd>(used.data(), static_cast<Eigen::Index>(used.size()));
 }
 
 }  // namespace
@@ -86,8 +79,9 @@ Belief Belief::condition_on(std::span<const Palpation> more) const {
 
 void Belief::restate_spread() {
   if (!options_.standardize) return;
-  const Eigen::VectorXd readings = used_readings(palpations_);
-  if (readings.size() == 0) return;
+  const std::vector<double> used = used_readings(palpations_);
+  if (used.empty()) return;
+  const Eigen::Map<const Eigen::VectorXd> readings(used.data(), static_cast<Eigen::Index>(used.size()));
   centre_ = mean_of(readings);
   const double spread = std::sqrt((readings.array() - centre_).square().mean());
   require((spread > 1e-150 && spread < 1e150) || readings.minCoeff() == readings.maxCoeff(), "Belief",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "belief/robust.h"
+#include "palpation/belief/readings.h"
 
 namespace palpation {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kHealthyShare = 0.3;  // of the tissue reads less than what is taken for healthy
 constexpr double kLeastFall = 0.15;    // of the contrast: what moves a boundary at half of it by a fifth of a millimetre, and more
 constexpr double kSure = 4.0;          // standard errors
-constexpr std::size_t kLeastReadings = 20;
+constexpr Eigen::Index kLeastReadings = 20;
 constexpr int kRounds = 60;
 
 /// The places in the plane that fits them best, centred.
@@ -58,18 +59,9 @@ Eigen::Vector3d quantile_plane(const Eigen::MatrixX3d& design, const Eigen::Vect
 }  // namespace
 
 std::optional<FadingContact> fading_contact(const Surface& surface, std::span<const Palpation> palpations) {
-  std::vector<const Palpation*> used;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) used.push_back(&palpation);
-  }
-  if (used.size() < kLeastReadings) return std::nullopt;
-  const auto count = static_cast<Eigen::Index>(used.size());
-  Eigen::MatrixX3d places(count, 3);
-  Eigen::VectorXd readings(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    places.row(i) = surface.position(used[static_cast<std::size_t>(i)]->where);
-    readings[i] = used[static_cast<std::size_t>(i)]->reading;
-  }
+  const auto [places, readings] = placed_readings(surface, palpations);
+  const Eigen::Index count = readings.size();
+  if (count < kLeastReadings) return std::nullopt;
   const double range = readings.maxCoeff() - readings.minCoeff();
   if (range == 0.0) return std::nullopt;
   Eigen::Matrix<double, 3, 2> axes;

@@ -14,6 +14,7 @@
 #include "belief/likelihood.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/readings.h"
 #include "palpation/belief/rounding.h"
 
 namespace palpation {
@@ -184,11 +185,10 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   // Around a plane, what is left of readings that lie on one is rounding.
   if (prior.has_slope()) range = std::max(range, kLeastNoise * std::abs(readings.front()));
 
-  const auto counts = [](const Palpation& palpation) { return palpation.set_aside.empty(); };
   Objective objective{Likelihood(prior, sites),
                       options,
                       {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0), options.noise_sd.value_or(0.0)},
-                      static_cast<double>(std::count_if(palpations.begin(), palpations.end(), counts)),
+                      static_cast<double>(used_readings(palpations).size()),
                       std::max(kLeastNoise * range, std::sqrt(rounding_variance(palpations))),
                       {}};
   std::vector<double> lower, upper, from_start, from_prior;
@@ -218,6 +218,7 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations, const H
   const double most_signal = options.likelihood_alone ? range * kReachAlone : 10.0 * range;
   free_variable(1, options.signal_sd, least_signal, most_signal, start.signal_sd, 0.5 * range);
   const double signal = options.signal_sd.value_or(0.5 * range), start_signal = options.signal_sd.value_or(start.signal_sd);
+  // Noise as a ratio to the signal; at() keeps it above the least noise where the signal is below this one.
   free_variable(2, options.noise_sd, objective.least_noise / signal, 2.0 * range / signal,
                 start_signal > 0.0 ? start.noise_sd / start_signal : 0.0, std::sqrt(kRatioMedian) * 0.5 * range / signal);
 

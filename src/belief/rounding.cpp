@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "palpation/belief/readings.h"
+
 namespace palpation {
 namespace {
 
@@ -12,10 +14,7 @@ constexpr std::size_t kFewSteps = 3;
 }  // namespace
 
 double rounding_variance(std::span<const Palpation> palpations) {
-  std::vector<double> values;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) values.push_back(palpation.reading);
-  }
+  std::vector<double> values = used_readings(palpations);
   const std::size_t count = values.size();
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());

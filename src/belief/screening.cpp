@@ -7,6 +7,7 @@
 #include "belief/outliers.h"
 #include "belief/passes.h"
 #include "belief/robust.h"
+#include "palpation/belief/readings.h"
 
 namespace palpation {
 namespace {
@@ -349,10 +350,7 @@ std::vector<Pass> rows_among(const std::vector<Pass>& passes, const std::vector<
 
 /// What no tissue reads: far below all others, for tumours stand out upwards; or so far above them that no stiffness would.
 void find_gross(Screen& screen) {
-  std::vector<double> readings;
-  for (const Palpation& palpation : screen.palpations) {
-    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
-  }
+  const std::vector<double> readings = used_readings(screen.palpations);
   if (readings.size() < kLeastToBeGross) return;
   const double low = quantile(readings, 0.05), high = quantile(readings, 0.95);
   if (!(high > low)) return;

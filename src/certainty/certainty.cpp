@@ -89,10 +89,7 @@ void doubt_fading_contact(Certainty& certainty, const Surface& surface, const Fa
 double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level) {
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
-  std::vector<Vec3> touched;
-  for (const Palpation& palpation : belief.palpations()) {
-    if (palpation.set_aside.empty()) touched.push_back(layout.at(palpation.where));
-  }
+  const std::vector<Vec3> touched = layout.touched(belief.palpations());
   const double level_sd = level.stddev.value_or(0.0);
   double area = 0.0;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {

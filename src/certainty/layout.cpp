@@ -25,4 +25,12 @@ std::vector<Vec3> Layout::vertices() const {
   return places;
 }
 
+std::vector<Vec3> Layout::touched(std::span<const Palpation> palpations) const {
+  std::vector<Vec3> places;
+  for (const Palpation& palpation : palpations) {
+    if (palpation.set_aside.empty()) places.push_back(at(palpation.where));
+  }
+  return places;
+}
+
 }  // namespace palpation

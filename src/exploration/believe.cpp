@@ -6,6 +6,8 @@
 #include "exploration/field_fit.h"
 #include "exploration/heavy_tails.h"
 #include "exploration/lag_fit.h"
+#include "palpation/belief/readings.h"
+#include "palpation/belief/screening.h"
 #include "palpation/certainty/contrast.h"
 #include "palpation/certainty/detection.h"
 #include "palpation/exploration/exploration.h"
@@ -34,11 +36,7 @@ std::optional<LoneReading> lone_palpation(std::span<const Palpation> palpations)
 bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpations) {
   const std::vector<double> readings = used_readings(palpations);
   if (readings.size() < kFewReadings) return false;
-  std::vector<Vec3> places;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) places.push_back(layout.at(palpation.where));
-  }
-  return greatest_excess(layout, places, readings) > kNeededToFind;
+  return greatest_excess(layout, layout.touched(palpations), readings) > kNeededToFind;
 }
 
 }  // namespace
@@ -81,19 +79,19 @@ bool Exploration::shows_contrast(std::span<const Palpation> all, double evidence
 /// one of many readings shows alone: where the others show it, and that one is nothing like them, it is set aside.
 void Exploration::judge_contrast(std::vector<Palpation>& all, double evidence) {
   const std::optional<LoneReading> lone = lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : all);
-  lone_reading_ = lone ? std::optional(all[lone->number]) : std::nullopt;
-  if (!needs_contrast()) return;
-  if (!lone) {
+  if (lone && needs_contrast()) {
+    const auto with_it = std::tuple(belief_, learned_, lag_);
+    all[lone->number].set_aside = kStandsAlone;
+    evidence = believe(all, {});
     contrast_seen_ = shows_contrast(all, evidence);
-    return;
+    if (!contrast_seen_ || lone->spans <= kFarAlone) {
+      all[lone->number].set_aside.clear();
+      std::tie(belief_, learned_, lag_) = with_it;
+    }
+  } else if (needs_contrast()) {
+    contrast_seen_ = shows_contrast(all, evidence);
   }
-  const auto with_it = std::tuple(belief_, learned_, lag_);
-  all[lone->number].set_aside = kStandsAlone;
-  evidence = believe(all, {});
-  contrast_seen_ = shows_contrast(all, evidence);
-  if (contrast_seen_ && lone->spans > kFarAlone) return;
-  all[lone->number].set_aside.clear();
-  std::tie(belief_, learned_, lag_) = with_it;
+  lone_reading_ = lone ? std::optional(all[lone->number]) : std::nullopt;
 }
 
 /// Weights and field in turn; the readings stay where the lag that was found puts them.

@@ -9,6 +9,7 @@
 #include "exploration/field_fit.h"
 #include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/readings.h"
 #include "palpation/boundary/erosion.h"
 #include "palpation/certainty/contrast.h"
 #include "palpation/certainty/edge_profile.h"

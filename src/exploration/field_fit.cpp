@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "palpation/base/error.h"
+#include "palpation/belief/readings.h"
 #include "palpation/belief/way.h"
 
 namespace palpation {
@@ -58,16 +58,6 @@ constexpr double kSurelyEnoughForSingle = (1.0 + 1e-9) * kLeastNoiseForSingle;
 
 }  // namespace
 
-Spread spread_of(const std::vector<double>& readings) {
-  Spread spread;
-  double square = 0.0;
-  for (double reading : readings) spread.mean += (reading - readings.front()) / static_cast<double>(readings.size());
-  spread.mean += readings.front();
-  for (double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / static_cast<double>(readings.size());
-  if (square > 0.0) spread.sd = std::sqrt(square);
-  return spread;
-}
-
 Belief unlearned(const Surface& surface, const FieldModel& field) {
   Kernel kernel = field.kernel;
   if (field.learn_length) kernel.length_m = field.length_median_m;
@@ -85,18 +75,6 @@ Belief fixed_field(const Surface& surface, const FieldModel& field, std::span<co
   const std::size_t places = gather_sites(fresh.prior(), palpations).size();
   const Slope slope = slope_of(surface, field, places, fresh.prior().kernel().signal_sd);
   return Belief(with_slope(fresh.prior(), slope), fresh.options()).condition_on(palpations);
-}
-
-std::vector<double> used_readings(std::span<const Palpation> palpations) {
-  std::vector<double> readings;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
-  }
-  return readings;
-}
-
-bool all_equal(const std::vector<double>& readings) {
-  return std::adjacent_find(readings.begin(), readings.end(), std::not_equal_to<>()) == readings.end();
 }
 
 double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpations) {
@@ -132,7 +110,7 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
   if (!field.learn_noise) options.noise_sd = field.belief.noise_sd;
   // A field of zero mean around the readings' mean, if they are standardized: what is learned is in reading units all the same.
   const bool centred = field.belief.standardize && field.constant.sd == 0.0;
-  const Spread spread = centred ? spread_of(readings) : Spread{};
+  const Spread spread = centred ? spread_of(readings) : Spread{0.0, 1.0};
   std::vector<Palpation> shifted = to_learn_from(palpations, most_places);
   for (Palpation& palpation : shifted) palpation.reading -= spread.mean;
   const auto [least, greatest] = std::minmax_element(readings.begin(), readings.end());

@@ -13,18 +13,6 @@ Belief unlearned(const Surface& surface, const FieldModel& field);
 /// A belief of fixed hyperparameters from all readings, with the slope where it is modelled and may join.
 Belief fixed_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations);
 
-/// The readings that are not set aside.
-std::vector<double> used_readings(std::span<const Palpation> palpations);
-
-bool all_equal(const std::vector<double>& readings);
-
-/// Mean and standard deviation of the readings, as BeliefOptions::standardize takes them.
-struct Spread {
-  double mean = 0.0;
-  double sd = 1.0;
-};
-Spread spread_of(const std::vector<double>& readings);
-
 /// Most readings that hyperparameters are learned from where some were made on the way: stops number a few hundred, readings on the way
 /// thousands, and the cost grows with the third power. All of them count in the belief.
 inline constexpr std::size_t kMostToLearnFrom = 150;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "exploration/field_fit.h"
+#include "palpation/belief/readings.h"
 
 namespace palpation {
 namespace {
@@ -21,7 +22,7 @@ double weight_of(double square, double noise_sd) { return (kFreedom + 1.0) / (kF
 std::vector<Palpation> drawn_in(std::vector<Palpation> palpations) {
   const std::vector<double> readings = used_readings(palpations);
   if (readings.empty()) return palpations;
-  double middle = spread_of(readings).mean, scale = all_equal(readings) ? 0.0 : spread_of(readings).sd;
+  auto [middle, scale] = spread_of(readings);
   for (int round = 0; round < kRounds && scale > 0.0; ++round) {
     double weights = 0.0, sum = 0.0, squares = 0.0;
     for (const double reading : readings) {

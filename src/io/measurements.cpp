@@ -12,6 +12,7 @@
 #include "io/number_text.h"
 #include "io/places.h"
 #include "palpation/base/error.h"
+#include "palpation/belief/readings.h"
 #include "palpation/io/csv.h"
 
 namespace palpation {
@@ -134,7 +135,7 @@ class Repeats {
   int joined_ = 0;
 };
 
-double at_rank(std::vector<double>& values, double share) {
+double at_rank(std::vector<double> values, double share) {
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
@@ -142,10 +143,7 @@ double at_rank(std::vector<double>& values, double share) {
 
 /// Readings that stand out by more than any tissue does are kept, and told: a probe that slipped decides where the level lies.
 void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpations, std::vector<std::string>& warnings) {
-  std::vector<double> used;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) used.push_back(palpation.reading);
-  }
+  const std::vector<double> used = used_readings(palpations);
   if (used.size() < kEnoughForOutliers) return;
   const double low = at_rank(used, 0.25), middle = at_rank(used, 0.5), high = at_rank(used, 0.75);
   if (!(high > low)) return;
@@ -164,13 +162,10 @@ void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpatio
 }
 
 void check_range(const CsvTable& table, const std::vector<Palpation>& palpations) {
-  double least = kGreatestReading, most = -kGreatestReading;
-  for (const Palpation& palpation : palpations) {
-    if (!palpation.set_aside.empty()) continue;
-    least = std::min(least, palpation.reading);
-    most = std::max(most, palpation.reading);
-  }
-  if (most > least && most - least < kLeastRange)
+  const std::vector<double> used = used_readings(palpations);
+  if (all_equal(used)) return;
+  const auto [least, most] = std::ranges::minmax(used);
+  if (most - least < kLeastRange)
     throw IoError(table.name() + ": column reading: the readings differ by " + text_of(most - least) +
                   " at most; where they differ it must be by 1e-30 at least: write them in another unit");
 }

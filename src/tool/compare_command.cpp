@@ -4,7 +4,6 @@
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
 #include "palpation/boundary/region_error.h"
-#include "palpation/io/atomic_file.h"
 #include "palpation/io/read_boundary.h"
 #include "palpation/io/wkt.h"
 #include "tool/commands.h"
@@ -16,7 +15,6 @@
 namespace palpation::tool {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr double kMargin_m = 0.005;
 constexpr double kRounding = 1e-9;  // of the tissue's area: corners on its border, rounded
 
@@ -25,7 +23,7 @@ constexpr double kRounding = 1e-9;  // of the tissue's area: corners on its bord
 void check_chart(const std::filesystem::path& path, const Surface& surface, std::vector<std::string>& warnings) {
   const std::filesystem::path summary = path.parent_path() / "summary.json";
   if (!std::filesystem::exists(summary)) return;
-  const nlohmann::json told = parse_json(read_file(summary, kMostBytes), summary.string());
+  const nlohmann::json told = read_json(summary);
   if (!told.is_object() || !told.contains("chart_hash")) return;
   const nlohmann::json& there = told.at("chart_hash");
   const std::string here = surface.chart().hash();
@@ -76,6 +74,8 @@ Region read_region(const std::filesystem::path& path, const Surface& surface, st
 void compare_boundaries(const SceneArguments& arguments, const std::filesystem::path& a, const std::filesystem::path& b) {
   const Scene scene = Scene::read(arguments.scene, arguments.overrides);
   const Tissue tissue = tissue_of(scene);
+  std::optional<OutputFolder> output;
+  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
   std::vector<std::string> warnings = tissue.warnings;
   const Region estimate = read_region(a, tissue.surface, warnings);
   const Region truth = read_region(b, tissue.surface, warnings);
@@ -83,10 +83,9 @@ void compare_boundaries(const SceneArguments& arguments, const std::filesystem::
   const RegionError error = compare(tissue.surface, estimate, truth);
   if (!arguments.quiet)
     std::fputs(error_words(error, tissue.surface.area(), "With " + b.filename().string() + " taken for the truth").c_str(), stdout);
-  if (arguments.out.empty()) return;
-  OutputFolder output(arguments.out, scene, tissue.surface);
-  for (const std::string& warning : warnings) output.warn(warning);
-  output.write_comparison(error);
+  if (!output) return;
+  for (const std::string& warning : warnings) output->warn(warning);
+  output->write_comparison(error);
 }
 
 }  // namespace palpation::tool

@@ -78,7 +78,5 @@ Snapshot snapshot(const Episode& episode);
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
 /// Those that are not set aside, the trend taken off.
 std::vector<double> readings_that_count(const Exploration& exploration);
-/// Standard deviation; 0 for readings that are all alike.
-double scatter(const std::vector<double>& readings);
 
 }  // namespace palpation::tool

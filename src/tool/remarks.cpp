@@ -1,11 +1,10 @@
 #include "tool/remarks.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "palpation/belief/contact.h"
+#include "palpation/belief/readings.h"
 #include "palpation/belief/screening.h"
 #include "palpation/boundary/level_remarks.h"
 #include "palpation/boundary/level_set.h"
@@ -19,8 +18,7 @@ namespace {
 
 constexpr double kMuchUntouched = 0.05;  // of the tissue
 constexpr double kMuchPlane = 0.5;       // of the readings' variance; a tumour over one half of the tissue gives three quarters
-constexpr Eigen::Index kEnoughForPlane = 15;
-constexpr double kMuchStiff = 0.5;  // of the tissue
+constexpr double kMuchStiff = 0.5;       // of the tissue
 /// Expected wrong area beyond this part of the area found is told: the boundary is then hardly better than a guess.
 constexpr double kLargeShare = 0.25;
 constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
@@ -42,51 +40,22 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
   return remarks;
 }
 
-bool stands_alone(const Exploration& exploration) {
-  return std::ranges::any_of(exploration.palpations(), [](const Palpation& one) { return one.set_aside == kStandsAlone; });
-}
-
 /// A level that is given, and that no reading comes near, decides before anything is felt.
 std::string level_outside_words(const Exploration& exploration) {
   if (exploration.level()->stddev != 0.0) return "";
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
-    if (!palpation.set_aside.empty()) continue;
-    least = std::min(least, palpation.reading);
-    greatest = std::max(greatest, palpation.reading);
-  }
+  const std::vector<double> readings = readings_that_count(exploration);
+  if (all_equal(readings)) return "";
+  const auto [least, greatest] = std::ranges::minmax(readings);
   const double level = exploration.level()->value;
-  if (!(least < greatest) || (level > least && level < greatest)) return "";
+  if ((level > least && level < greatest)) return "";
   return "The level " + reading_text(level) + " lies " + (level > least ? "above" : "below") + " every reading, " + reading_text(least) +
          " to " + reading_text(greatest) + ": " + (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
 }
 
-/// The part of the readings' variance that the best plane over their places explains, where no trend is modelled.
-double explained_by_plane(const Exploration& exploration) {
-  if (exploration.belief().prior().has_slope()) return 0.0;
-  std::vector<const Palpation*> used;
-  for (const Palpation& palpation : exploration.palpations()) {
-    if (palpation.set_aside.empty()) used.push_back(&palpation);
-  }
-  const auto count = static_cast<Eigen::Index>(used.size());
-  Eigen::MatrixX3d places(count, 3);
-  Eigen::VectorXd readings(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    places.row(i) = exploration.surface().position(used[static_cast<std::size_t>(i)]->where);
-    readings[i] = used[static_cast<std::size_t>(i)]->reading;
-  }
-  places.rowwise() -= places.colwise().mean().eval();
-  readings.array() -= readings.mean();
-  const double square = readings.squaredNorm();
-  if (count < kEnoughForPlane || !(square > 0.0)) return 0.0;
-  const Eigen::VectorXd plane = places * places.completeOrthogonalDecomposition().solve(readings);
-  return plane.squaredNorm() / square;
-}
-
-std::string lone_reading_words(const Surface& surface, const Palpation& lone, bool is_set_aside) {
+std::string lone_reading_words(const Surface& surface, const Palpation& lone) {
   return "One reading, " + reading_text(lone.reading) + " at " + place_words(surface.position(lone.where), 1) +
          ", lies farther from all others than they lie from each other" +
-         (is_set_aside
+         (lone.set_aside == kStandsAlone
               ? ", and is set aside: touch there again to confirm it (field.screening finds more such readings)."
               : ": touch there again, or take it out if it is a fault (field.screening sets aside what readings around it contradict).");
 }
@@ -126,8 +95,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   std::vector<std::string> remarks = screening_remarks(exploration);
   if (exploration.belief().site_count() == 0) return remarks;
-  if (exploration.lone_reading())
-    remarks.push_back(lone_reading_words(exploration.surface(), *exploration.lone_reading(), stands_alone(exploration)));
+  if (exploration.lone_reading()) remarks.push_back(lone_reading_words(exploration.surface(), *exploration.lone_reading()));
   if (exploration.lag() && exploration.lag()->at_bound) {
     remarks.push_back("The lag found, " + fixed(exploration.lag()->value_m * 1e3, 2) +
                       " mm, is as far as any was looked for: the true one may lie beyond. Give field.lag_mm, or touch in more directions.");
@@ -147,8 +115,9 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Contour contour = exploration.contour();
   for (const std::string& remark : remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
     remarks.push_back(remark + '.');
-  if (const double share = explained_by_plane(exploration); share > kMuchPlane)
-    remarks.push_back("A plane explains " + percent(share) +
+  const double plane = exploration.belief().prior().has_slope() ? 0.0 : explained_by_plane(exploration.surface(), exploration.palpations());
+  if (plane > kMuchPlane)
+    remarks.push_back("A plane explains " + percent(plane) +
                       " of how the readings differ: if that is a tilt or a drift, set field.trend to linear.");
   const std::vector<TumourPart> parts = parts_of(episode);
   if (!exploration.edge() && !parts.empty())

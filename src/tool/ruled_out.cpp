@@ -1,6 +1,7 @@
 // What was not found, and how large it would have had to be to be found.
 #include <cmath>
 
+#include "palpation/belief/readings.h"
 #include "palpation/certainty/detection.h"
 #include "tool/episode.h"
 
@@ -35,19 +36,7 @@ std::optional<double> within(const Surface& surface, const std::optional<double>
 }  // namespace
 
 std::vector<double> readings_that_count(const Exploration& exploration) {
-  std::vector<double> readings;
-  for (const Palpation& palpation : exploration.belief().detrended_palpations()) {
-    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
-  }
-  return readings;
-}
-
-double scatter(const std::vector<double>& readings) {
-  const double count = static_cast<double>(readings.size());
-  double sum = 0.0, square = 0.0;  // about one of them: 0 where all are alike
-  for (const double reading : readings) sum += reading - readings.front();
-  for (const double reading : readings) square += std::pow(reading - readings.front() - sum / count, 2) / count;
-  return std::sqrt(square);
+  return used_readings(exploration.belief().detrended_palpations());
 }
 
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
@@ -55,13 +44,10 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Surface& surface = exploration.surface();
   if (exploration.belief().site_count() == 0) return std::nullopt;
   const Layout layout(exploration.belief().prior());
-  std::vector<Vec3> places;
-  for (const Palpation& palpation : exploration.belief().palpations()) {
-    if (palpation.set_aside.empty()) places.push_back(layout.at(palpation.where));
-  }
+  const std::vector<Vec3> places = layout.touched(exploration.belief().palpations());
   Sought sought{.probability = episode.band_probability};
   if (!exploration.level()) {
-    const double noise_sd = scatter(readings_that_count(exploration));
+    const double noise_sd = spread_of(readings_that_count(exploration)).sd;
     if (noise_sd == 0.0) return std::nullopt;  // a stuck sensor rules nothing out
     if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / noise_sd;
     return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));

@@ -22,8 +22,14 @@ Scene scene_of(const SceneArguments& arguments) {
   return arguments.seed ? scene.with("seed", *arguments.seed) : scene;
 }
 
-void warn(OutputFolder& output, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) output.warn(warning);
+/// Nothing where no folder is asked for. Made before anything is computed, so that one that cannot be costs no time.
+std::optional<OutputFolder> output_of(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue,
+                                      const std::vector<std::string>& warnings) {
+  if (arguments.out.empty()) return std::nullopt;
+  std::optional<OutputFolder> output(std::in_place, arguments.out, scene, tissue.surface);
+  for (const std::string& warning : tissue.warnings) output->warn(warning);
+  for (const std::string& warning : warnings) output->warn(warning);
+  return output;
 }
 
 /// What was found, and what is odd about it; that there is nothing is a finding.
@@ -48,13 +54,8 @@ MeasurementsFile measured_on(const Scene& scene, const Surface& surface, const s
 /// The whole run of `simulate` and `replay`, to the files and the words.
 void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world,
                     double prepared_seconds) {
-  std::optional<OutputFolder> output;
-  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
+  std::optional<OutputFolder> output = output_of(arguments, scene, tissue, world.warnings);
   tell(world.warnings);
-  if (output) {
-    warn(*output, tissue.warnings);
-    warn(*output, world.warnings);
-  }
   const Stopwatch running;
   Progress progress("Batch", scene.integer("plan.batches") + 1, arguments.quiet);
   const Episode episode = run_episode(scene, tissue.surface, world, [&](const Episode& now) {
@@ -104,13 +105,10 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
-  std::optional<OutputFolder> output;
-  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
+  std::optional<OutputFolder> output = output_of(arguments, scene, tissue, measured.warnings);
   const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
   report(episode, arguments.quiet);
   if (!output) return;
-  warn(*output, tissue.warnings);
-  warn(*output, measured.warnings);
   output->write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(*output, arguments.quiet);
 }
@@ -124,8 +122,7 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
-  std::optional<OutputFolder> output;
-  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
+  std::optional<OutputFolder> output = output_of(arguments, scene, tissue, measured.warnings);
   const std::vector<Palpation>& palpations = measured.palpations;
   const Episode episode = episode_from(scene, tissue.surface, palpations);
   const std::vector<int> next = episode.exploration.next();
@@ -140,8 +137,6 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const std::vector<Waypoint> poses = waypoints(tissue.surface, stops, robot);
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
   if (!output) return;
-  warn(*output, tissue.warnings);
-  warn(*output, measured.warnings);
   output->write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);
   output->write(episode, nullptr, {{"run_s", running.seconds()}});
   finish_output(*output, arguments.quiet);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "palpation/base/error.h"
-#include "palpation/io/atomic_file.h"
 #include "tool/scene_json.h"
 #include "tool/scene_schema.h"
 #include "tool/speed.h"
@@ -16,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr double kLeastContrast = 1e-30;
 constexpr double kLeastRelativeContrast = 1e-12;
 
@@ -109,7 +107,7 @@ Scene::Scene(const json& given, std::string name, std::filesystem::path folder)
 }
 
 Scene Scene::read(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  return parse(read_file(path, kMostBytes), path.string(), path.parent_path(), overrides);
+  return Scene(overridden(read_json(path), overrides), path.string(), path.parent_path());
 }
 
 Scene Scene::parse(std::string_view text, std::string name, std::filesystem::path folder, std::span<const std::string> overrides) {

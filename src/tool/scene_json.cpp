@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
 
 namespace palpation::tool {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostDepth = 32;
+constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr std::size_t kLongest = 60;
 
 std::string cut(std::string text) {
@@ -129,6 +131,8 @@ json parse_json(std::string_view text, const std::string& name) {
   json::sax_parse(text, &reader);
   return reader.take();
 }
+
+json read_json(const std::filesystem::path& path) { return parse_json(read_file(path, kMostBytes), path.string()); }
 
 std::string shown(const json& value) {
   if (value.is_structured() && value.size() > kLongest) return value.is_array() ? "a long list" : "a large object";

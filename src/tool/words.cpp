@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palpation/belief/readings.h"
 #include "palpation/boundary/level_set.h"
 #include "tool/parts.h"
 
@@ -36,7 +37,7 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
 /// What is ruled out where nothing was found.
 std::string nothing_words(const Episode& episode) {
   if (episode.exploration.trend_is_missing()) return "";
-  const double noise_sd = scatter(readings_that_count(episode.exploration));
+  const double noise_sd = spread_of(readings_that_count(episode.exploration)).sd;
   if (!episode.exploration.level() && noise_sd == 0.0) return "";
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
   const std::string contrast = episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
@@ -86,7 +87,7 @@ std::string stop_words(const std::string& reason) {
 std::string no_level_words(const Exploration& exploration) {
   if (exploration.trend_is_missing()) return kTooFewForTrend;
   const std::vector<double> readings = readings_that_count(exploration);
-  if (readings.size() > 1 && scatter(readings) == 0.0)
+  if (readings.size() > 1 && all_equal(readings))
     return "Nothing found: all " + std::to_string(readings.size()) + " readings are alike, " + reading_text(readings.front()) +
            ", to the last digit, as those of a sensor that is stuck.";
   return kNoContrast;

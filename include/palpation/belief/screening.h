@@ -28,6 +28,7 @@ inline const std::string kFrozen = "frozen: the same reading over a path longer 
 inline const std::string kStartUp = "start-up: the first 3 mm of a row that starts from rest";
 inline const std::string kOutlier = "outlier: contradicts the readings around it";
 inline const std::string kBaseStep = "base step: its row lies apart from the rows around it";
+inline const std::string kStandsAlone = "stands alone: farther from all other readings than they from each other";  ///< Exploration's
 
 /// The same readings, in the order in which they were made, with what is no tissue set aside. What was set aside before stays so and tells
 /// nothing. The same readings without reasons give the same answer, however often.

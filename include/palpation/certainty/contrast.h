@@ -4,11 +4,8 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 
 namespace palpation {
-
-inline const std::string kStandsAlone = "stands alone: farther from all other readings than they from each other";
 
 /// Readings as two plateaus with normal noise about them.
 struct TwoPlateaus {

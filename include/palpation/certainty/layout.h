@@ -5,6 +5,10 @@
 /// is one of straight distances in space itself, or there is no chart.
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "palpation/belief/palpation.h"
 #include "palpation/belief/prior.h"
 
 namespace palpation {
@@ -21,6 +25,8 @@ class Layout {
   Vec3 at(const SurfacePoint& point) const;
   /// Of all vertices.
   std::vector<Vec3> vertices() const;
+  /// Of the palpations that are not set aside.
+  std::vector<Vec3> touched(std::span<const Palpation> palpations) const;
   /// The metric of these distances.
   Metric metric() const { return in_chart_ ? Metric::Chart : Metric::Ambient; }
 

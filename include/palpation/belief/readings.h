@@ -1,0 +1,37 @@
+/// The readings that count, which are those that are not set aside, and how they spread.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "palpation/belief/palpation.h"
+#include "palpation/geometry/surface.h"
+
+namespace palpation {
+
+/// Of the palpations that are not set aside, in their order.
+std::vector<double> used_readings(std::span<const Palpation> palpations);
+
+/// The same with their places in space, metres, a row each.
+struct PlacedReadings {
+  Eigen::MatrixX3d places;
+  Eigen::VectorXd readings;
+};
+PlacedReadings placed_readings(const Surface& surface, std::span<const Palpation> palpations);
+
+bool all_equal(std::span<const double> readings);
+
+/// Mean and standard deviation (of all, not of a sample), as BeliefOptions::standardize takes them; sd is 0 where all are alike.
+struct Spread {
+  double mean = 0.0;
+  double sd = 0.0;
+};
+/// Needs a reading.
+Spread spread_of(std::span<const double> readings);
+
+/// The part of the readings' variance, 0 to 1, that the best plane over their places in space explains (least squares); 0 for fewer than
+/// fifteen readings, where chance explains much, and where all are alike.
+double explained_by_plane(const Surface& surface, std::span<const Palpation> palpations);
+
+}  // namespace palpation
