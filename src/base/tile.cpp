@@ -17,25 +17,32 @@ constexpr std::size_t kMostPanelRows = 12;
 struct Kernels {
   int panel_rows;
   void (*subtract_strips)(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh);
+  void (*subtract_packed)(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count, double* fresh,
+                          long per_tile);
   void (*add_sums)(const double* values, int rows, const double* weights, long stride, int weight_count, double* sums);
   void (*exponentials)(double* values, long count);
 };
 
-/// The three loops over vectors of `width` doubles in functions of one target, and their table.
-#define PALPATION_KERNELS(name, attribute, width, most_rows)                                                                    \
-  attribute void subtract_strips_##name(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh) { \
-    subtract_strips_by<width>(panel, strips, strip_count, tile, fresh, std::make_integer_sequence<int, most_rows>());           \
-  }                                                                                                                             \
-  attribute void add_sums_##name(const double* values, int rows, const double* weights, long stride, int count, double* sums) { \
-    add_sums_by<width>(values, rows, weights, stride, count, sums, std::make_integer_sequence<int, kMostWeights + 1>());        \
-  }                                                                                                                             \
-  attribute void exponentials_##name(double* values, long count) { exponentials_of<width>(values, count); }                     \
-  constexpr Kernels k_##name{most_rows, subtract_strips_##name, add_sums_##name, exponentials_##name};
+/// The loops over vectors of `width` doubles in functions of one target, and their table; `tiles`: how many fill its registers.
+#define PALPATION_KERNELS(name, attribute, width, most_rows, tiles)                                                                   \
+  attribute void subtract_strips_##name(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh) {       \
+    subtract_strips_by<width>(panel, strips, strip_count, tile, fresh, std::make_integer_sequence<int, most_rows>());                 \
+  }                                                                                                                                   \
+  attribute void subtract_packed_##name(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count, \
+                                        double* fresh, long per_tile) {                                                               \
+    subtract_packed_by<width, tiles>(panel, strips, strip_count, tile, tile_count, fresh, per_tile,                                   \
+                                     std::make_integer_sequence<int, most_rows>());                                                   \
+  }                                                                                                                                   \
+  attribute void add_sums_##name(const double* values, int rows, const double* weights, long stride, int count, double* sums) {       \
+    add_sums_by<width>(values, rows, weights, stride, count, sums, std::make_integer_sequence<int, kMostWeights + 1>());              \
+  }                                                                                                                                   \
+  attribute void exponentials_##name(double* values, long count) { exponentials_of<width>(values, count); }                           \
+  constexpr Kernels k_##name{most_rows, subtract_strips_##name, subtract_packed_##name, add_sums_##name, exponentials_##name};
 
-PALPATION_KERNELS(baseline, , 2, 3)
+PALPATION_KERNELS(baseline, , 2, 3, 1)
 #if defined(__GNUC__) && defined(__x86_64__)
-PALPATION_KERNELS(v3, __attribute__((target("avx2,fma"))), 4, 6)
-PALPATION_KERNELS(v4, __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma"))), 8, 12)
+PALPATION_KERNELS(v3, __attribute__((target("avx2,fma"))), 4, 6, 1)
+PALPATION_KERNELS(v4, __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,fma"))), 8, 12, 2)
 
 const Kernels& best() {
   __builtin_cpu_init();
@@ -62,6 +69,29 @@ int panel_rows() { return kernels().panel_rows; }
 
 void subtract_strips(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh) {
   kernels().subtract_strips(panel, strips, strip_count, tile, fresh);
+}
+
+PackedFactor::PackedFactor(const double* factor, long stride, int rows, long columns) : rows_(rows), columns_(columns) {
+  const int panels = (rows + kernels().panel_rows - 1) / kernels().panel_rows;
+  height_ = panels > 0 ? (rows + panels - 1) / panels : 0;
+  values_.reserve(static_cast<std::size_t>(rows * columns));
+  for (int row = 0; row < rows; row += height_) {
+    const int count = std::min(height_, rows - row);
+    for (long column = 0; column < columns; ++column) {
+      for (int r = 0; r < count; ++r) values_.push_back(factor[(row + r) * stride + column]);
+    }
+  }
+  for (int row = 0; row < rows; ++row) inverse_pivots_.push_back(1.0 / factor[row * stride + columns - rows + row]);
+}
+
+PackedPanel PackedFactor::panel(int row, long column, bool solves) const {
+  const int count = std::min(height_, rows_ - row);
+  return {values_.data() + row * columns_ + column * count, count, solves ? inverse_pivots_.data() + row : nullptr};
+}
+
+void subtract_packed(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count, double* fresh,
+                     long per_tile) {
+  kernels().subtract_packed(panel, strips, strip_count, tile, tile_count, fresh, per_tile);
 }
 
 void subtract_product(const double* factor, int stride, const double* tile, int depth, double* fresh, int rows) {

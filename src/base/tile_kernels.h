@@ -83,6 +83,80 @@ PALPATION_INLINE void subtract_strips_of(const Panel& panel, const TileRows* str
   }
 }
 
+/// sums[r][q] -= sum_i factor[i * R + r] values[i] over `depth` rows of T tiles, T * kParts vectors side by side.
+template <int W, int R, int T, typename Value>
+PALPATION_INLINE void subtract_packed_rows(const double* factor, const Value* values, const Value* ahead, long per_tile, int depth,
+                                           typename Vectors<W>::Doubles (&sums)[R][T * Vectors<W>::kParts]) {
+  constexpr int P = Vectors<W>::kParts;
+  for (int i = 0; i < depth; ++i) {
+    typename Vectors<W>::Doubles row[T * P];
+    for (int t = 0; t < T; ++t) {
+      for (int p = 0; p < P; ++p) load<W>(values + t * per_tile + p * W, row[t * P + p]);
+      __builtin_prefetch(ahead + t * per_tile);
+    }
+    for (int r = 0; r < R; ++r) {
+      for (int q = 0; q < T * P; ++q) sums[r][q] -= factor[r] * row[q];
+    }
+    factor += R;
+    values += kLanes;
+    ahead += kLanes;
+  }
+}
+
+template <int W, int R, int T>
+PALPATION_INLINE void subtract_packed_of(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, double* fresh,
+                                         long per_tile) {
+  constexpr int P = Vectors<W>::kParts;
+  typename Vectors<W>::Doubles sums[R][T * P];
+  for (int r = 0; r < R; ++r) {
+    for (int t = 0; t < T; ++t) {
+      for (int p = 0; p < P; ++p) load<W>(fresh + t * per_tile + r * kLanes + p * W, sums[r][t * P + p]);
+    }
+  }
+  const double* factor = panel.factor;
+  for (int s = 0; s < strip_count; ++s) {
+    const TileRows here = strips[s].from_tile(tile), next = strips[s].from_tile(tile + T);
+    if (here.singles) {
+      subtract_packed_rows<W, R, T>(factor, here.singles, next.singles, here.per_tile, here.depth, sums);
+    } else {
+      subtract_packed_rows<W, R, T>(factor, here.values, next.values, here.per_tile, here.depth, sums);
+    }
+    factor += static_cast<long>(here.depth) * R;
+  }
+  if (panel.inverse_pivots) {
+    for (int i = 0; i < R; ++i) {
+      for (int q = 0; q < T * P; ++q) {
+        sums[i][q] *= panel.inverse_pivots[i];
+        for (int r = i + 1; r < R; ++r) sums[r][q] -= factor[i * R + r] * sums[i][q];
+      }
+    }
+  }
+  for (int r = 0; r < R; ++r) {
+    for (int t = 0; t < T; ++t) {
+      for (int p = 0; p < P; ++p) store<W>(sums[r][t * P + p], fresh + t * per_tile + r * kLanes + p * W);
+    }
+  }
+}
+
+/// T tiles at a time, then what is left.
+template <int W, int R, int T>
+PALPATION_INLINE void subtract_packed_tiles(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count,
+                                            double* fresh, long per_tile) {
+  int done = 0;
+  for (; done + T <= tile_count; done += T)
+    subtract_packed_of<W, R, T>(panel, strips, strip_count, tile + done, fresh + done * per_tile, per_tile);
+  for (; T > 1 && done < tile_count; ++done)
+    subtract_packed_of<W, R, 1>(panel, strips, strip_count, tile + done, fresh + done * per_tile, per_tile);
+}
+
+template <int W, int T, int... R>
+PALPATION_INLINE void subtract_packed_by(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count,
+                                         double* fresh, long per_tile, std::integer_sequence<int, R...>) {
+  (void)((panel.rows == R + 1 &&
+          (subtract_packed_tiles<W, R + 1, T>(panel, strips, strip_count, tile, tile_count, fresh, per_tile), true)) ||
+         ...);
+}
+
 template <int W, int... R>
 PALPATION_INLINE void subtract_strips_by(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh,
                                          std::integer_sequence<int, R...>) {

@@ -28,70 +28,52 @@ struct Chunk {
   std::vector<TileRows> strips;
 };
 
-void add_strip(TileRows strip, std::vector<Chunk>& chunks, int& depth) {
-  while (strip.depth > 0) {
-    const int room = kDepthTogether - depth % kDepthTogether;
-    if (room == kDepthTogether) chunks.push_back({depth, {}});
-    const int taken = std::min(room, strip.depth);
-    chunks.back().strips.push_back(strip);
-    chunks.back().strips.back().depth = taken;
-    strip = strip.without_first(taken);
-    depth += taken;
-  }
-}
-
-/// The factor's new rows so that no two of them lie on each other in the cache.
-struct PaddedFactor {
-  explicit PaddedFactor(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& factor)
-      : stride((factor.cols() + kLanes - 1) / kLanes * kLanes + kLanes),
-        values(aligned_doubles(static_cast<std::size_t>(factor.rows() * stride))) {
-    for (Eigen::Index row = 0; row < factor.rows(); ++row) {
-      std::copy_n(factor.data() + row * factor.cols(), factor.cols(), values.get() + row * stride);
-      inverse_pivots.push_back(1.0 / factor(row, factor.cols() - factor.rows() + row));
+std::vector<Chunk> chunks_of(std::span<const TileRows> known) {
+  std::vector<Chunk> chunks;
+  int depth = 0;
+  for (TileRows strip : known) {
+    while (strip.depth > 0) {
+      const int room = kDepthTogether - depth % kDepthTogether, taken = std::min(room, strip.depth);
+      if (room == kDepthTogether) chunks.push_back({depth, {}});
+      chunks.back().strips.push_back(strip);
+      chunks.back().strips.back().depth = taken;
+      strip = strip.without_first(taken);
+      depth += taken;
     }
   }
-
-  long stride;
-  AlignedDoubles values;
-  std::vector<double> inverse_pivots;
-};
+  return chunks;
+}
 
 /// Rows of V on a group of tiles, from the correlations that stand in them: row-wise forward substitution, a panel of rows at a time.
 class Substitution {
  public:
   Substitution(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& factor, std::span<const TileRows> known)
-      : rows_(static_cast<int>(factor.rows())), factor_(factor), known_(known.begin(), known.end()) {}
+      : rows_(static_cast<int>(factor.rows())),
+        first_(static_cast<int>(factor.cols()) - rows_),
+        factor_(factor.data(), factor.cols(), rows_, factor.cols()),
+        known_(chunks_of(known)) {}
 
   /// `fresh`: of the first tile of the group; the next follow, all rows of each together.
   void operator()(int first_tile, int tile_count, double* fresh) const {
     const long per_tile = static_cast<long>(rows_) * kLanes;
-    std::vector<Chunk> chunks;
-    int height = 0;
-    for (int row = 0; row < rows_; row += height) {
-      height = std::min(rows_ - row, (rows_ + panels() - 1) / panels());
-      chunks.clear();
-      int depth = 0;
-      for (const TileRows& strip : known_) add_strip(strip.from_tile(first_tile), chunks, depth);
-      add_strip({fresh, per_tile, row}, chunks, depth);
-      if (chunks.empty()) chunks.emplace_back();
-      for (std::size_t i = 0; i < chunks.size(); ++i) {
-        const bool is_last = i + 1 == chunks.size();
-        const Panel panel{factor_.values.get() + row * factor_.stride + chunks[i].column, factor_.stride, height,
-                          is_last ? factor_.inverse_pivots.data() + row : nullptr};
-        for (int tile = 0; tile < tile_count; ++tile) {
-          subtract_strips(panel, chunks[i].strips.data(), static_cast<int>(chunks[i].strips.size()), tile,
-                          fresh + tile * per_tile + static_cast<long>(row) * kLanes);
-        }
+    for (int row = 0; row < rows_; row += factor_.height()) {
+      double* target = fresh + static_cast<long>(row) * kLanes;
+      for (const Chunk& chunk : known_) {
+        subtract_packed(factor_.panel(row, chunk.column, false), chunk.strips.data(), static_cast<int>(chunk.strips.size()), first_tile,
+                        tile_count, target, per_tile);
+      }
+      for (int done = 0; done <= row; done += kDepthTogether) {
+        const TileRows own{fresh + static_cast<long>(done) * kLanes, per_tile, std::min(row - done, kDepthTogether)};
+        const bool is_last = done + kDepthTogether > row;
+        subtract_packed(factor_.panel(row, first_ + done, is_last), &own, 1, 0, tile_count, target, per_tile);
       }
     }
   }
 
  private:
-  int panels() const { return (rows_ + panel_rows() - 1) / panel_rows(); }
-
-  int rows_;
-  PaddedFactor factor_;
-  std::vector<TileRows> known_;
+  int rows_, first_;  // of the factor's columns, the first that belongs to the rows themselves
+  PackedFactor factor_;
+  std::vector<Chunk> known_;
 };
 
 }  // namespace

@@ -30,6 +30,18 @@ Eigen::MatrixXd modes_of(const Spectrum& spectrum, std::span<const Site> sites) 
 
 constexpr int kRowsAtOnce = 16;
 /// rows[r] = scale |x - place r|^2, x the tile's eight places.
+PALPATION_TARGETS void squared_distances_in_plane(const double* __restrict x, const double* __restrict places, int count, double scale,
+                                                  double* __restrict rows) {
+  for (int row = 0; row < count; ++row) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const double u = x[lane] - places[row * 3];
+      const double v = x[kLanes + lane] - places[row * 3 + 1];
+      rows[row * kLanes + lane] = scale * (u * u + v * v);
+    }
+  }
+}
+
+/// The same in space.
 PALPATION_TARGETS void squared_distances(const double* __restrict x, const double* __restrict places, int count, double scale,
                                          double* __restrict rows) {
   for (int row = 0; row < count; ++row) {
@@ -151,8 +163,9 @@ void TileCorrelations::of_distances(const double* coordinates, double* rows) con
   const int places = static_cast<int>(coordinates_.size()) / 3;
   const KernelFamily family = prior_.kernel().family;
   const double inverse_square = 1.0 / (prior_.kernel().length_m * prior_.kernel().length_m);
+  const auto distances = prior_.metric() == Metric::Chart ? squared_distances_in_plane : squared_distances;
   if (family == KernelFamily::SquaredExponential) {
-    squared_distances(coordinates, coordinates_.data(), places, -0.5 * inverse_square, rows);
+    distances(coordinates, coordinates_.data(), places, -0.5 * inverse_square, rows);
     exponentials(rows, static_cast<long>(places) * kLanes);
     return;
   }
@@ -160,8 +173,7 @@ void TileCorrelations::of_distances(const double* coordinates, double* rows) con
   for (int first = 0; first < places; first += kRowsAtOnce) {
     const int count = std::min(kRowsAtOnce, places - first);
     double* target = rows + static_cast<long>(first) * kLanes;
-    squared_distances(coordinates, coordinates_.data() + static_cast<long>(first) * 3, count, matern_scale(family) * inverse_square,
-                      target);
+    distances(coordinates, coordinates_.data() + static_cast<long>(first) * 3, count, matern_scale(family) * inverse_square, target);
     roots_and_opposites(target, decay, count * kLanes);
     exponentials(decay, count * kLanes);
     times_polynomial(family, decay, count * kLanes, target);

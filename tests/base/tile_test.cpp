@@ -82,6 +82,39 @@ TEST(SubtractStrips, IsTheTripleLoop) {
   }
 }
 
+TEST(SubtractPacked, IsSubtractStripsToTheBitOnAnyNumberOfTiles) {
+  Random random(4);
+  constexpr int kTiles = 5, kDepths[] = {7, 13};
+  const std::vector<double> a = random_values(kTiles * 7 * kLanes, random), b = random_values(kTiles * 13 * kLanes, random);
+  std::vector<float> singles(b.begin(), b.end());
+  const TileRows doubles[] = {{a.data(), 7 * kLanes, 7}, {b.data(), 13 * kLanes, 13}};
+  const TileRows mixed[] = {{a.data(), 7 * kLanes, 7}, {nullptr, 13 * kLanes, 13, singles.data()}};
+  for (int rows = 1; rows <= 2 * panel_rows() + 1; ++rows) {
+    const int columns = kDepths[0] + kDepths[1] + rows;
+    const std::vector<double> factor = random_values(static_cast<std::size_t>(rows * columns), random);
+    const PackedFactor packed(factor.data(), columns, rows, columns);
+    const long per_tile = rows * kLanes;
+    const std::vector<double> start = random_values(static_cast<std::size_t>(kTiles * per_tile), random);
+    for (const TileRows* known : {doubles, mixed}) {
+      for (int row = 0; row < rows; row += packed.height()) {
+        // Up to its own triangle a panel's columns are strips too: here of zeros.
+        const std::vector<double> zeros(static_cast<std::size_t>(kTiles * (row + 1)) * kLanes);
+        const TileRows strips[] = {known[0], known[1], {zeros.data(), row * kLanes, row}};
+        std::vector<double> fast = start, slow = start;
+        const PackedPanel panel = packed.panel(row, 0, true);
+        subtract_packed(panel, strips, 3, 1, kTiles - 1, fast.data() + per_tile + row * kLanes, per_tile);
+        std::vector<double> pivots;
+        for (int r = row; r < row + panel.rows; ++r) pivots.push_back(1.0 / factor[r * columns + 20 + r]);
+        for (int tile = 1; tile < kTiles; ++tile) {
+          subtract_strips({factor.data() + row * columns, columns, panel.rows, pivots.data()}, strips, 3, tile,
+                          slow.data() + tile * per_tile + row * kLanes);
+        }
+        EXPECT_EQ(fast, slow) << rows << " rows from " << row;
+      }
+    }
+  }
+}
+
 TEST(SubtractProduct, TakesAsManyRowsAsThereAre) {
   Random random(2);
   constexpr int kRows = 31, kDepth = 17;

@@ -5,6 +5,8 @@
 /// environment names: PALPATION_ISA=baseline, v3 (AVX2) or v4 (AVX-512). The last two give the same digits; the first rounds more often.
 #pragma once
 
+#include <vector>
+
 namespace palpation {
 
 inline constexpr int kLanes = 8;
@@ -47,6 +49,33 @@ int panel_rows();
 /// On tile `tile`: fresh[r] -= sum_i factor[r, i] strips[i], and then, with pivots, fresh = T^-1 fresh, T the triangle. Asks for the next
 /// tile of the strips from memory meanwhile.
 void subtract_strips(const Panel& panel, const TileRows* strips, int strip_count, int tile, double* fresh);
+
+/// As Panel, the coefficients of each column side by side.
+struct PackedPanel {
+  const double* factor = nullptr;
+  int rows = 0;
+  const double* inverse_pivots = nullptr;
+};
+
+/// Rows of a lower triangular factor in panels of equal height, packed once for many tiles.
+class PackedFactor {
+ public:
+  /// rows x columns, row-major; the triangle is at the end.
+  PackedFactor(const double* factor, long stride, int rows, long columns);
+
+  int height() const { return height_; }
+  /// The panel that begins with row `row`, from a column on; with `solves` up to its triangle, which is then solved.
+  PackedPanel panel(int row, long column, bool solves) const;
+
+ private:
+  int rows_, height_ = 0;
+  long columns_;
+  std::vector<double> values_, inverse_pivots_;
+};
+
+/// As subtract_strips, on tiles from `tile` on, whose rows in `fresh` lie per_tile apart.
+void subtract_packed(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count, double* fresh,
+                     long per_tile);
 
 /// fresh[r] -= sum_i factor[r * stride + i] * tile[i], for `rows` rows of kLanes values each, i < depth.
 void subtract_product(const double* factor, int stride, const double* tile, int depth, double* fresh, int rows);

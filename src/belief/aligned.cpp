@@ -1,0 +1,90 @@
+#include "belief/aligned.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <mutex>
+#include <new>
+#include <vector>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace palpation {
+namespace {
+
+constexpr std::size_t kLine = 64, kLargePage = std::size_t{2} << 20;
+constexpr std::size_t kWorthKeeping = std::size_t{256} << 10;
+constexpr std::size_t kMostKept = std::size_t{256} << 20;
+
+struct Block {
+  void* memory;
+  std::size_t size;
+};
+
+/// The blocks that are free, the last freed last.
+struct Kept {
+  std::mutex mutex;
+  std::vector<Block> blocks;
+  std::size_t bytes = 0;
+
+  void forget(std::vector<Block>::iterator block) {
+    bytes -= block->size;
+    blocks.erase(block);
+  }
+};
+
+Kept& kept() {
+  static Kept& blocks = *new Kept;  // outlives every array
+  return blocks;
+}
+
+/// What a large array takes: a quarter of a power of two in steps, so that one that grew a little finds the room of the one before it. What
+/// is never touched costs nothing.
+std::size_t size_of(std::size_t bytes) {
+  if (bytes < kWorthKeeping) return std::max(bytes, kLine);
+  const std::size_t step = std::bit_floor(bytes) / 4;
+  return (bytes + step - 1) / step * step;
+}
+
+}  // namespace
+
+void* take_aligned(std::size_t bytes) {
+  const std::size_t size = size_of(bytes);
+  if (size >= kWorthKeeping) {
+    const std::lock_guard lock(kept().mutex);
+    std::vector<Block>& blocks = kept().blocks;
+    const auto last = std::find_if(blocks.rbegin(), blocks.rend(), [&](const Block& block) { return block.size == size; });
+    if (last != blocks.rend()) {
+      void* memory = last->memory;
+      kept().forget(std::prev(last.base()));
+      return memory;
+    }
+  }
+  void* memory = nullptr;
+  if (posix_memalign(&memory, size >= kLargePage ? kLargePage : kLine, size) != 0) throw std::bad_alloc();
+#ifdef __linux__
+  // No more of them than are filled.
+  if (size >= kLargePage) madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+#endif
+  return memory;
+}
+
+void give_back_aligned(void* memory, std::size_t bytes) {
+  const std::size_t size = size_of(bytes);
+  if (size < kWorthKeeping || size > kMostKept) return std::free(memory);
+  std::vector<Block> too_many;
+  {
+    const std::lock_guard lock(kept().mutex);
+    kept().blocks.push_back({memory, size});
+    kept().bytes += size;
+    while (kept().bytes > kMostKept) {
+      too_many.push_back(kept().blocks.front());
+      kept().forget(kept().blocks.begin());
+    }
+  }
+  for (const Block& block : too_many) std::free(block.memory);
+}
+
+}  // namespace palpation
