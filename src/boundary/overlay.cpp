@@ -72,10 +72,10 @@ std::vector<Segment> merged(const std::vector<Segment>& edges) {
 }
 
 Arrangement arrangement_of(const std::vector<Segment>& segments) {
-  std::vector<Traits::Curve_2> curves;
+  std::vector<Traits::X_monotone_curve_2> curves;
   curves.reserve(segments.size());
   for (const Segment& segment : segments) {
-    curves.emplace_back(SegmentTraits::Curve_2(*segment.low, *segment.high), static_cast<int>(curves.size()));
+    curves.emplace_back(SegmentTraits::X_monotone_curve_2(*segment.low, *segment.high), static_cast<int>(curves.size()));
   }
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());
