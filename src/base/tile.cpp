@@ -81,7 +81,7 @@ PackedFactor::PackedFactor(const double* factor, long stride, int rows, long col
       for (int r = 0; r < count; ++r) values_.push_back(factor[(row + r) * stride + column]);
     }
   }
-  for (int row = 0; row < rows; ++row) inverse_pivots_.push_back(1.0 / factor[row * stride + columns - rows + row]);
+  for (int row = 0; row < rows && rows <= columns; ++row) inverse_pivots_.push_back(1.0 / factor[row * stride + columns - rows + row]);
 }
 
 PackedPanel PackedFactor::panel(int row, long column, bool solves) const {
@@ -92,6 +92,27 @@ PackedPanel PackedFactor::panel(int row, long column, bool solves) const {
 void subtract_packed(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count, double* fresh,
                      long per_tile) {
   kernels().subtract_packed(panel, strips, strip_count, tile, tile_count, fresh, per_tile);
+}
+
+void subtract_product(const PackedFactor& factor, const TileRows& known, long tile, int tile_count, double* fresh, long per_tile) {
+  for (int row = 0; row < factor.rows(); row += factor.height()) {
+    for (int done = 0; done < known.depth; done += kDepthTogether) {
+      TileRows strip = known.without_first(done);
+      strip.depth = std::min(strip.depth, kDepthTogether);
+      subtract_packed(factor.panel(row, done, false), &strip, 1, tile, tile_count, fresh + static_cast<long>(row) * kLanes, per_tile);
+    }
+  }
+}
+
+void solve_triangle(const PackedFactor& factor, double* fresh, int tile_count, long per_tile) {
+  const long first = factor.columns() - factor.rows();
+  for (int row = 0; row < factor.rows(); row += factor.height()) {
+    for (int done = 0; done <= row; done += kDepthTogether) {
+      const TileRows own{fresh + static_cast<long>(done) * kLanes, per_tile, std::min(row - done, kDepthTogether)};
+      const bool is_last = done + kDepthTogether > row;
+      subtract_packed(factor.panel(row, first + done, is_last), &own, 1, 0, tile_count, fresh + static_cast<long>(row) * kLanes, per_tile);
+    }
+  }
 }
 
 void subtract_product(const double* factor, int stride, const double* tile, int depth, double* fresh, int rows) {

@@ -17,9 +17,6 @@
 namespace palpation {
 namespace {
 
-/// So many tiles take their turns with a panel of the factor while it is in the nearest cache, and so many of its columns at a time.
-constexpr int kTilesTogether = 8;
-constexpr int kDepthTogether = 256;
 constexpr int kGroupsAtOnce = 8;
 
 /// Strips of no more than kDepthTogether rows in all, and the factor's column where they begin.
@@ -48,10 +45,7 @@ std::vector<Chunk> chunks_of(std::span<const TileRows> known) {
 class Substitution {
  public:
   Substitution(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& factor, std::span<const TileRows> known)
-      : rows_(static_cast<int>(factor.rows())),
-        first_(static_cast<int>(factor.cols()) - rows_),
-        factor_(factor.data(), factor.cols(), rows_, factor.cols()),
-        known_(chunks_of(known)) {}
+      : rows_(static_cast<int>(factor.rows())), factor_(factor.data(), factor.cols(), rows_, factor.cols()), known_(chunks_of(known)) {}
 
   /// `fresh`: of the first tile of the group; the next follow, all rows of each together.
   void operator()(int first_tile, int tile_count, double* fresh) const {
@@ -62,16 +56,12 @@ class Substitution {
         subtract_packed(factor_.panel(row, chunk.column, false), chunk.strips.data(), static_cast<int>(chunk.strips.size()), first_tile,
                         tile_count, target, per_tile);
       }
-      for (int done = 0; done <= row; done += kDepthTogether) {
-        const TileRows own{fresh + static_cast<long>(done) * kLanes, per_tile, std::min(row - done, kDepthTogether)};
-        const bool is_last = done + kDepthTogether > row;
-        subtract_packed(factor_.panel(row, first_ + done, is_last), &own, 1, 0, tile_count, target, per_tile);
-      }
     }
+    solve_triangle(factor_, fresh, tile_count, per_tile);
   }
 
  private:
-  int rows_, first_;  // of the factor's columns, the first that belongs to the rows themselves
+  int rows_;
   PackedFactor factor_;
   std::vector<Chunk> known_;
 };
@@ -108,7 +98,7 @@ void Belief::keep_rows(int count) {
     for (int tile = first_tile; tile < last_tile; ++tile) {
       double* sum = sums->tile(tile);
       std::fill(sum, sum + sums->width * kLanes, 0.0);
-      correlations(tile, k.get());
+      correlations(tile, 1, k.get());
       add_sums(k.get(), row_count(), nullptr, 0, 0, sum + sums->covered() * kLanes);
       for (const auto& rows : rows_) {
         add_sums(rows->tile(tile, widened.get()), rows->count, solutions.data() + rows->first, solutions.rows(),
@@ -186,6 +176,7 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
     for (int first_tile = begin; first_tile < end; first_tile += kTilesTogether) {
       const int count = std::min(kTilesTogether, end - first_tile);
       double* values = scratch ? scratch.get() : fresh.tile(first_tile);
+      correlations(first_tile, count, values);
       for (int tile = 0; tile < count; ++tile) {
         double* sum = sums->tile(first_tile + tile);
         if (sums_) {
@@ -193,7 +184,6 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
         } else {
           std::fill_n(sum, sums->width * kLanes, 0.0);
         }
-        correlations(first_tile + tile, values + tile * per_tile);
         add_sums(values + tile * per_tile, fresh.count, nullptr, 0, 0, sum + sums->covered() * kLanes);
       }
       substitute(first_tile, count, values);

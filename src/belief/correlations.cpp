@@ -134,44 +134,49 @@ Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::s
   return k;
 }
 
-TileCorrelations::TileCorrelations(const Prior& prior, std::span<const Site> sites) : prior_(prior) {
+TileCorrelations::TileCorrelations(const Prior& prior, std::span<const Site> sites)
+    : prior_(prior), count_(static_cast<int>(sites.size())) {
   if (prior.metric() != Metric::Intrinsic) {
     for (const Site& site : sites) coordinates_.insert(coordinates_.end(), site.place.coordinates.begin(), site.place.coordinates.end());
     return;
   }
-  minus_rows_.resize(static_cast<Eigen::Index>(sites.size()), prior.spectrum().rank());
-  for (std::size_t i = 0; i < sites.size(); ++i) weigh(static_cast<int>(i), sites[i].place.modes);
+  std::vector<Eigen::VectorXd> modes;
+  for (const Site& site : sites) modes.push_back(site.place.modes);
+  weigh(modes);
 }
 
-TileCorrelations::TileCorrelations(const Prior& prior, int vertex) : prior_(prior) {
+TileCorrelations::TileCorrelations(const Prior& prior, int vertex) : prior_(prior), count_(1) {
   if (prior.metric() != Metric::Intrinsic) {
     const Vec3 x = prior.coordinates(vertex);
     coordinates_.assign(x.begin(), x.end());
     return;
   }
-  minus_rows_.resize(1, prior.spectrum().rank());
-  weigh(0, prior.spectrum().at(vertex));
+  const Eigen::VectorXd modes = prior.spectrum().at(vertex);
+  weigh(std::span(&modes, 1));
 }
 
-void TileCorrelations::weigh(int row, const Eigen::VectorXd& modes) {
-  const Eigen::VectorXd weighted = modes.cwiseProduct(prior_.norms().weights);
-  minus_rows_.row(row) = -inverse_root(modes.dot(weighted)) * weighted;
+void TileCorrelations::weigh(std::span<const Eigen::VectorXd> modes) {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> minus_rows(count_, prior_.spectrum().rank());
+  for (int row = 0; row < count_; ++row) {
+    const Eigen::VectorXd weighted = modes[row].cwiseProduct(prior_.norms().weights);
+    minus_rows.row(row) = -inverse_root(modes[row].dot(weighted)) * weighted;
+  }
+  minus_rows_.emplace(minus_rows.data(), minus_rows.cols(), count_, minus_rows.cols());
 }
 
 /// As correlation() has them, several rows at a time.
 void TileCorrelations::of_distances(const double* coordinates, double* rows) const {
-  const int places = static_cast<int>(coordinates_.size()) / 3;
   const KernelFamily family = prior_.kernel().family;
   const double inverse_square = 1.0 / (prior_.kernel().length_m * prior_.kernel().length_m);
   const auto distances = prior_.metric() == Metric::Chart ? squared_distances_in_plane : squared_distances;
   if (family == KernelFamily::SquaredExponential) {
-    distances(coordinates, coordinates_.data(), places, -0.5 * inverse_square, rows);
-    exponentials(rows, static_cast<long>(places) * kLanes);
+    distances(coordinates, coordinates_.data(), count_, -0.5 * inverse_square, rows);
+    exponentials(rows, static_cast<long>(count_) * kLanes);
     return;
   }
   alignas(64) double decay[kRowsAtOnce * kLanes];
-  for (int first = 0; first < places; first += kRowsAtOnce) {
-    const int count = std::min(kRowsAtOnce, places - first);
+  for (int first = 0; first < count_; first += kRowsAtOnce) {
+    const int count = std::min(kRowsAtOnce, count_ - first);
     double* target = rows + static_cast<long>(first) * kLanes;
     distances(coordinates, coordinates_.data() + static_cast<long>(first) * 3, count, matern_scale(family) * inverse_square, target);
     roots_and_opposites(target, decay, count * kLanes);
@@ -180,25 +185,34 @@ void TileCorrelations::of_distances(const double* coordinates, double* rows) con
   }
 }
 
-void TileCorrelations::operator()(int tile, double* rows) const {
-  if (prior_.metric() == Metric::Intrinsic) {
-    const int count = static_cast<int>(minus_rows_.rows()), rank = static_cast<int>(minus_rows_.cols());
-    std::fill(rows, rows + count * kLanes, 0.0);
-    subtract_product(minus_rows_.data(), rank, prior_.spectrum().tile(tile), rank, rows, count);
-    const double* scale = prior_.norms().inverse.data() + static_cast<long>(tile) * kLanes;
-    for (int row = 0; row < count; ++row) {
-      for (int lane = 0; lane < kLanes; ++lane) rows[row * kLanes + lane] *= scale[lane];
-    }
-    return;
+void TileCorrelations::of_modes(int first_tile, int tile_count, double* rows) const {
+  const int rank = prior_.spectrum().rank();
+  const long per_tile = static_cast<long>(count_) * kLanes;
+  std::fill_n(rows, tile_count * per_tile, 0.0);
+  subtract_product(*minus_rows_, {prior_.spectrum().tile(0), static_cast<long>(rank) * kLanes, rank}, first_tile, tile_count, rows,
+                   per_tile);
+  for (int tile = 0; tile < tile_count; ++tile) {
+    const double* scale = prior_.norms().inverse.data() + static_cast<long>(first_tile + tile) * kLanes;
+    for (long at = tile * per_tile; at < (tile + 1) * per_tile; ++at) rows[at] *= scale[at % kLanes];
   }
-  const double* coordinates = prior_.tiles().coordinates(tile);
-  const Kernel& kernel = prior_.kernel();
-  if (kernel.family != KernelFamily::Periodic && has_usual_length(kernel)) return of_distances(coordinates, rows);
-  for (std::size_t row = 0; row * 3 < coordinates_.size(); ++row) {
+}
+
+void TileCorrelations::of_differences(const double* coordinates, double* rows) const {
+  for (int row = 0; row < count_; ++row) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const Vec3 x(coordinates[lane], coordinates[kLanes + lane], coordinates[2 * kLanes + lane]);
-      rows[row * kLanes + lane] = correlation(kernel, x - Eigen::Map<const Vec3>(coordinates_.data() + row * 3));
+      rows[row * kLanes + lane] = correlation(prior_.kernel(), x - Eigen::Map<const Vec3>(coordinates_.data() + row * 3));
     }
+  }
+}
+
+void TileCorrelations::operator()(int first_tile, int tile_count, double* rows) const {
+  if (prior_.metric() == Metric::Intrinsic) return of_modes(first_tile, tile_count, rows);
+  const bool is_usual = prior_.kernel().family != KernelFamily::Periodic && has_usual_length(prior_.kernel());
+  for (int tile = 0; tile < tile_count; ++tile) {
+    const double* coordinates = prior_.tiles().coordinates(first_tile + tile);
+    double* target = rows + static_cast<long>(tile) * count_ * kLanes;
+    is_usual ? of_distances(coordinates, target) : of_differences(coordinates, target);
   }
 }
 

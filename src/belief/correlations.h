@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "palpation/base/tile.h"
@@ -39,16 +40,19 @@ class TileCorrelations {
   TileCorrelations(const Prior& prior, std::span<const Site> sites);
   TileCorrelations(const Prior& prior, int vertex);
 
-  /// Rows of kLanes, one for each place. What stands in lanes beyond the last vertex means nothing.
-  void operator()(int tile, double* rows) const;
+  /// Rows of kLanes, one for each place, of each tile from the first on. What stands in lanes beyond the last vertex means nothing.
+  void operator()(int first_tile, int tile_count, double* rows) const;
 
  private:
-  void weigh(int row, const Eigen::VectorXd& modes);
+  void weigh(std::span<const Eigen::VectorXd> modes);
+  void of_modes(int first_tile, int tile_count, double* rows) const;
+  void of_differences(const double* coordinates, double* rows) const;
   void of_distances(const double* coordinates, double* rows) const;
 
   const Prior& prior_;
-  std::vector<double> coordinates_;                                                    // three of each place, or:
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> minus_rows_;  // places x modes: -phi s / |f|
+  int count_;
+  std::vector<double> coordinates_;         // three of each place, or:
+  std::optional<PackedFactor> minus_rows_;  // places x modes: -phi s / |f|
 };
 
 }  // namespace palpation

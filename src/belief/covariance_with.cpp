@@ -60,7 +60,7 @@ void CovarianceWith::operator()(int first, int count, double* out) const {
     const auto is_wanted = [&](int vertex) { return vertex >= first && vertex < first + count; };
     if (std::ranges::none_of(vertices, is_wanted)) continue;
     alignas(64) double covariance[kLanes];
-    (*correlations_)(tile, covariance);
+    (*correlations_)(tile, 1, covariance);
     subtract_strips({.factor = column_.data(), .rows = 1}, strips.data(), static_cast<int>(strips.size()), tile, covariance);
     for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
       const int vertex = vertices[lane];

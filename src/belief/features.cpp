@@ -84,17 +84,21 @@ void Features::visit_vertices(const Prior& prior, int step) {
   const bool keeps = step == 1;
   if (keeps) rows_ = aligned_doubles(static_cast<std::size_t>(tiles) * rank() * kLanes);
   const TileCorrelations correlations(prior, pivots_);
+  const PackedFactor packed(factor_.data(), rank(), rank(), rank());
+  const long per_tile = static_cast<long>(rank()) * kLanes;
   residuals_ = Field::Zero(vertices);
   for_ranges((tiles + step - 1) / step, kTilesAtOnce, [&](int first, int last) {
-    const AlignedDoubles scratch = aligned_doubles(keeps ? 0 : static_cast<std::size_t>(rank()) * kLanes);
-    for (int number = first * step; number < std::min(last * step, tiles); number += step) {
-      double* tile = keeps ? rows_.get() + static_cast<long>(number) * rank() * kLanes : scratch.get();
-      correlations(number, tile);
-      solve_triangle(factor_.data(), rank(), tile, rank());
-      for (int lane = 0; lane < tiles_->lanes(number); ++lane) {
-        double square = 0.0;
-        for (int row = 0; row < rank(); ++row) square += tile[row * kLanes + lane] * tile[row * kLanes + lane];
-        residuals_[tiles_->vertices(number)[lane]] = 1.0 - square;
+    const AlignedDoubles scratch = aligned_doubles(keeps ? 0 : static_cast<std::size_t>(kTilesTogether * per_tile));
+    for (int begin = first; begin < last; begin += kTilesTogether) {
+      const int count = std::min(kTilesTogether, last - begin);
+      double* values = keeps ? rows_.get() + begin * per_tile : scratch.get();
+      for (int i = 0; i < count; ++i) correlations((begin + i) * step, 1, values + i * per_tile);
+      solve_triangle(packed, values, count, per_tile);
+      for (int i = 0; i < count; ++i) {
+        const int number = (begin + i) * step;
+        double squares[kLanes] = {};
+        add_sums(values + i * per_tile, rank(), nullptr, 0, 0, squares);
+        for (int lane = 0; lane < tiles_->lanes(number); ++lane) residuals_[tiles_->vertices(number)[lane]] = 1.0 - squares[lane];
       }
     }
   });

@@ -53,7 +53,7 @@ void LookAhead::add_covariances(int tile, int first, int count, double* rows) co
     // Tiles are looked at here and there, so nothing of them is near yet: ask for all of it at once.
     for (int i = 0; i < strip.depth; ++i) __builtin_prefetch(strip.address(tile, i));
   }
-  for (int k = 0; k < count; ++k) touches_[first + k].correlations(tile, rows + k * kLanes);
+  for (int k = 0; k < count; ++k) touches_[first + k].correlations(tile, 1, rows + k * kLanes);
   for (int k = 0; k < count && depth > 0; k += panel_rows()) {
     const Panel panel{columns_.data() + (first + k) * depth, depth, std::min(panel_rows(), count - k), nullptr};
     subtract_strips(panel, strips.data(), static_cast<int>(strips.size()), tile, rows + k * kLanes);

@@ -123,20 +123,24 @@ void Belief::see_all() {
   const int rank = features.rank(), tile_count = prior_.tiles().count(), weight_count = sum_rows() - 2;
   const WeightSpace::Rows factor = reduced_->weights.factor();
   const Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor> minus_weights = -reduced_->weights.weights().transpose();
+  const PackedFactor packed(factor.data(), rank, rank, rank), weights(minus_weights.data(), rank, weight_count, rank);
+  const long per_tile = static_cast<long>(rank) * kLanes;
   auto sums = std::make_shared<Sums>(tile_count, sum_rows());
   for_ranges(tile_count, kTilesAtOnce, [&](int first, int last) {
-    const AlignedDoubles solved = aligned_doubles(static_cast<std::size_t>(rank) * kLanes);
-    for (int number = first; number < last; ++number) {
-      const double* tile = features.tile(number);
-      double* sum = sums->tile(number);
-      std::fill_n(sum, sums->width * kLanes, 0.0);
-      subtract_product(minus_weights.data(), rank, tile, rank, sum + Sums::kOnes * kLanes, weight_count);
-      std::copy_n(tile, rank * kLanes, solved.get());
-      solve_triangle(factor.data(), rank, solved.get(), rank);
-      double* explained = sum + Sums::kExplained * kLanes;
-      for (int row = 0; row < rank * kLanes; row += kLanes) {
-        for (int lane = 0; lane < kLanes; ++lane)
-          explained[lane] += tile[row + lane] * tile[row + lane] - solved[row + lane] * solved[row + lane];
+    const AlignedDoubles solved = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    for (int begin = first; begin < last; begin += kTilesTogether) {
+      const int count = std::min(kTilesTogether, last - begin);
+      const double* tiles = features.tile(begin);
+      double* sum = sums->tile(begin);
+      const long per_sum = static_cast<long>(sums->width) * kLanes;
+      std::fill_n(sum, count * per_sum, 0.0);
+      subtract_product(weights, features.rows(), begin, count, sum + Sums::kOnes * kLanes, per_sum);
+      std::copy_n(tiles, count * per_tile, solved.get());
+      solve_triangle(packed, solved.get(), count, per_tile);
+      for (int tile = 0; tile < count; ++tile) {
+        double* explained = sum + tile * per_sum + Sums::kExplained * kLanes;
+        for (long at = tile * per_tile; at < (tile + 1) * per_tile; ++at)
+          explained[at % kLanes] += tiles[at] * tiles[at] - solved[at] * solved[at];
       }
     }
   });
@@ -149,14 +153,18 @@ void Belief::see(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
   const int rank = features.rank(), tile_count = prior_.tiles().count(), count = static_cast<int>(rows.rows());
   const Eigen::MatrixXd whitened = reduced_->weights.whitened().bottomRows(count);
   const WeightSpace::Rows minus_rows = -rows;
+  const PackedFactor packed(minus_rows.data(), rank, count, rank);
+  const long per_tile = static_cast<long>(count) * kLanes;
   auto sums = std::make_shared<Sums>(tile_count, sum_rows());
   for_ranges(tile_count, kTilesAtOnce, [&](int first, int last) {
-    const AlignedDoubles v = aligned_doubles(static_cast<std::size_t>(count) * kLanes);
-    for (int number = first; number < last; ++number) {
-      std::copy_n(sums_->tile(number), sums->width * kLanes, sums->tile(number));
-      std::fill_n(v.get(), count * kLanes, 0.0);
-      subtract_product(minus_rows.data(), rank, features.tile(number), rank, v.get(), count);
-      add_sums(v.get(), count, whitened.data(), count, sum_rows() - 2, sums->tile(number));
+    const AlignedDoubles v = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    for (int begin = first; begin < last; begin += kTilesTogether) {
+      const int tiles = std::min(kTilesTogether, last - begin);
+      std::copy_n(sums_->tile(begin), static_cast<long>(tiles) * sums->width * kLanes, sums->tile(begin));
+      std::fill_n(v.get(), tiles * per_tile, 0.0);
+      subtract_product(packed, features.rows(), begin, tiles, v.get(), per_tile);
+      for (int tile = 0; tile < tiles; ++tile)
+        add_sums(v.get() + tile * per_tile, count, whitened.data(), count, sum_rows() - 2, sums->tile(begin + tile));
     }
   });
   sums_ = std::move(sums);

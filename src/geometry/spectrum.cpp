@@ -90,19 +90,21 @@ class SpectrumMaker {
     Spectrum spectrum(not_negative(modes.values.head(rank)), kept);
     const int width = static_cast<int>(modes.weights.rows());
     const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = -modes.weights.leftCols(rank).transpose();
+    const PackedFactor packed(weights.data(), width, rank, width);
+    const long given_per_tile = static_cast<long>(width) * kLanes, per_tile = static_cast<long>(rank) * kLanes;
     for_ranges(spectrum.tile_count(), 64, [&](int first, int last) {
-      std::vector<double> values(static_cast<std::size_t>(width) * kLanes);
-      for (int number = first; number < last; ++number) {
+      std::vector<double> values(static_cast<std::size_t>(kTilesTogether * given_per_tile));
+      for (int begin = first; begin < last; begin += kTilesTogether) {
+        const int count = std::min(kTilesTogether, last - begin);
         std::fill(values.begin(), values.end(), 0.0);
-        for (int vertex = number * kLanes; vertex < std::min((number + 1) * kLanes, kept); ++vertex) {
+        for (int vertex = begin * kLanes; vertex < std::min((begin + count) * kLanes, kept); ++vertex) {
           const long row = static_cast<long>(ordered.order.indices()[vertex]) * kStrip;
-          for (int column = 0; column < width; ++column) {
-            values[static_cast<std::size_t>(column * kLanes + vertex % kLanes)] = block[column / kStrip][row + column % kStrip];
-          }
+          double* lane = values.data() + (vertex / kLanes - begin) * given_per_tile + vertex % kLanes;
+          for (int column = 0; column < width; ++column) lane[column * kLanes] = block[column / kStrip][row + column % kStrip];
         }
-        double* tile = spectrum.waves_.get() + static_cast<long>(number) * rank * kLanes;
-        std::fill(tile, tile + static_cast<long>(rank) * kLanes, 0.0);
-        subtract_product(weights.data(), width, values.data(), width, tile, rank);
+        double* tiles = spectrum.waves_.get() + begin * per_tile;
+        std::fill_n(tiles, count * per_tile, 0.0);
+        subtract_product(packed, {values.data(), given_per_tile, width}, 0, count, tiles, per_tile);
       }
     });
     return spectrum;

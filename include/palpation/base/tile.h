@@ -57,12 +57,14 @@ struct PackedPanel {
   const double* inverse_pivots = nullptr;
 };
 
-/// Rows of a lower triangular factor in panels of equal height, packed once for many tiles.
+/// Rows of coefficients in panels of equal height, packed once for many tiles.
 class PackedFactor {
  public:
-  /// rows x columns, row-major; the triangle is at the end.
+  /// rows x columns, row-major; if they end in a lower triangle, that can be solved.
   PackedFactor(const double* factor, long stride, int rows, long columns);
 
+  int rows() const { return rows_; }
+  long columns() const { return columns_; }
   int height() const { return height_; }
   /// The panel that begins with row `row`, from a column on; with `solves` up to its triangle, which is then solved.
   PackedPanel panel(int row, long column, bool solves) const;
@@ -73,9 +75,20 @@ class PackedFactor {
   std::vector<double> values_, inverse_pivots_;
 };
 
+/// So many tiles should take their turns with a panel while it is in the nearest cache, ...
+inline constexpr int kTilesTogether = 8;
+/// ... and so many of its columns at a time.
+inline constexpr int kDepthTogether = 256;
+
 /// As subtract_strips, on tiles from `tile` on, whose rows in `fresh` lie per_tile apart.
 void subtract_packed(const PackedPanel& panel, const TileRows* strips, int strip_count, long tile, int tile_count, double* fresh,
                      long per_tile);
+
+/// fresh[r] -= sum_i factor[r, i] known[i], i < known.depth, for all rows of a factor without a triangle, on tiles from `tile` on.
+void subtract_product(const PackedFactor& factor, const TileRows& known, long tile, int tile_count, double* fresh, long per_tile);
+
+/// Solves T fresh = fresh in place, T the triangle at the factor's end, on tiles that lie per_tile apart.
+void solve_triangle(const PackedFactor& factor, double* fresh, int tile_count, long per_tile);
 
 /// fresh[r] -= sum_i factor[r * stride + i] * tile[i], for `rows` rows of kLanes values each, i < depth.
 void subtract_product(const double* factor, int stride, const double* tile, int depth, double* fresh, int rows);
