@@ -71,17 +71,19 @@ void subtract_strips(const Panel& panel, const TileRows* strips, int strip_count
   kernels().subtract_strips(panel, strips, strip_count, tile, fresh);
 }
 
-PackedFactor::PackedFactor(const double* factor, long stride, int rows, long columns) : rows_(rows), columns_(columns) {
+PackedFactor::PackedFactor(const double* factor, long row_stride, int rows, long columns, long column_stride)
+    : rows_(rows), columns_(columns) {
   const int panels = (rows + kernels().panel_rows - 1) / kernels().panel_rows;
   height_ = panels > 0 ? (rows + panels - 1) / panels : 0;
   values_.reserve(static_cast<std::size_t>(rows * columns));
   for (int row = 0; row < rows; row += height_) {
     const int count = std::min(height_, rows - row);
     for (long column = 0; column < columns; ++column) {
-      for (int r = 0; r < count; ++r) values_.push_back(factor[(row + r) * stride + column]);
+      for (int r = 0; r < count; ++r) values_.push_back(factor[(row + r) * row_stride + column * column_stride]);
     }
   }
-  for (int row = 0; row < rows && rows <= columns; ++row) inverse_pivots_.push_back(1.0 / factor[row * stride + columns - rows + row]);
+  for (int row = 0; row < rows && rows <= columns; ++row)
+    inverse_pivots_.push_back(1.0 / factor[row * row_stride + (columns - rows + row) * column_stride]);
 }
 
 PackedPanel PackedFactor::panel(int row, long column, bool solves) const {

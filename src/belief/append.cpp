@@ -11,6 +11,7 @@
 #include "belief/foreseen.h"
 #include "belief/rows.h"
 #include "belief/vertex_tiles.h"
+#include "palpation/base/cholesky.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 
@@ -18,6 +19,10 @@ namespace palpation {
 namespace {
 
 constexpr int kGroupsAtOnce = 8;
+/// So many rows of L are appended one by one; more, eight at a time.
+constexpr int kFewRows = 256;
+
+using Factor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Strips of no more than kDepthTogether rows in all, and the factor's column where they begin.
 struct Chunk {
@@ -44,7 +49,7 @@ std::vector<Chunk> chunks_of(std::span<const TileRows> known) {
 /// Rows of V on a group of tiles, from the correlations that stand in them: row-wise forward substitution, a panel of rows at a time.
 class Substitution {
  public:
-  Substitution(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& factor, std::span<const TileRows> known)
+  Substitution(const Factor& factor, std::span<const TileRows> known)
       : rows_(static_cast<int>(factor.rows())), factor_(factor.data(), factor.cols(), rows_, factor.cols()), known_(chunks_of(known)) {}
 
   /// `fresh`: of the first tile of the group; the next follow, all rows of each together.
@@ -65,6 +70,17 @@ class Substitution {
   PackedFactor factor_;
   std::vector<Chunk> known_;
 };
+
+/// Row `row` of the factor of `first` columns more than rows, whose own triangle still has the covariance; returns the pivot.
+double append_row(Factor& factor, int row, int first) {
+  for (int column = 0; column < row; ++column) {
+    const double rest = factor(row, first + column) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
+    factor(row, first + column) = rest / factor(column, first + column);
+  }
+  const double pivot = factor(row, first + row) - factor.row(row).head(first + row).dot(factor.row(row).head(first + row));
+  factor(row, first + row) = std::sqrt(pivot);
+  return pivot;
+}
 
 }  // namespace
 
@@ -122,22 +138,25 @@ void Belief::append_to_factor(Rows& fresh) {
   auto& factor = fresh.factor;
   factor.resize(count, first + count);
   factor.leftCols(first) = correlations.topRows(first).transpose();
-  for (int row = 0; row < count; ++row) {
-    for (int column = 0; column <= row; ++column) {
-      const double rest =
-          correlations(first + column, row) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
-      if (column < row) {
-        factor(row, first + column) = rest / factor(column, first + column);
-      } else if (rest > 0.0 && std::isfinite(rest)) {
-        factor(row, first + column) = std::sqrt(rest);
-      } else {
-        throw NumericalError("Belief: site " + std::to_string(first + row) + " leaves the pivot " + text_of(rest) +
-                             ", so the covariance is not positive definite in double precision: sites all but coincide, and the noise (" +
-                             text_of(diagonal_[first + row]) + " of the signal's variance) does not part them");
-      }
+  factor.rightCols(count) = correlations.bottomRows(count).transpose();
+  correlations.resize(0, 0);
+  int done = 0;
+  double pivot = 0.0;
+  if (count <= kFewRows) {
+    for (; done < count; ++done) {
+      pivot = append_row(factor, done, first);
+      if (!(pivot > 0.0) || !std::isfinite(pivot)) break;
     }
-    factor.row(row).tail(count - row - 1).setZero();
+  } else {
+    if (first > 0) factor.rightCols(count).noalias() -= factor.leftCols(first) * factor.leftCols(first).transpose();
+    done = static_cast<int>(factorize(factor.data() + first, factor.cols(), count));
+    if (done < count) pivot = factor(done, first + done);
   }
+  factor.rightCols(count).triangularView<Eigen::StrictlyUpper>().setZero();
+  if (done == count) return;
+  throw NumericalError("Belief: site " + std::to_string(first + done) + " leaves the pivot " + text_of(pivot) +
+                       ", so the covariance is not positive definite in double precision: sites all but coincide, and the noise (" +
+                       text_of(diagonal_[first + done]) + " of the signal's variance) does not part them");
 }
 
 /// L^-1 of 1, the readings and the tilts.

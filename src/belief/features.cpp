@@ -52,7 +52,8 @@ Eigen::VectorXd residuals_of(const Eigen::MatrixXd& features) { return 1.0 - fea
 /// Greedily, until no candidate's residual is above the margin. False if that would take more than `most` pivots.
 bool Features::choose_pivots(const Prior& prior, std::span<const Site> candidates, double tolerance, int most) {
   const auto count = static_cast<Eigen::Index>(candidates.size());
-  Factor features(std::min<Eigen::Index>(most, count), count);  // every row one feature at all candidates
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Rows features(std::min<Eigen::Index>(most, count), count);  // every row one feature at all candidates
   Eigen::VectorXd residuals = Eigen::VectorXd::Ones(count);
   std::vector<Eigen::Index> chosen;
   while (true) {
@@ -72,8 +73,9 @@ bool Features::choose_pivots(const Prior& prior, std::span<const Site> candidate
     chosen.push_back(pivot);
     pivots_.push_back(candidates[pivot]);
   }
-  factor_ = Factor::Zero(rank(), rank());
-  for (int row = 0; row < rank(); ++row) factor_.row(row).head(row + 1) = features.col(chosen[row]).head(row + 1).transpose();
+  Rows factor = Rows::Zero(rank(), rank());
+  for (int row = 0; row < rank(); ++row) factor.row(row).head(row + 1) = features.col(chosen[row]).head(row + 1).transpose();
+  factor_.emplace(factor.data(), rank(), rank(), rank());
   return true;
 }
 
@@ -84,7 +86,6 @@ void Features::visit_vertices(const Prior& prior, int step) {
   const bool keeps = step == 1;
   if (keeps) rows_ = aligned_doubles(static_cast<std::size_t>(tiles) * rank() * kLanes);
   const TileCorrelations correlations(prior, pivots_);
-  const PackedFactor packed(factor_.data(), rank(), rank(), rank());
   const long per_tile = static_cast<long>(rank()) * kLanes;
   residuals_ = Field::Zero(vertices);
   for_ranges((tiles + step - 1) / step, kTilesAtOnce, [&](int first, int last) {
@@ -93,7 +94,7 @@ void Features::visit_vertices(const Prior& prior, int step) {
       const int count = std::min(kTilesTogether, last - begin);
       double* values = keeps ? rows_.get() + begin * per_tile : scratch.get();
       for (int i = 0; i < count; ++i) correlations((begin + i) * step, 1, values + i * per_tile);
-      solve_triangle(packed, values, count, per_tile);
+      solve_triangle(*factor_, values, count, per_tile);
       for (int i = 0; i < count; ++i) {
         const int number = (begin + i) * step;
         double squares[kLanes] = {};
@@ -143,8 +144,33 @@ Eigen::VectorXd Features::at_vertex(int vertex) const {
   return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<kLanes>>(tile(place / kLanes) + place % kLanes, rank());
 }
 
+void Features::solve(Eigen::MatrixXd& columns) const {
+  const long per_tile = static_cast<long>(rank()) * kLanes;
+  const int tiles = static_cast<int>((columns.cols() + kLanes - 1) / kLanes);
+  for_ranges(tiles, kTilesTogether, [&](int begin, int end) {
+    const AlignedDoubles values = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    for (int first = begin; first < end; first += kTilesTogether) {
+      const int count = std::min(kTilesTogether, end - first);
+      std::fill_n(values.get(), count * per_tile, 0.0);
+      auto some = columns.middleCols(first * kLanes, std::min<Eigen::Index>(count * kLanes, columns.cols() - first * kLanes));
+      const auto at = [&](Eigen::Index row, Eigen::Index column) -> double& {
+        return values[column / kLanes * per_tile + row * kLanes + column % kLanes];
+      };
+      for (Eigen::Index column = 0; column < some.cols(); ++column) {
+        for (Eigen::Index row = 0; row < rank(); ++row) at(row, column) = some(row, column);
+      }
+      solve_triangle(*factor_, values.get(), count, per_tile);
+      for (Eigen::Index column = 0; column < some.cols(); ++column) {
+        for (Eigen::Index row = 0; row < rank(); ++row) some(row, column) = at(row, column);
+      }
+    }
+  });
+}
+
 Eigen::VectorXd Features::at(const Prior& prior, const Place& place) const {
-  return factor_.triangularView<Eigen::Lower>().solve(correlations_with(prior, place, pivots_));
+  Eigen::MatrixXd column = correlations_with(prior, place, pivots_);
+  solve(column);
+  return column;
 }
 
 Eigen::MatrixXd Features::at(const Prior& prior, std::span<const Site> sites) const {
@@ -162,7 +188,7 @@ Eigen::MatrixXd Features::at(const Prior& prior, std::span<const Site> sites) co
   Eigen::MatrixXd solved(rank(), static_cast<Eigen::Index>(inside_faces.size()));
   for (std::size_t i = 0; i < inside_faces.size(); ++i)
     solved.col(static_cast<Eigen::Index>(i)) = correlations_with(prior, sites[inside_faces[i]].place, pivots_);
-  if (solved.size() > 0) factor_.triangularView<Eigen::Lower>().solveInPlace(solved);
+  solve(solved);
   for (std::size_t i = 0; i < inside_faces.size(); ++i) result.col(inside_faces[i]) = solved.col(static_cast<Eigen::Index>(i));
   return result;
 }

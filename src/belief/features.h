@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,13 +40,13 @@ class Features {
   Eigen::VectorXd at(const Prior& prior, const Place& place) const;
 
  private:
-  using Factor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   bool choose_pivots(const Prior& prior, std::span<const Site> candidates, double tolerance, int most);
   void visit_vertices(const Prior& prior, int step);
+  /// L^-1 of every column.
+  void solve(Eigen::MatrixXd& columns) const;
 
   std::vector<Site> pivots_;
-  Factor factor_;                       // L
+  std::optional<PackedFactor> factor_;  // L
   const VertexTiles* tiles_ = nullptr;  // the prior's, shared by all that look at the features
   AlignedDoubles rows_;
   Field residuals_;

@@ -1,18 +1,51 @@
 #include "belief/weight_space.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <utility>
 
+#include "belief/aligned.h"
+#include "palpation/base/parallel.h"
+#include "palpation/base/tile.h"
+
 namespace palpation {
+
+namespace {
+
+/// I + F D F', D = diag(root)^2, its lower half.
+Eigen::MatrixXd identity_and_squares(const Eigen::MatrixXd& features, const Eigen::VectorXd& root) {
+  const auto rank = static_cast<int>(features.rows()), count = static_cast<int>(features.cols());
+  const Eigen::MatrixXd minus = -features * root.asDiagonal();
+  const PackedFactor rows(minus.data(), 1, rank, count, rank);
+  const long given_per_tile = static_cast<long>(count) * kLanes, per_tile = static_cast<long>(rank) * kLanes;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(rank, rank);
+  for_ranges((rank + kLanes - 1) / kLanes, kTilesTogether, [&](int begin, int end) {
+    const AlignedDoubles given = aligned_doubles(static_cast<std::size_t>((end - begin) * given_per_tile));
+    const AlignedDoubles squares = aligned_doubles(static_cast<std::size_t>((end - begin) * per_tile));
+    std::fill_n(given.get(), (end - begin) * given_per_tile, 0.0);
+    std::fill_n(squares.get(), (end - begin) * per_tile, 0.0);
+    const int last = std::min(rank, end * kLanes);
+    for (int row = begin * kLanes; row < last; ++row) {
+      double* lane = given.get() + (row / kLanes - begin) * given_per_tile + row % kLanes;
+      for (int i = 0; i < count; ++i) lane[i * kLanes] = -minus(row, i);
+    }
+    subtract_product(rows, {given.get(), given_per_tile, count}, 0, end - begin, squares.get(), per_tile);
+    for (int column = begin * kLanes; column < last; ++column) {
+      const double* lane = squares.get() + (column / kLanes - begin) * per_tile + column % kLanes;
+      for (int row = column; row < rank; ++row) result(row, column) += lane[row * kLanes];
+    }
+  });
+  return result;
+}
+
+}  // namespace
 
 /// The weights by one step of refinement, whose residual needs no A; the whitened right sides as [w; D^-1/2 (H - F' w)], whose squares add
 /// up without a difference.
 WeightSpace::WeightSpace(const Eigen::MatrixXd& features, const Eigen::VectorXd& noise, const Right& right) {
   const Eigen::Index rank = features.rows(), count = features.cols();
   const Eigen::VectorXd precision = noise.cwiseInverse();
-  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(rank, rank);
-  a.selfadjointView<Eigen::Lower>().rankUpdate(features * precision.cwiseSqrt().asDiagonal());
-  factor_.compute(a);
+  factor_.compute(identity_and_squares(features, precision.cwiseSqrt()));
   weights_ = Right::Zero(rank, 5);
   Right rest = right;
   for (int step = 0; step < 2; ++step) {

@@ -11,6 +11,7 @@
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "palpation/belief/hyperparameters.h"
+#include "palpation/belief/look_ahead.h"
 
 namespace palpation {
 namespace {
@@ -163,6 +164,7 @@ TEST(ReadingsExtremes, HundredsOfAppendsAreAsGoodAsOneFactorFromScratch) {
       scratch_variance = std::max(scratch_variance, std::abs(scratch.variance[vertex] - static_cast<double>(right_variance)));
     }
     // Three hundred readings within a few lengths: the covariance's own rounding moves as much, from scratch too.
+    EXPECT_LT(variance, 5.0 * scratch_variance + 1e-14) << s2;
     EXPECT_LT(variance, 1e-12) << s2;
     EXPECT_LT(scratch_variance, 1e-12) << s2;
     EXPECT_LT(mean, 5.0 * scratch_mean + 1e-13) << s2;
@@ -215,6 +217,18 @@ TEST(ReadingsExtremes, ALookAheadNeverTellsMoreThanThereIs) {
       for (int other = 0; other < tissue.vertex_count(); ++other) {
         EXPECT_LE(covariance[other] * covariance[other], variance[vertex] * variance[other] * (1.0 + 2e-12)) << s2;
         EXPECT_GE(variance[other] - covariance[other] * covariance[other] / (variance[vertex] + s2), -1e-12 * variance[other]) << s2;
+      }
+    }
+    // The same for touches on touches, each of which leaves no more than its noise.
+    LookAhead ahead(belief, variance);
+    for (int vertex = 5; vertex < tissue.vertex_count(); vertex += 200) ahead.touch(vertex, s2);
+    for (int tile = 0; tile < ahead.tile_count(); ++tile) {
+      ahead.bring_up_to_date(tile);
+      for (std::size_t lane = 0; lane < ahead.vertices(tile).size(); ++lane) {
+        const int vertex = ahead.vertices(tile)[lane];
+        EXPECT_GE(ahead.variances(tile)[lane], 0.0) << s2;
+        const double most = vertex % 200 == 5 ? s2 : variance[vertex];
+        EXPECT_LE(ahead.variances(tile)[lane], most + 1e-12 * variance[vertex]) << s2;
       }
     }
   }

@@ -18,7 +18,6 @@ class PositiveDefiniteInverse {
  private:
   void resize(long size);
   bool factorize(const Eigen::MatrixXd& matrix);
-  void take_columns(std::vector<double>& rows, long first, long from, long to) const;
 
   long stride_ = 0;                          // whole tiles; what is beyond the matrix is the identity
   std::vector<double> factor_, transposed_;  // rows of L, and of the transposed of its inverse

@@ -60,8 +60,8 @@ struct PackedPanel {
 /// Rows of coefficients in panels of equal height, packed once for many tiles.
 class PackedFactor {
  public:
-  /// rows x columns, row-major; if they end in a lower triangle, that can be solved.
-  PackedFactor(const double* factor, long stride, int rows, long columns);
+  /// Coefficients factor[row * row_stride + column * column_stride]; if they end in a lower triangle, that can be solved.
+  PackedFactor(const double* factor, long row_stride, int rows, long columns, long column_stride = 1);
 
   int rows() const { return rows_; }
   long columns() const { return columns_; }

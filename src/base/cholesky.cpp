@@ -1,0 +1,56 @@
+#include "palpation/base/cholesky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "palpation/base/tile.h"
+
+namespace palpation {
+namespace {
+
+/// Cholesky's factor of a few rows and columns; the number of rows that went well.
+int factorize_block(double* block, long stride, int size) {
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double rest = block[i * stride + j];
+      for (int k = 0; k < j; ++k) rest -= block[i * stride + k] * block[j * stride + k];
+      if (j < i) {
+        block[i * stride + j] = rest / block[j * stride + j];
+      } else {
+        const bool is_positive = rest > 0.0 && std::isfinite(rest);
+        block[i * stride + i] = is_positive ? std::sqrt(rest) : rest;
+        if (!is_positive) return i;
+      }
+    }
+  }
+  return size;
+}
+
+}  // namespace
+
+/// Eight rows are the columns of a tile: what the rows above leave of them, and their own triangle.
+long factorize(double* lower, long stride, long size) {
+  std::vector<double> tile(static_cast<std::size_t>((size + kLanes) * kLanes));
+  for (long first = 0; first < size; first += kLanes) {
+    const int count = static_cast<int>(std::min<long>(kLanes, size - first)), depth = static_cast<int>(first);
+    double* rows = lower + first * stride;
+    for (int lane = 0; lane < count; ++lane) {
+      for (long i = 0; i < first; ++i) tile[static_cast<std::size_t>(i * kLanes + lane)] = rows[lane * stride + i];
+      for (int i = 0; i < count; ++i)
+        tile[static_cast<std::size_t>((first + i) * kLanes + lane)] = rows[std::max(i, lane) * stride + first + std::min(i, lane)];
+    }
+    solve_triangle(lower, static_cast<int>(stride), tile.data(), depth);
+    for (int lane = 0; lane < count; ++lane) {
+      for (long i = 0; i < first; ++i) rows[lane * stride + i] = tile[static_cast<std::size_t>(i * kLanes + lane)];
+    }
+    double* own = tile.data() + first * kLanes;
+    subtract_product(rows, static_cast<int>(stride), tile.data(), depth, own, count);
+    for (int i = 0; i < count; ++i) std::copy_n(own + i * kLanes, i + 1, rows + i * stride + first);
+    const int done = factorize_block(rows + first, stride, count);
+    if (done < count) return first + done;
+  }
+  return size;
+}
+
+}  // namespace palpation
