@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLine = 64, kLargePage = std::size_t{2} << 20;
 constexpr std::size_t kWorthKeeping = std::size_t{256} << 10;
-constexpr std::size_t kMostKept = std::size_t{256} << 20;
+constexpr std::size_t kMostKept = std::size_t{512} << 20;
 
 struct Block {
   void* memory;
@@ -40,12 +40,14 @@ Kept& kept() {
   return blocks;
 }
 
-/// What a large array takes: a quarter of a power of two in steps, so that one that grew a little finds the room of the one before it. What
-/// is never touched costs nothing.
-std::size_t size_of(std::size_t bytes) {
-  if (bytes < kWorthKeeping) return std::max(bytes, kLine);
-  const std::size_t step = std::bit_floor(bytes) / 4;
-  return (bytes + step - 1) / step * step;
+/// A large array has room to grow to the next power of two, so that it finds the room of a smaller one before it. What is never touched
+/// costs nothing.
+std::size_t size_of(std::size_t bytes) { return bytes < kWorthKeeping ? std::max(bytes, kLine) : std::bit_ceil(bytes); }
+
+void want_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+  if (bytes >= kLargePage) madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);  // no more of them than are filled
+#endif
 }
 
 }  // namespace
@@ -59,15 +61,13 @@ void* take_aligned(std::size_t bytes) {
     if (last != blocks.rend()) {
       void* memory = last->memory;
       kept().forget(std::prev(last.base()));
+      want_large_pages(memory, bytes);
       return memory;
     }
   }
   void* memory = nullptr;
   if (posix_memalign(&memory, size >= kLargePage ? kLargePage : kLine, size) != 0) throw std::bad_alloc();
-#ifdef __linux__
-  // No more of them than are filled.
-  if (size >= kLargePage) madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
-#endif
+  want_large_pages(memory, bytes);
   return memory;
 }
 

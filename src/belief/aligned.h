@@ -1,7 +1,7 @@
 /// Many numbers on a border of cache lines, without a value at first.
 ///
 /// Large arrays ask the system for large pages, which are touched sooner and found faster. A belief that is built anew is as large as the
-/// one before it: what was freed last is kept, up to 256 MiB in all, and handed out again, since the system clears pages at the rate at
+/// one before it: what was freed last is kept, up to 512 MiB in all, and handed out again, since the system clears pages at the rate at
 /// which rows are computed.
 #pragma once
 

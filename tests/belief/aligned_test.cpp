@@ -22,19 +22,19 @@ TEST(Aligned, LargeArraysAreHandedOutAgainToThoseOfAboutTheirSize) {
   AlignedDoubles first = aligned_doubles(kLarge);
   const double* const memory = first.get();
   first.reset();
-  const AlignedDoubles smaller = aligned_doubles(kLarge / 2), next = aligned_doubles(kLarge - 100);
+  const AlignedDoubles smaller = aligned_doubles(kLarge / 2), next = aligned_doubles(kLarge / 2 + 1);
   EXPECT_NE(smaller.get(), memory);
   EXPECT_EQ(next.get(), memory);
   EXPECT_NE(aligned_doubles(kLarge).get(), memory) << "one array is in use";
 }
 
-TEST(Aligned, NoMoreIsKeptThanAQuarterOfAGigabyte) {
+TEST(Aligned, NoMoreIsKeptThanHalfAGigabyte) {
   std::vector<AlignedDoubles> many;
-  for (int i = 0; i < 40; ++i) many.push_back(aligned_doubles(kLarge));
+  for (int i = 0; i < 80; ++i) many.push_back(aligned_doubles(kLarge));
   const double* const first = many.front().get();
   for (AlignedDoubles& array : many) array.reset();
   many.clear();
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 60; ++i) {
     many.push_back(aligned_doubles(kLarge));
     EXPECT_NE(many.back().get(), first) << "the first that was freed is gone";
   }
