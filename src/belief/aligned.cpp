@@ -29,6 +29,7 @@ struct Kept {
   std::vector<Block> blocks;
   std::size_t bytes = 0;
 
+  Kept() { blocks.reserve(kMostKept / kWorthKeeping + 1); }  // who gives back must not fail
   void forget(std::vector<Block>::iterator block) {
     bytes -= block->size;
     blocks.erase(block);
@@ -40,9 +41,11 @@ Kept& kept() {
   return blocks;
 }
 
-/// A large array has room to grow to the next power of two, so that it finds the room of a smaller one before it. What is never touched
-/// costs nothing.
-std::size_t size_of(std::size_t bytes) { return bytes < kWorthKeeping ? std::max(bytes, kLine) : std::bit_ceil(bytes); }
+bool may_be_kept(std::size_t bytes) { return bytes >= kWorthKeeping && bytes <= kMostKept; }
+
+/// What may be kept has room to grow to the next power of two, so that an array finds the room of a smaller one before it. What is never
+/// touched costs nothing.
+std::size_t size_of(std::size_t bytes) { return may_be_kept(bytes) ? std::bit_ceil(bytes) : std::max(bytes, kLine); }
 
 void want_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
@@ -54,7 +57,7 @@ void want_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
 
 void* take_aligned(std::size_t bytes) {
   const std::size_t size = size_of(bytes);
-  if (size >= kWorthKeeping) {
+  if (may_be_kept(bytes)) {
     const std::lock_guard lock(kept().mutex);
     std::vector<Block>& blocks = kept().blocks;
     const auto last = std::find_if(blocks.rbegin(), blocks.rend(), [&](const Block& block) { return block.size == size; });
@@ -72,19 +75,15 @@ void* take_aligned(std::size_t bytes) {
 }
 
 void give_back_aligned(void* memory, std::size_t bytes) {
+  if (!may_be_kept(bytes)) return std::free(memory);
   const std::size_t size = size_of(bytes);
-  if (size < kWorthKeeping || size > kMostKept) return std::free(memory);
-  std::vector<Block> too_many;
-  {
-    const std::lock_guard lock(kept().mutex);
-    kept().blocks.push_back({memory, size});
-    kept().bytes += size;
-    while (kept().bytes > kMostKept) {
-      too_many.push_back(kept().blocks.front());
-      kept().forget(kept().blocks.begin());
-    }
+  const std::lock_guard lock(kept().mutex);
+  kept().blocks.push_back({memory, size});
+  kept().bytes += size;
+  while (kept().bytes > kMostKept) {
+    std::free(kept().blocks.front().memory);
+    kept().forget(kept().blocks.begin());
   }
-  for (const Block& block : too_many) std::free(block.memory);
 }
 
 }  // namespace palpation
