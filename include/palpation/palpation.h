@@ -9,6 +9,7 @@
 #include "palpation/belief/hyperparameters.h"
 #include "palpation/belief/kernel.h"
 #include "palpation/belief/level.h"
+#include "palpation/belief/memory.h"
 #include "palpation/belief/palpation.h"
 #include "palpation/belief/prior.h"
 #include "palpation/boundary/level_set.h"

@@ -7,6 +7,8 @@
 #include <new>
 #include <vector>
 
+#include "palpation/belief/memory.h"
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -84,6 +86,13 @@ void give_back_aligned(void* memory, std::size_t bytes) {
     std::free(kept().blocks.front().memory);
     kept().forget(kept().blocks.begin());
   }
+}
+
+void release_memory() {
+  const std::lock_guard lock(kept().mutex);
+  for (const Block& block : kept().blocks) std::free(block.memory);
+  kept().blocks.clear();
+  kept().bytes = 0;
 }
 
 }  // namespace palpation

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "palpation/belief/memory.h"
+
 namespace palpation::tool {
 namespace {
 
@@ -19,6 +21,7 @@ std::optional<double> megabytes_of(const std::string& name) {
 
 /// What was freed goes back to the system, and the peak falls to what is held now.
 bool reset_peak() {
+  release_memory();
   malloc_trim(0);
   std::ofstream reset("/proc/self/clear_refs");
   reset << "5";

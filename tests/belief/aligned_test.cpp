@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "palpation/belief/memory.h"
+
 namespace palpation {
 namespace {
 
@@ -26,6 +28,16 @@ TEST(Aligned, LargeArraysAreHandedOutAgainToThoseOfAboutTheirSize) {
   EXPECT_NE(smaller.get(), memory);
   EXPECT_EQ(next.get(), memory);
   EXPECT_NE(aligned_doubles(kLarge).get(), memory) << "one array is in use";
+}
+
+TEST(Aligned, TheLastThatWasFreedIsTheFirstHandedOutAndReleasingTwiceIsNoHarm) {
+  AlignedDoubles first = aligned_doubles(kLarge), second = aligned_doubles(kLarge);
+  const double* const memory = second.get();
+  first.reset();
+  second.reset();
+  EXPECT_EQ(aligned_doubles(kLarge).get(), memory);
+  release_memory();
+  release_memory();
 }
 
 TEST(Aligned, NoMoreIsKeptThanHalfAGigabyte) {
