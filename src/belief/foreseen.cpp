@@ -12,7 +12,9 @@ namespace palpation {
 Belief Belief::foresee(std::span<const SurfacePoint> places) const {
   Belief next = *this;
   next.foreseen_.reset();
-  if (places.empty() || reduced_) return next;
+  // The signal of standardized readings changes with every one: rows for it would be those of another noise.
+  const bool keeps_noise = !options_.standardize || options_.noise_is_relative;
+  if (places.empty() || reduced_ || !keeps_noise) return next;
   // One value is like another here; the origin is that of the readings, if there are any.
   std::vector<Palpation> supposed(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) supposed[i] = {.where = places[i], .reading = centre_};

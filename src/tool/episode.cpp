@@ -137,7 +137,7 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
   const Plan plan = plan_of(scene);
   if (std::max(plan.initial_count, plan.batch.size) > static_cast<int>(coarse.vertices.size()))
     scene.refuse_value("plan.explore_mm",
-                       "finer: it leaves " + std::to_string(coarse.vertices.size()) + " vertices, fewer than a batch touches");
+                       "finer: it leaves " + std::to_string(coarse.vertices.size()) + " vertices, fewer than are touched at once");
   Exploration planner(Surface(coarse.mesh), field_of(scene), level_rule_of(scene), plan, scene.seed(),
                       coarse_reach(scene, surface, coarse, world.reach));
   Plan nothing = plan;

@@ -78,5 +78,7 @@ Snapshot snapshot(const Episode& episode);
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
 /// Those that are not set aside, the trend taken off.
 std::vector<double> readings_that_count(const Exploration& exploration);
+/// Their standard deviation, or that of a noise that is given, if it is greater; 0 where all are alike.
+double scatter(const Exploration& exploration);
 
 }  // namespace palpation::tool

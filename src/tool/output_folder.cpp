@@ -165,6 +165,7 @@ OutputFolder::OutputFolder(std::filesystem::path folder, const Scene& scene, con
 void OutputFolder::begin() {
   if (begun_) return;
   remove_file(folder_ / "summary.json");
+  remove_what_an_earlier_run_left();
   begun_ = true;
 }
 
@@ -177,6 +178,17 @@ void OutputFolder::write_step(const Episode& episode, const World* world) {
   write_surface_vtp(folder_ / name, surface_, fields_of(episode, world));
   steps_.push_back(name);
 }
+
+namespace {
+
+/// What is in force of field.reduced_rank: null where the belief is exact.
+json reduced_rank_json(const Belief& belief) {
+  const std::optional<ReducedRank> reduced = belief.reduced_rank();
+  if (!reduced) return nullptr;
+  return {{"rank", reduced->rank}, {"mean_off_at_most", reduced->mean_error}, {"variance_off_at_most", reduced->variance_error}};
+}
+
+}  // namespace
 
 json OutputFolder::summary(const Episode& episode) const {
   const Exploration& exploration = episode.exploration;
@@ -204,6 +216,8 @@ json OutputFolder::summary(const Episode& episode) const {
                   {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
                    {"signal_sd", exploration.belief().signal_sd()},
                    {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
+                 {"precision", exploration.belief().options().single_precision ? "single" : "double"},
+                 {"reduced_rank", reduced_rank_json(exploration.belief())},
                  {"warnings", warnings},
                  {"stop_reason", episode.stop_reason().empty() ? json(nullptr) : json(episode.stop_reason())},
                  {"chart_hash", surface_.chart().hash()}};
@@ -243,27 +257,23 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
   write_boundary_vtp(folder_ / "boundary.vtp", surface_, curves);
 }
 
-/// A folder that holds two runs contradicts itself: a robot must not follow the waypoints of another plan.
-void OutputFolder::remove_what_an_earlier_run_left(const std::set<std::string>& written) const {
-  for (const char* name : {"waypoints.csv", "path.csv", "trace.csv", "steps.pvd", "picture.png", "convergence.png"}) {
-    if (!written.contains(name)) remove_file(folder_ / name);
+/// A folder that holds two runs contradicts itself: a robot must not follow the waypoints of another plan. What was measured stays until it
+/// is replaced: it may be all there is.
+void OutputFolder::remove_what_an_earlier_run_left() const {
+  for (const char* name : {"waypoints.csv", "path.csv", "trace.csv", "timings.json", "boundary.wkt", "boundary.vtp", "surface.vtp",
+                           "steps.pvd", "picture.png", "convergence.png"}) {
+    remove_file(folder_ / name);
   }
   if (!std::filesystem::is_directory(folder_ / "steps")) return;
   std::vector<std::filesystem::path> stale;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "steps")) {
-    const std::string name = "steps/" + entry.path().filename().string();
-    if (name.starts_with("steps/step_") && std::find(steps_.begin(), steps_.end(), name) == steps_.end()) stale.push_back(entry.path());
+    if (entry.path().filename().string().starts_with("step_")) stale.push_back(entry.path());
   }
   for (const auto& path : stale) remove_file(path);
 }
 
 void OutputFolder::write(const Episode& episode, const World* world, const json& timings) {
   begin();
-  std::set<std::string> written;
-  if (has_waypoints_) written.insert({"waypoints.csv", "path.csv"});
-  if (!episode.trace.empty()) written.insert("trace.csv");
-  if (!steps_.empty()) written.insert("steps.pvd");
-  remove_what_an_earlier_run_left(written);
   write_surface_vtp(folder_ / "surface.vtp", surface_, fields_of(episode, world));
   write_boundary(episode, world);
   write_atomically(folder_ / "measurements.csv", measurements_csv(surface_, episode.exploration.palpations()));
@@ -277,7 +287,6 @@ void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops, const std
   begin();
   write_atomically(folder_ / "waypoints.csv", waypoint_csv(stops));
   write_atomically(folder_ / "path.csv", waypoint_csv(way, &legs));
-  has_waypoints_ = true;
 }
 
 void OutputFolder::write_comparison(const RegionError& error) {

@@ -40,7 +40,7 @@ class OutputFolder {
 
  private:
   void begin();
-  void remove_what_an_earlier_run_left(const std::set<std::string>& written) const;
+  void remove_what_an_earlier_run_left() const;
   nlohmann::json summary(const Episode& episode) const;
   void write_boundary(const Episode& episode, const World* world);
 
@@ -49,7 +49,6 @@ class OutputFolder {
   Surface surface_;
   std::vector<std::string> warnings_;
   std::vector<std::string> steps_;
-  bool has_waypoints_ = false;
   bool begun_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpation/base/error.h"
 #include "palpation/belief/contact.h"
 #include "palpation/belief/readings.h"
 #include "palpation/belief/screening.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr double kMuchUntouched = 0.05;  // of the tissue
 constexpr double kMuchPlane = 0.5;       // of the readings' variance; a tumour over one half of the tissue gives three quarters
 constexpr double kMuchStiff = 0.5;       // of the tissue
+constexpr int kManySites = 1000;         // would be cheaper by reduced rank, if anything would
 /// Expected wrong area beyond this part of the area found is told: the boundary is then hardly better than a guess.
 constexpr double kLargeShare = 0.25;
 constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
@@ -38,6 +40,15 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
                       fixed(fading->towards.z(), 2) + "): healthy tissue reads " + percent(fading->base_fall) +
                       " of the contrast less at that end, where stiff tissue may be missed.");
   return remarks;
+}
+
+/// A tolerance that this noise does not allow, or features that are no fewer than readings.
+std::string reduced_rank_words(const Belief& belief) {
+  const double tolerance = belief.options().reduced_rank_tolerance;
+  if (tolerance == 0.0 || belief.reduced_rank() || belief.site_count() < kManySites) return "";
+  return "field.reduced_rank is not in force: it takes fewer features than readings, and noise whose variance is 100,000 times the "
+         "tolerance, of the signal's: a tolerance of " +
+         text_of(std::pow(10.0, std::floor(std::log10(1e-5 * belief.noise_variance() / std::pow(belief.signal_sd(), 2))))) + " or less.";
 }
 
 /// A level that is given, and that no reading comes near, decides before anything is felt.
@@ -96,6 +107,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   std::vector<std::string> remarks = screening_remarks(exploration);
   if (exploration.belief().site_count() == 0) return remarks;
   if (exploration.lone_reading()) remarks.push_back(lone_reading_words(exploration.surface(), *exploration.lone_reading()));
+  if (const std::string words = reduced_rank_words(exploration.belief()); !words.empty()) remarks.push_back(words);
   if (exploration.lag() && exploration.lag()->at_bound) {
     remarks.push_back("The lag found, " + fixed(exploration.lag()->value_m * 1e3, 2) +
                       " mm, is as far as any was looked for: the true one may lie beyond. Give field.lag_mm, or touch in more directions.");

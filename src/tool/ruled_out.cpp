@@ -1,4 +1,5 @@
 // What was not found, and how large it would have had to be to be found.
+#include <algorithm>
 #include <cmath>
 
 #include "palpation/belief/readings.h"
@@ -39,6 +40,12 @@ std::vector<double> readings_that_count(const Exploration& exploration) {
   return used_readings(exploration.belief().detrended_palpations());
 }
 
+double scatter(const Exploration& exploration) {
+  const double seen = spread_of(readings_that_count(exploration)).sd;
+  const bool is_given = !exploration.field().learn_noise;
+  return seen > 0.0 && is_given ? std::max(seen, std::sqrt(exploration.belief().noise_variance())) : seen;
+}
+
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Surface& surface = exploration.surface();
@@ -47,7 +54,7 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const std::vector<Vec3> places = layout.touched(exploration.belief().palpations());
   Sought sought{.probability = episode.band_probability};
   if (!exploration.level()) {
-    const double noise_sd = spread_of(readings_that_count(exploration)).sd;
+    const double noise_sd = scatter(exploration);
     if (noise_sd == 0.0) return std::nullopt;  // a stuck sensor rules nothing out
     if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / noise_sd;
     return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));

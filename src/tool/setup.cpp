@@ -75,9 +75,15 @@ FieldModel field_of(const Scene& scene) {
     field.constant.sd = scene.number("field.constant_sd");
   field.belief.standardize = scene.truth("field.standardize");
   field.belief.single_precision = scene.word("field.precision") == "single";
-  const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) * (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
-  if (field.belief.single_precision && !field.learns() && !field.belief.standardize && field.belief.noise_sd < least_noise_sd)
-    scene.refuse("field.precision", "is single, which needs a field.noise of 3.2 % of field.signal_sd at least: take double");
+  if (field.belief.single_precision && !field.learns()) {
+    if (field.belief.standardize && !field.belief.noise_is_relative)
+      scene.refuse("field.precision",
+                   "is single, but how large a fixed field.noise is beside standardized readings shows only when they are felt: set "
+                   "field.standardize to false, or give field.noise_to_signal in place of field.noise");
+    const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) * (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
+    if (field.belief.noise_sd < least_noise_sd)
+      scene.refuse("field.precision", "is single, which needs noise of 3.2 % of the signal at least: take double");
+  }
   field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
   field.rebuild_gain = scene.number("field.rebuild_gain");
   field.screening = scene.truth("field.screening");

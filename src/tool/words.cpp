@@ -37,7 +37,7 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
 /// What is ruled out where nothing was found.
 std::string nothing_words(const Episode& episode) {
   if (episode.exploration.trend_is_missing()) return "";
-  const double noise_sd = spread_of(readings_that_count(episode.exploration)).sd;
+  const double noise_sd = scatter(episode.exploration);
   if (!episode.exploration.level() && noise_sd == 0.0) return "";
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
   const std::string contrast = episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"

@@ -191,6 +191,14 @@ TEST_F(Foresight, OfNothingOrOfAPlaceTwiceIsNone) {
   }
 }
 
+// The signal of standardized readings is known when they are felt: nothing that is supposed before may be refused for it.
+TEST_F(Foresight, OfStandardizedReadingsOfGivenNoiseIsNone) {
+  const BeliefOptions options{.noise_sd = 0.5, .standardize = true, .single_precision = true};
+  for (const Belief& belief : {Belief(prior(), options), in_batches(Belief(prior(), options), std::span(readings).first(30), 10)}) {
+    expect_alike(belief.foresee(planned).condition_on(felt()).at_vertices(), belief.condition_on(felt()).at_vertices(), 0.0);
+  }
+}
+
 TEST(LookAhead, EqualsConditioningWhateverTilesAreAskedInBetween) {
   const Surface tissue = plane(27, 33, 0.3);
   const std::vector<Palpation> readings = readings_around_zero(tissue, 40);

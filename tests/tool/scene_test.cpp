@@ -50,6 +50,17 @@ TEST(Scene, WarnsOfNothingWhereEverythingHasAnEffect) {
   EXPECT_TRUE(Scene(json::object(), "test", ".").warnings().empty());
 }
 
+TEST(Scene, RefusesSinglePrecisionBeforeATouchWhereItMayNotSuffice) {
+  const auto field = [](const std::string& keys) {
+    return field_of(Scene::parse(R"({"field": {"precision": "single", "length_mm": 3, "signal_sd": 1, )" + keys + "}}", "test", "."));
+  };
+  EXPECT_THROW(field(R"("noise": 0.5)"), IoError) << "beside readings that are not felt yet";
+  EXPECT_THROW(field(R"("noise_to_signal": 0.03)"), IoError);
+  EXPECT_THROW(field(R"("noise": 0.03, "standardize": false)"), IoError);
+  EXPECT_TRUE(field(R"("noise_to_signal": 0.04)").belief.single_precision);
+  EXPECT_TRUE(field(R"("noise": 0.04, "standardize": false)").belief.single_precision);
+}
+
 TEST(Scene, SpeedStandsForItsPartsWhereTheyAreNotGiven) {
   const Scene draft = Scene::parse(R"({"speed": "draft"})", "test", ".");
   EXPECT_GT(draft.number("plan.explore_mm"), 0.0);

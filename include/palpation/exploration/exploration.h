@@ -123,6 +123,7 @@ class Exploration {
   const std::string& stop_reason() const { return stop_reason_; }
 
   const Surface& surface() const { return surface_; }
+  const FieldModel& field() const { return field_; }
   /// What was recorded, as it was made; with the reason where it was set aside.
   const std::vector<Palpation>& palpations() const { return palpations_; }
   /// Knows the same readings, where a lag is modelled at the places where they belong, and those on the way that are next to each other as
