@@ -29,29 +29,28 @@ Eigen::MatrixXd modes_of(const Spectrum& spectrum, std::span<const Site> sites) 
 }
 
 constexpr int kRowsAtOnce = 16;
-/// rows[r] = scale |x - place r|^2, x the tile's eight places.
-PALPATION_TARGETS void squared_distances_in_plane(const double* __restrict x, const double* __restrict places, int count, double scale,
-                                                  double* __restrict rows) {
+/// rows[r] = scale |x - place r|^2, x the tile's eight places, over the first axes.
+template <int Axes>
+inline __attribute__((always_inline)) void squared_distances_over(const double* __restrict x, const double* __restrict places, int count,
+                                                                  double scale, double* __restrict rows) {
   for (int row = 0; row < count; ++row) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double u = x[lane] - places[row * 3];
-      const double v = x[kLanes + lane] - places[row * 3 + 1];
-      rows[row * kLanes + lane] = scale * (u * u + v * v);
+      double sum = 0.0;
+      for (int axis = 0; axis < Axes; ++axis) {
+        const double difference = x[axis * kLanes + lane] - places[row * 3 + axis];
+        sum += difference * difference;
+      }
+      rows[row * kLanes + lane] = scale * sum;
     }
   }
 }
 
-/// The same in space.
-PALPATION_TARGETS void squared_distances(const double* __restrict x, const double* __restrict places, int count, double scale,
-                                         double* __restrict rows) {
-  for (int row = 0; row < count; ++row) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const double u = x[lane] - places[row * 3];
-      const double v = x[kLanes + lane] - places[row * 3 + 1];
-      const double w = x[2 * kLanes + lane] - places[row * 3 + 2];
-      rows[row * kLanes + lane] = scale * (u * u + v * v + w * w);
-    }
-  }
+PALPATION_TARGETS void squared_distances_in_plane(const double* x, const double* places, int count, double scale, double* rows) {
+  squared_distances_over<2>(x, places, count, scale, rows);
+}
+
+PALPATION_TARGETS void squared_distances(const double* x, const double* places, int count, double scale, double* rows) {
+  squared_distances_over<3>(x, places, count, scale, rows);
 }
 
 /// values = s, opposites = -s for values = s^2.

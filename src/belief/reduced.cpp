@@ -14,8 +14,6 @@ namespace {
 constexpr int kTilesAtOnce = 64;
 constexpr int kFewSites = 64;        // are never worth reducing
 constexpr int kMostFeatures = 3000;  // nor are more features than these
-/// The bound on what is lost grows with the tolerance over the noise: readings sharper than this are left to the exact belief.
-constexpr double kLeastNoise = 1e5;  // times the tolerance
 
 }  // namespace
 
@@ -67,7 +65,7 @@ bool Belief::reduce_all() {
   reduced_.reset();
   if (row_count() == 0) state_origin(sites);
   const Regressors readings = regressors(sites);
-  if (sites.size() < kFewSites || readings.noise.minCoeff() < kLeastNoise * options_.reduced_rank_tolerance) return false;
+  if (sites.size() < kFewSites || readings.noise.minCoeff() < kLeastNoiseForReducedRank * options_.reduced_rank_tolerance) return false;
   reduction_tried_at_ = static_cast<int>(sites.size());
   features = Features::of(prior_, sites, options_.reduced_rank_tolerance, most, features);
   if (!features) return false;
@@ -92,7 +90,7 @@ bool Belief::append_to_reduced(const std::vector<Site>& sites) {
   const Features& features = *reduced_->features;
   const Regressors readings = regressors(sites);
   if (!sites.empty()) {
-    if (readings.noise.minCoeff() < kLeastNoise * options_.reduced_rank_tolerance) return false;
+    if (readings.noise.minCoeff() < kLeastNoiseForReducedRank * options_.reduced_rank_tolerance) return false;
     const Eigen::MatrixXd seen = features.at(prior_, sites);
     if (1.0 - seen.colwise().squaredNorm().minCoeff() > options_.reduced_rank_tolerance) return false;
     auto next = std::make_shared<Reduced>(*reduced_);

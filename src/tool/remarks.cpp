@@ -42,13 +42,15 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
   return remarks;
 }
 
-/// A tolerance that this noise does not allow, or features that are no fewer than readings.
+/// Noise that is too low for the tolerance, or features that are no fewer than readings.
 std::string reduced_rank_words(const Belief& belief) {
   const double tolerance = belief.options().reduced_rank_tolerance;
   if (tolerance == 0.0 || belief.reduced_rank() || belief.site_count() < kManySites) return "";
-  return "field.reduced_rank is not in force: it takes fewer features than readings, and noise whose variance is 100,000 times the "
-         "tolerance, of the signal's: a tolerance of " +
-         text_of(std::pow(10.0, std::floor(std::log10(1e-5 * belief.noise_variance() / std::pow(belief.signal_sd(), 2))))) + " or less.";
+  const double noise = belief.noise_variance() / (belief.signal_sd() * belief.signal_sd());
+  const std::string words = "field.reduced_rank is not in force: ";
+  if (noise >= kLeastNoiseForReducedRank * tolerance) return words + "it would take no fewer features than there are readings.";
+  return words + "the noise's variance is " + text_of(noise) + " of the signal's, and must be " + text_of(kLeastNoiseForReducedRank) +
+         " times the tolerance at least.";
 }
 
 /// A level that is given, and that no reading comes near, decides before anything is felt.
@@ -58,7 +60,7 @@ std::string level_outside_words(const Exploration& exploration) {
   if (all_equal(readings)) return "";
   const auto [least, greatest] = std::ranges::minmax(readings);
   const double level = exploration.level()->value;
-  if ((level > least && level < greatest)) return "";
+  if (level > least && level < greatest) return "";
   return "The level " + reading_text(level) + " lies " + (level > least ? "above" : "below") + " every reading, " + reading_text(least) +
          " to " + reading_text(greatest) + ": " + (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
 }

@@ -70,6 +70,10 @@ struct ReducedRank {
   double variance_error = 0.0;  ///< ... nor this, reading units squared. Rounding comes on top
 };
 
+/// Noise variance over the signal's, of any reading, below which reduced rank is left aside for the exact belief: so many times
+/// BeliefOptions::reduced_rank_tolerance, since the bound on what is lost grows with the tolerance over the noise.
+inline constexpr double kLeastNoiseForReducedRank = 1e5;
+
 /// Noise variance over the signal's, of a reading, below which single precision would cost more than it saves.
 inline constexpr double kLeastNoiseForSingle = 1e-3;
 
