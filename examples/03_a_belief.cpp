@@ -1,5 +1,5 @@
-// What readings say about the stiffness elsewhere, and what one more touch would add: a belief is a value, and a copy of it a thought
-// experiment. Usage: 03_a_belief
+// What readings say about the stiffness elsewhere, and what one more touch would add: a belief is a
+// value, and a copy of it a thought experiment. Usage: 03_a_belief
 #include <cmath>
 #include <cstdio>
 
@@ -10,7 +10,8 @@ using namespace palpation;
 int main() {
   Random random(1);
   const Surface tissue(make_plane({.columns = 26, .rows = 51}, random));
-  const Prior prior(tissue, Metric::Chart, {.family = KernelFamily::Matern52, .length_m = 0.0035, .signal_sd = 1.0});
+  const Prior prior(tissue, Metric::Chart,
+                    {.family = KernelFamily::Matern52, .length_m = 0.0035, .signal_sd = 1.0});
 
   Palpation soft, stiff;
   soft.where = tissue.at_vertex(tissue.nearest_vertex(Vec3(0.005, 0.025, 0.0)));

@@ -1,5 +1,5 @@
-// The next stops as poses in a robot's frame: approach, contact, indentation, and the probe's rotation.
-// Usage: 08_plan_for_a_robot
+// The next stops as poses in a robot's frame: approach, contact, indentation, and the probe's
+// rotation. Usage: 08_plan_for_a_robot
 #include <cstdio>
 
 #include "palpation/palpation.h"
@@ -22,8 +22,10 @@ int main() {
   for (const Waypoint& pose : waypoints(tissue, targets, robot)) {
     const Vec3 approach = pose.approach * 1e3, indented = pose.indented * 1e3;
     const Eigen::Vector4d q = quaternion(pose.rotation);
-    std::printf("from (%.0f, %.0f, %.0f) to (%.0f, %.0f, %.0f) mm, quaternion (%.2f, %.2f, %.2f, %.2f), expect at most %.2f N\n",
-                approach.x(), approach.y(), approach.z(), indented.x(), indented.y(), indented.z(), q[0], q[1], q[2], q[3],
-                pose.expected_force_n);
+    std::printf(
+        "from (%.0f, %.0f, %.0f) to (%.0f, %.0f, %.0f) mm, quaternion (%.2f, %.2f, %.2f, %.2f), "
+        "expect at most %.2f N\n",
+        approach.x(), approach.y(), approach.z(), indented.x(), indented.y(), indented.z(), q[0],
+        q[1], q[2], q[3], pose.expected_force_n);
   }
 }

@@ -33,16 +33,20 @@ int factorize_block(double* block, long stride, int size) {
 long factorize(double* lower, long stride, long size) {
   std::vector<double> tile(static_cast<std::size_t>((size + kLanes) * kLanes));
   for (long first = 0; first < size; first += kLanes) {
-    const int count = static_cast<int>(std::min<long>(kLanes, size - first)), depth = static_cast<int>(first);
+    const int count = static_cast<int>(std::min<long>(kLanes, size - first)),
+              depth = static_cast<int>(first);
     double* rows = lower + first * stride;
     for (int lane = 0; lane < count; ++lane) {
-      for (long i = 0; i < first; ++i) tile[static_cast<std::size_t>(i * kLanes + lane)] = rows[lane * stride + i];
+      for (long i = 0; i < first; ++i)
+        tile[static_cast<std::size_t>(i * kLanes + lane)] = rows[lane * stride + i];
       for (int i = 0; i < count; ++i)
-        tile[static_cast<std::size_t>((first + i) * kLanes + lane)] = rows[std::max(i, lane) * stride + first + std::min(i, lane)];
+        tile[static_cast<std::size_t>((first + i) * kLanes + lane)] =
+            rows[std::max(i, lane) * stride + first + std::min(i, lane)];
     }
     solve_triangle(lower, static_cast<int>(stride), tile.data(), depth);
     for (int lane = 0; lane < count; ++lane) {
-      for (long i = 0; i < first; ++i) rows[lane * stride + i] = tile[static_cast<std::size_t>(i * kLanes + lane)];
+      for (long i = 0; i < first; ++i)
+        rows[lane * stride + i] = tile[static_cast<std::size_t>(i * kLanes + lane)];
     }
     double* own = tile.data() + first * kLanes;
     subtract_product(rows, static_cast<int>(stride), tile.data(), depth, own, count);

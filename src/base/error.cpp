@@ -5,7 +5,8 @@
 
 namespace palpation {
 
-void require(bool condition, const std::string& function, const std::string& value, const std::string& rule) {
+void require(bool condition, const std::string& function, const std::string& value,
+             const std::string& rule) {
   if (!condition) throw InvalidInput(function + ": " + value + " " + rule);
 }
 

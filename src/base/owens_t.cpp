@@ -11,8 +11,10 @@ double upper_tail(double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); }
 
 /// Gauss and Legendre's rule of ten points on [0, a], a <= 1.
 double owens_integral(double h, double a) {
-  constexpr std::array kNodes = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845, 0.9739065285171717};
-  constexpr std::array kWeights = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820, 0.1494513491505806, 0.0666713443086881};
+  constexpr std::array kNodes = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
+                                 0.8650633666889845, 0.9739065285171717};
+  constexpr std::array kWeights = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820,
+                                   0.1494513491505806, 0.0666713443086881};
   double sum = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i) {
     for (const double side : {-1.0, 1.0}) {

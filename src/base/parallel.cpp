@@ -13,7 +13,8 @@
 namespace palpation {
 namespace {
 
-std::atomic<int> allowed_threads{static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))};
+std::atomic<int> allowed_threads{
+    static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))};
 thread_local bool inside_range = false;
 
 }  // namespace

@@ -10,8 +10,10 @@ namespace palpation {
 
 void PositiveDefiniteInverse::resize(long size) {
   stride_ = (size + kLanes - 1) / kLanes * kLanes;
-  for (std::vector<double>* square : {&factor_, &transposed_}) square->resize(static_cast<std::size_t>(stride_ * stride_));
-  for (std::vector<double>* columns : {&tile_, &products_}) columns->resize(static_cast<std::size_t>(stride_ * kLanes));
+  for (std::vector<double>* square : {&factor_, &transposed_})
+    square->resize(static_cast<std::size_t>(stride_ * stride_));
+  for (std::vector<double>* columns : {&tile_, &products_})
+    columns->resize(static_cast<std::size_t>(stride_ * kLanes));
 }
 
 bool PositiveDefiniteInverse::factorize(const Eigen::MatrixXd& matrix) {
@@ -36,13 +38,16 @@ std::optional<double> PositiveDefiniteInverse::operator()(Eigen::MatrixXd& matri
   resize(size);
   if (!factorize(matrix)) return std::nullopt;
   double log_determinant = 0.0;
-  for (long i = 0; i < size; ++i) log_determinant += 2.0 * std::log(factor_[static_cast<std::size_t>(i * (stride_ + 1))]);
+  for (long i = 0; i < size; ++i)
+    log_determinant += 2.0 * std::log(factor_[static_cast<std::size_t>(i * (stride_ + 1))]);
 
-  // Of X = L^-1 eight columns at a time; X'X has the columns' products with those before and themselves.
+  // Of X = L^-1 eight columns at a time; X'X has the columns' products with those before and
+  // themselves.
   const int stride = static_cast<int>(stride_);
   for (long first = 0; first < stride_; first += kLanes) {
     std::fill(tile_.begin(), tile_.end(), 0.0);
-    for (int lane = 0; lane < kLanes; ++lane) tile_[static_cast<std::size_t>(lane * kLanes + lane)] = 1.0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      tile_[static_cast<std::size_t>(lane * kLanes + lane)] = 1.0;
     const int rest = static_cast<int>(stride_ - first);
     solve_triangle(factor_.data() + first * (stride_ + 1), stride, tile_.data(), rest);
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -50,7 +55,8 @@ std::optional<double> PositiveDefiniteInverse::operator()(Eigen::MatrixXd& matri
       for (long i = 0; i < rest; ++i) row[i] = tile_[static_cast<std::size_t>(i * kLanes + lane)];
     }
     std::fill(products_.begin(), products_.end(), 0.0);
-    subtract_product(transposed_.data() + first, stride, tile_.data(), rest, products_.data(), static_cast<int>(first) + kLanes);
+    subtract_product(transposed_.data() + first, stride, tile_.data(), rest, products_.data(),
+                     static_cast<int>(first) + kLanes);
     for (long i = 0; i < std::min(first + kLanes, size); ++i) {
       for (long lane = std::max(0L, i - first); lane < std::min<long>(kLanes, size - first); ++lane)
         matrix(first + lane, i) = -products_[static_cast<std::size_t>(i * kLanes + lane)];

@@ -45,13 +45,17 @@ Kept& kept() {
 
 bool may_be_kept(std::size_t bytes) { return bytes >= kWorthKeeping && bytes <= kMostKept; }
 
-/// What may be kept has room to grow to the next power of two, so that an array finds the room of a smaller one before it. What is never
-/// touched costs nothing.
-std::size_t size_of(std::size_t bytes) { return may_be_kept(bytes) ? std::bit_ceil(bytes) : std::max(bytes, kLine); }
+/// What may be kept has room to grow to the next power of two, so that an array finds the room of a
+/// smaller one before it. What is never touched costs nothing.
+std::size_t size_of(std::size_t bytes) {
+  return may_be_kept(bytes) ? std::bit_ceil(bytes) : std::max(bytes, kLine);
+}
 
 void want_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
-  if (bytes >= kLargePage) madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);  // no more of them than are filled
+  if (bytes >= kLargePage)
+    madvise(memory, bytes / kLargePage * kLargePage,
+            MADV_HUGEPAGE);  // no more of them than are filled
 #endif
 }
 
@@ -62,7 +66,8 @@ void* take_aligned(std::size_t bytes) {
   if (may_be_kept(bytes)) {
     const std::lock_guard lock(kept().mutex);
     std::vector<Block>& blocks = kept().blocks;
-    const auto last = std::find_if(blocks.rbegin(), blocks.rend(), [&](const Block& block) { return block.size == size; });
+    const auto last = std::find_if(blocks.rbegin(), blocks.rend(),
+                                   [&](const Block& block) { return block.size == size; });
     if (last != blocks.rend()) {
       void* memory = last->memory;
       kept().forget(std::prev(last.base()));
@@ -71,7 +76,8 @@ void* take_aligned(std::size_t bytes) {
     }
   }
   void* memory = nullptr;
-  if (posix_memalign(&memory, size >= kLargePage ? kLargePage : kLine, size) != 0) throw std::bad_alloc();
+  if (posix_memalign(&memory, size >= kLargePage ? kLargePage : kLine, size) != 0)
+    throw std::bad_alloc();
   want_large_pages(memory, bytes);
   return memory;
 }

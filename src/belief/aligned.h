@@ -1,8 +1,9 @@
 /// Many numbers on a border of cache lines, without a value at first.
 ///
-/// Large arrays ask the system for large pages, which are touched sooner and found faster. A belief that is built anew is as large as the
-/// one before it: what was freed last is kept, up to 512 MiB in all, and handed out again, since the system clears pages at the rate at
-/// which rows are computed.
+/// Large arrays ask the system for large pages, which are touched sooner and found faster. A belief
+/// that is built anew is as large as the one before it: what was freed last is kept, up to 512 MiB
+/// in all, and handed out again, since the system clears pages at the rate at which rows are
+/// computed.
 #pragma once
 
 #include <cstddef>

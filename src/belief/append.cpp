@@ -1,5 +1,5 @@
-// How a belief grows: rows of L for new sites, what they say of the readings, and rows of V with their share of the sums at the vertices,
-// in one pass over these.
+// How a belief grows: rows of L for new sites, what they say of the readings, and rows of V with
+// their share of the sums at the vertices, in one pass over these.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -46,11 +46,14 @@ std::vector<Chunk> chunks_of(std::span<const TileRows> known) {
   return chunks;
 }
 
-/// Rows of V on a group of tiles, from the correlations that stand in them: row-wise forward substitution, a panel of rows at a time.
+/// Rows of V on a group of tiles, from the correlations that stand in them: row-wise forward
+/// substitution, a panel of rows at a time.
 class Substitution {
  public:
   Substitution(const Factor& factor, std::span<const TileRows> known)
-      : rows_(static_cast<int>(factor.rows())), factor_(factor.data(), factor.cols(), rows_, factor.cols()), known_(chunks_of(known)) {}
+      : rows_(static_cast<int>(factor.rows())),
+        factor_(factor.data(), factor.cols(), rows_, factor.cols()),
+        known_(chunks_of(known)) {}
 
   /// `fresh`: of the first tile of the group; the next follow, all rows of each together.
   void operator()(int first_tile, int tile_count, double* fresh) const {
@@ -58,8 +61,9 @@ class Substitution {
     for (int row = 0; row < rows_; row += factor_.height()) {
       double* target = fresh + static_cast<long>(row) * kLanes;
       for (const Chunk& chunk : known_) {
-        subtract_packed(factor_.panel(row, chunk.column, false), chunk.strips.data(), static_cast<int>(chunk.strips.size()), first_tile,
-                        tile_count, target, per_tile);
+        subtract_packed(factor_.panel(row, chunk.column, false), chunk.strips.data(),
+                        static_cast<int>(chunk.strips.size()), first_tile, tile_count, target,
+                        per_tile);
       }
     }
     solve_triangle(factor_, fresh, tile_count, per_tile);
@@ -71,13 +75,17 @@ class Substitution {
   std::vector<Chunk> known_;
 };
 
-/// Row `row` of the factor of `first` columns more than rows, whose own triangle still has the covariance; returns the pivot.
+/// Row `row` of the factor of `first` columns more than rows, whose own triangle still has the
+/// covariance; returns the pivot.
 double append_row(Factor& factor, int row, int first) {
   for (int column = 0; column < row; ++column) {
-    const double rest = factor(row, first + column) - factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
+    const double rest =
+        factor(row, first + column) -
+        factor.row(row).head(first + column).dot(factor.row(column).head(first + column));
     factor(row, first + column) = rest / factor(column, first + column);
   }
-  const double pivot = factor(row, first + row) - factor.row(row).head(first + row).dot(factor.row(row).head(first + row));
+  const double pivot = factor(row, first + row) -
+                       factor.row(row).head(first + row).dot(factor.row(row).head(first + row));
   factor(row, first + row) = std::sqrt(pivot);
   return pivot;
 }
@@ -96,7 +104,8 @@ Eigen::MatrixXd Belief::solution_rows(int first, int count) const {
   return solutions;
 }
 
-/// Forgets the rows from the first one that does not lie in a block before `count`, and restates the sums over the rest.
+/// Forgets the rows from the first one that does not lie in a block before `count`, and restates
+/// the sums over the rest.
 void Belief::keep_rows(int count) {
   while (!rows_.empty() && row_count() > count) rows_.pop_back();
   if (prior_.has_slope()) tilts_.conservativeResize(row_count(), 3);
@@ -105,7 +114,8 @@ void Belief::keep_rows(int count) {
   sums_.reset();
   if (rows_.empty()) return;
   const VertexTiles& tiles = prior_.tiles();
-  const TileCorrelations correlations(prior_, std::span(sites_).first(static_cast<std::size_t>(row_count())));
+  const TileCorrelations correlations(
+      prior_, std::span(sites_).first(static_cast<std::size_t>(row_count())));
   auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
   const Eigen::MatrixXd solutions = solution_rows(0, row_count());
   for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int first_tile, int last_tile) {
@@ -117,15 +127,16 @@ void Belief::keep_rows(int count) {
       correlations(tile, 1, k.get());
       add_sums(k.get(), row_count(), nullptr, 0, 0, sum + sums->covered() * kLanes);
       for (const auto& rows : rows_) {
-        add_sums(rows->tile(tile, widened.get()), rows->count, solutions.data() + rows->first, solutions.rows(),
-                 static_cast<int>(solutions.cols()), sum);
+        add_sums(rows->tile(tile, widened.get()), rows->count, solutions.data() + rows->first,
+                 solutions.rows(), static_cast<int>(solutions.cols()), sum);
       }
     }
   });
   sums_ = std::move(sums);
 }
 
-/// The rows of L for the sites from `fresh.first` on: row-append Cholesky, which is as accurate as factoring anew.
+/// The rows of L for the sites from `fresh.first` on: row-append Cholesky, which is as accurate as
+/// factoring anew.
 void Belief::append_to_factor(Rows& fresh) {
   const int first = fresh.first, count = fresh.count;
   Eigen::MatrixXd correlations = palpation::correlations(prior_, prior_.kernel(), sites_, first);
@@ -148,15 +159,19 @@ void Belief::append_to_factor(Rows& fresh) {
       if (!(pivot > 0.0) || !std::isfinite(pivot)) break;
     }
   } else {
-    if (first > 0) factor.rightCols(count).noalias() -= factor.leftCols(first) * factor.leftCols(first).transpose();
+    if (first > 0)
+      factor.rightCols(count).noalias() -=
+          factor.leftCols(first) * factor.leftCols(first).transpose();
     done = static_cast<int>(factorize(factor.data() + first, factor.cols(), count));
     if (done < count) pivot = factor(done, first + done);
   }
   factor.rightCols(count).triangularView<Eigen::StrictlyUpper>().setZero();
   if (done == count) return;
-  throw NumericalError("Belief: site " + std::to_string(first + done) + " leaves the pivot " + text_of(pivot) +
-                       ", so the covariance is not positive definite in double precision: sites all but coincide, and the noise (" +
-                       text_of(diagonal_[first + done]) + " of the signal's variance) does not part them");
+  throw NumericalError(
+      "Belief: site " + std::to_string(first + done) + " leaves the pivot " + text_of(pivot) +
+      ", so the covariance is not positive definite in double precision: sites all but coincide, "
+      "and the noise (" +
+      text_of(diagonal_[first + done]) + " of the signal's variance) does not part them");
 }
 
 /// L^-1 of 1, the readings and the tilts.
@@ -182,16 +197,19 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
   const long per_tile = fresh.per_tile();
   const bool keeps = keep == Keep::Rows, narrows = keeps && options_.single_precision;
   if (narrows) fresh.singles = aligned<float>(static_cast<std::size_t>(tiles.count() * per_tile));
-  if (keeps && !narrows) fresh.v = aligned_doubles(static_cast<std::size_t>(tiles.count() * per_tile));
+  if (keeps && !narrows)
+    fresh.v = aligned_doubles(static_cast<std::size_t>(tiles.count() * per_tile));
   auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
-  const TileCorrelations correlations(prior_, std::span(sites_).subspan(static_cast<std::size_t>(fresh.first), fresh.count));
+  const TileCorrelations correlations(
+      prior_, std::span(sites_).subspan(static_cast<std::size_t>(fresh.first), fresh.count));
   const Eigen::MatrixXd solutions = solution_rows(fresh.first, fresh.count);
   std::vector<TileRows> known;
   for (const auto& rows : rows_) known.push_back(rows->strip());
   const Substitution substitute(fresh.factor, known);
   for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int begin, int end) {
     AlignedDoubles scratch;
-    if (!keeps || narrows) scratch = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    if (!keeps || narrows)
+      scratch = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
     for (int first_tile = begin; first_tile < end; first_tile += kTilesTogether) {
       const int count = std::min(kTilesTogether, end - first_tile);
       double* values = scratch ? scratch.get() : fresh.tile(first_tile);
@@ -203,14 +221,16 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
         } else {
           std::fill_n(sum, sums->width * kLanes, 0.0);
         }
-        add_sums(values + tile * per_tile, fresh.count, nullptr, 0, 0, sum + sums->covered() * kLanes);
+        add_sums(values + tile * per_tile, fresh.count, nullptr, 0, 0,
+                 sum + sums->covered() * kLanes);
       }
       substitute(first_tile, count, values);
       for (int tile = 0; tile < count; ++tile) {
-        add_sums(values + tile * per_tile, fresh.count, solutions.data(), solutions.rows(), static_cast<int>(solutions.cols()),
-                 sums->tile(first_tile + tile));
+        add_sums(values + tile * per_tile, fresh.count, solutions.data(), solutions.rows(),
+                 static_cast<int>(solutions.cols()), sums->tile(first_tile + tile));
       }
-      if (narrows) std::copy_n(values, count * per_tile, fresh.singles.get() + first_tile * per_tile);
+      if (narrows)
+        std::copy_n(values, count * per_tile, fresh.singles.get() + first_tile * per_tile);
     }
   });
   sums_ = std::move(sums);

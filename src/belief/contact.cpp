@@ -12,7 +12,8 @@ namespace palpation {
 namespace {
 
 constexpr double kHealthyShare = 0.3;  // of the tissue reads less than what is taken for healthy
-constexpr double kLeastFall = 0.15;    // of the contrast: what moves a boundary at half of it by a fifth of a millimetre, and more
+constexpr double kLeastFall = 0.15;    // of the contrast: what moves a boundary at half of it by a
+                                       // fifth of a millimetre, and more
 constexpr double kSure = 4.0;          // standard errors
 constexpr Eigen::Index kLeastReadings = 20;
 constexpr int kRounds = 60;
@@ -26,11 +27,14 @@ Eigen::MatrixX2d in_plane(const Eigen::MatrixX3d& places, Eigen::Matrix<double, 
   return centred * axes;
 }
 
-/// The part of the tissue that each reading stands for: one over the readings as near to it as readings are on average. Chosen touches
-/// crowd at a tumour's edge, and would else outvote healthy tissue.
+/// The part of the tissue that each reading stands for: one over the readings as near to it as
+/// readings are on average. Chosen touches crowd at a tumour's edge, and would else outvote healthy
+/// tissue.
 Eigen::VectorXd shares_of_tissue(const Eigen::MatrixX2d& places, const Eigen::Vector2d& spread) {
   const Eigen::Index count = places.rows();
-  const double radius = std::sqrt(12.0 * spread.prod() / static_cast<double>(count));  // of readings spread evenly over a rectangle
+  const double radius =
+      std::sqrt(12.0 * spread.prod() /
+                static_cast<double>(count));  // of readings spread evenly over a rectangle
   Eigen::VectorXd shares(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto squares = (places.rowwise() - places.row(i)).rowwise().squaredNorm();
@@ -39,10 +43,10 @@ Eigen::VectorXd shares_of_tissue(const Eigen::MatrixX2d& places, const Eigen::Ve
   return shares;
 }
 
-/// Constant and slopes of the plane that a share of the tissue reads less than: least weighted squares until the absolute deviations are
-/// least.
-Eigen::Vector3d quantile_plane(const Eigen::MatrixX3d& design, const Eigen::VectorXd& readings, const Eigen::VectorXd& tissue, double share,
-                               double scale) {
+/// Constant and slopes of the plane that a share of the tissue reads less than: least weighted
+/// squares until the absolute deviations are least.
+Eigen::Vector3d quantile_plane(const Eigen::MatrixX3d& design, const Eigen::VectorXd& readings,
+                               const Eigen::VectorXd& tissue, double share, double scale) {
   Eigen::VectorXd weights = tissue;
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   for (int round = 0; round < kRounds; ++round) {
@@ -50,7 +54,8 @@ Eigen::Vector3d quantile_plane(const Eigen::MatrixX3d& design, const Eigen::Vect
     plane = (design.transpose() * weighted).ldlt().solve(weighted.transpose() * readings);
     const Eigen::VectorXd residuals = readings - design * plane;
     for (Eigen::Index i = 0; i < residuals.size(); ++i) {
-      weights[i] = tissue[i] * (residuals[i] > 0.0 ? share : 1.0 - share) / std::max(std::abs(residuals[i]), 1e-3 * scale);
+      weights[i] = tissue[i] * (residuals[i] > 0.0 ? share : 1.0 - share) /
+                   std::max(std::abs(residuals[i]), 1e-3 * scale);
     }
   }
   return plane;
@@ -58,7 +63,8 @@ Eigen::Vector3d quantile_plane(const Eigen::MatrixX3d& design, const Eigen::Vect
 
 }  // namespace
 
-std::optional<FadingContact> fading_contact(const Surface& surface, std::span<const Palpation> palpations) {
+std::optional<FadingContact> fading_contact(const Surface& surface,
+                                            std::span<const Palpation> palpations) {
   const auto [places, readings] = placed_readings(surface, palpations);
   const Eigen::Index count = readings.size();
   if (count < kLeastReadings) return std::nullopt;
@@ -69,7 +75,8 @@ std::optional<FadingContact> fading_contact(const Surface& surface, std::span<co
   const Eigen::Vector2d spread = plane_places.array().square().colwise().mean().sqrt();
   if (spread.minCoeff() < 1e-3 * spread.maxCoeff()) return std::nullopt;
   Eigen::MatrixX3d design(count, 3);
-  design << Eigen::VectorXd::Ones(count), plane_places.col(0) / spread[0], plane_places.col(1) / spread[1];
+  design << Eigen::VectorXd::Ones(count), plane_places.col(0) / spread[0],
+      plane_places.col(1) / spread[1];
   const Eigen::VectorXd tissue = shares_of_tissue(plane_places, spread);
   const Eigen::Vector3d plane = quantile_plane(design, readings, tissue, kHealthyShare, range);
 

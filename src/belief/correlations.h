@@ -1,5 +1,5 @@
-/// The correlations that a belief asks of its prior, in whichever metric: functions of a difference of coordinates, or products of
-/// features.
+/// The correlations that a belief asks of its prior, in whichever metric: functions of a difference
+/// of coordinates, or products of features.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,10 +28,12 @@ Eigen::VectorXd inverse_norms(const Spectrum& spectrum, const Eigen::VectorXd& w
 Eigen::MatrixXd unit_features(const Prior& prior, std::span<const SurfacePoint> points);
 
 /// Of all sites (rows) with those from `first` on (columns).
-Eigen::MatrixXd correlations(const Prior& prior, const Kernel& kernel, std::span<const Site> sites, int first = 0);
+Eigen::MatrixXd correlations(const Prior& prior, const Kernel& kernel, std::span<const Site> sites,
+                             int first = 0);
 
 /// Of a place with sites.
-Eigen::VectorXd correlations_with(const Prior& prior, const Place& place, std::span<const Site> sites);
+Eigen::VectorXd correlations_with(const Prior& prior, const Place& place,
+                                  std::span<const Site> sites);
 
 /// Of places with the vertices, a tile of eight at a time (vertex_tiles.h).
 class TileCorrelations {
@@ -40,7 +42,8 @@ class TileCorrelations {
   TileCorrelations(const Prior& prior, std::span<const Site> sites);
   TileCorrelations(const Prior& prior, int vertex);
 
-  /// Rows of kLanes, one for each place, of each tile from the first on. What stands in lanes beyond the last vertex means nothing.
+  /// Rows of kLanes, one for each place, of each tile from the first on. What stands in lanes
+  /// beyond the last vertex means nothing.
   void operator()(int first_tile, int tile_count, double* rows) const;
 
  private:

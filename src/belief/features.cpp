@@ -19,15 +19,19 @@ constexpr int kLookAhead = 7;  // tiles: the first round looks at one of them
 /// Candidates are brought this far below the tolerance, since there is something between them.
 constexpr double kMargin = 0.1;
 
-Site site_at(const Prior& prior, const SurfacePoint& where) { return {where, prior.place(where), {}, {}, {}}; }
+Site site_at(const Prior& prior, const SurfacePoint& where) {
+  return {where, prior.place(where), {}, {}, {}};
+}
 
-/// Evenly among the vertices, and as many along the borders, where the field is known from one side alone.
+/// Evenly among the vertices, and as many along the borders, where the field is known from one side
+/// alone.
 std::vector<Site> first_candidates(const Prior& prior) {
   const Surface& surface = prior.surface();
   std::vector<Site> candidates;
   const auto take_evenly = [&](const auto& vertices) {
     const std::size_t size = std::size(vertices), count = std::min(kCandidates, size);
-    for (std::size_t i = 0; i < count; ++i) candidates.push_back(site_at(prior, surface.at_vertex(vertices[i * size / count])));
+    for (std::size_t i = 0; i < count; ++i)
+      candidates.push_back(site_at(prior, surface.at_vertex(vertices[i * size / count])));
   };
   take_evenly(std::views::iota(0, surface.vertex_count()));
   for (const std::vector<int>& loop : surface.border_loops()) take_evenly(loop);
@@ -40,20 +44,26 @@ std::vector<int> worst(const Eigen::VectorXd& residuals, double tolerance) {
   for (int i = 0; i < residuals.size(); ++i) {
     if (residuals[i] > tolerance) order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return residuals[a] > residuals[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return residuals[a] > residuals[b]; });
   order.resize(std::min(order.size(), kMoreCandidates));
   return order;
 }
 
-Eigen::VectorXd residuals_of(const Eigen::MatrixXd& features) { return 1.0 - features.colwise().squaredNorm().transpose().array(); }
+Eigen::VectorXd residuals_of(const Eigen::MatrixXd& features) {
+  return 1.0 - features.colwise().squaredNorm().transpose().array();
+}
 
 }  // namespace
 
-/// Greedily, until no candidate's residual is above the margin. False if that would take more than `most` pivots.
-bool Features::choose_pivots(const Prior& prior, std::span<const Site> candidates, double tolerance, int most) {
+/// Greedily, until no candidate's residual is above the margin. False if that would take more than
+/// `most` pivots.
+bool Features::choose_pivots(const Prior& prior, std::span<const Site> candidates, double tolerance,
+                             int most) {
   const auto count = static_cast<Eigen::Index>(candidates.size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Rows features(std::min<Eigen::Index>(most, count), count);  // every row one feature at all candidates
+  Rows features(std::min<Eigen::Index>(most, count),
+                count);  // every row one feature at all candidates
   Eigen::VectorXd residuals = Eigen::VectorXd::Ones(count);
   std::vector<Eigen::Index> chosen;
   while (true) {
@@ -74,7 +84,8 @@ bool Features::choose_pivots(const Prior& prior, std::span<const Site> candidate
     pivots_.push_back(candidates[pivot]);
   }
   Rows factor = Rows::Zero(rank(), rank());
-  for (int row = 0; row < rank(); ++row) factor.row(row).head(row + 1) = features.col(chosen[row]).head(row + 1).transpose();
+  for (int row = 0; row < rank(); ++row)
+    factor.row(row).head(row + 1) = features.col(chosen[row]).head(row + 1).transpose();
   factor_.emplace(factor.data(), rank(), rank(), rank());
   return true;
 }
@@ -89,7 +100,8 @@ void Features::visit_vertices(const Prior& prior, int step) {
   const long per_tile = static_cast<long>(rank()) * kLanes;
   residuals_ = Field::Zero(vertices);
   for_ranges((tiles + step - 1) / step, kTilesAtOnce, [&](int first, int last) {
-    const AlignedDoubles scratch = aligned_doubles(keeps ? 0 : static_cast<std::size_t>(kTilesTogether * per_tile));
+    const AlignedDoubles scratch =
+        aligned_doubles(keeps ? 0 : static_cast<std::size_t>(kTilesTogether * per_tile));
     for (int begin = first; begin < last; begin += kTilesTogether) {
       const int count = std::min(kTilesTogether, last - begin);
       double* values = keeps ? rows_.get() + begin * per_tile : scratch.get();
@@ -99,21 +111,25 @@ void Features::visit_vertices(const Prior& prior, int step) {
         const int number = (begin + i) * step;
         double squares[kLanes] = {};
         add_sums(values + i * per_tile, rank(), nullptr, 0, 0, squares);
-        for (int lane = 0; lane < tiles_->lanes(number); ++lane) residuals_[tiles_->vertices(number)[lane]] = 1.0 - squares[lane];
+        for (int lane = 0; lane < tiles_->lanes(number); ++lane)
+          residuals_[tiles_->vertices(number)[lane]] = 1.0 - squares[lane];
       }
     }
   });
   residual_ = std::max(residuals_.maxCoeff(), 4.0 * std::numeric_limits<double>::epsilon());
 }
 
-std::shared_ptr<const Features> Features::of(const Prior& prior, std::span<const Site> sites, double tolerance, int most,
+std::shared_ptr<const Features> Features::of(const Prior& prior, std::span<const Site> sites,
+                                             double tolerance, int most,
                                              const std::shared_ptr<const Features>& known) {
   std::vector<Site> candidates = first_candidates(prior);
   const auto uncovered = [&](const Features& features) {
     std::vector<Site> places;
-    for (const int vertex : worst(features.residuals_, tolerance)) places.push_back(site_at(prior, prior.surface().at_vertex(vertex)));
+    for (const int vertex : worst(features.residuals_, tolerance))
+      places.push_back(site_at(prior, prior.surface().at_vertex(vertex)));
     if (features.rows_) {
-      for (const int site : worst(residuals_of(features.at(prior, sites)), tolerance)) places.push_back(sites[site]);
+      for (const int site : worst(residuals_of(features.at(prior, sites)), tolerance))
+        places.push_back(sites[site]);
     }
     return places;
   };
@@ -124,7 +140,8 @@ std::shared_ptr<const Features> Features::of(const Prior& prior, std::span<const
   }
   for (int round = 0; round < kMostRounds; ++round) {
     candidates.insert(candidates.end(), missed.begin(), missed.end());
-    // All anew: pivots must fall, since one that follows much smaller ones is made of their rounding errors.
+    // All anew: pivots must fall, since one that follows much smaller ones is made of their
+    // rounding errors.
     auto features = std::make_shared<Features>();
     if (!features->choose_pivots(prior, candidates, tolerance, most)) return nullptr;
     if (round == 0) {
@@ -141,18 +158,21 @@ std::shared_ptr<const Features> Features::of(const Prior& prior, std::span<const
 
 Eigen::VectorXd Features::at_vertex(int vertex) const {
   const int place = tiles_->place(vertex);
-  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<kLanes>>(tile(place / kLanes) + place % kLanes, rank());
+  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<kLanes>>(
+      tile(place / kLanes) + place % kLanes, rank());
 }
 
 void Features::solve(Eigen::MatrixXd& columns) const {
   const long per_tile = static_cast<long>(rank()) * kLanes;
   const int tiles = static_cast<int>((columns.cols() + kLanes - 1) / kLanes);
   for_ranges(tiles, kTilesTogether, [&](int begin, int end) {
-    const AlignedDoubles values = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    const AlignedDoubles values =
+        aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
     for (int first = begin; first < end; first += kTilesTogether) {
       const int count = std::min(kTilesTogether, end - first);
       std::fill_n(values.get(), count * per_tile, 0.0);
-      auto some = columns.middleCols(first * kLanes, std::min<Eigen::Index>(count * kLanes, columns.cols() - first * kLanes));
+      auto some = columns.middleCols(
+          first * kLanes, std::min<Eigen::Index>(count * kLanes, columns.cols() - first * kLanes));
       const auto at = [&](Eigen::Index row, Eigen::Index column) -> double& {
         return values[column / kLanes * per_tile + row * kLanes + column % kLanes];
       };
@@ -187,9 +207,11 @@ Eigen::MatrixXd Features::at(const Prior& prior, std::span<const Site> sites) co
   }
   Eigen::MatrixXd solved(rank(), static_cast<Eigen::Index>(inside_faces.size()));
   for (std::size_t i = 0; i < inside_faces.size(); ++i)
-    solved.col(static_cast<Eigen::Index>(i)) = correlations_with(prior, sites[inside_faces[i]].place, pivots_);
+    solved.col(static_cast<Eigen::Index>(i)) =
+        correlations_with(prior, sites[inside_faces[i]].place, pivots_);
   solve(solved);
-  for (std::size_t i = 0; i < inside_faces.size(); ++i) result.col(inside_faces[i]) = solved.col(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < inside_faces.size(); ++i)
+    result.col(inside_faces[i]) = solved.col(static_cast<Eigen::Index>(i));
   return result;
 }
 

@@ -21,9 +21,11 @@ double squared_ratio(const Kernel& kernel, const Vec3& difference) {
   return sum;
 }
 
-/// squared_ratio(difference + step) - squared_ratio(difference), by products that keep the digits of a small step.
+/// squared_ratio(difference + step) - squared_ratio(difference), by products that keep the digits
+/// of a small step.
 double ratio_change(const Kernel& kernel, const Vec3& difference, const Vec3& step) {
-  if (kernel.family != KernelFamily::Periodic) return (step / kernel.length_m).dot((2.0 * difference + step) / kernel.length_m);
+  if (kernel.family != KernelFamily::Periodic)
+    return (step / kernel.length_m).dot((2.0 * difference + step) / kernel.length_m);
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double chord = kernel.period_m / kPi / kernel.length_m;
@@ -46,7 +48,9 @@ double exponential_tail(double s) {
 
 /// Of a Matern kernel: s in its exponent, for r^2.
 double matern_s(KernelFamily family, double r2) {
-  return family == KernelFamily::Matern12 ? std::sqrt(r2) : std::sqrt((family == KernelFamily::Matern32 ? 3.0 : 5.0) * r2);
+  return family == KernelFamily::Matern12
+             ? std::sqrt(r2)
+             : std::sqrt((family == KernelFamily::Matern32 ? 3.0 : 5.0) * r2);
 }
 
 /// And the polynomial before it, less 1.
@@ -60,12 +64,16 @@ bool positive_and_finite(double value) { return std::isfinite(value) && value > 
 }  // namespace
 
 void check(const Kernel& kernel) {
-  require(positive_and_finite(kernel.length_m), "Kernel", "length_m = " + text_of(kernel.length_m), "must be positive and finite");
-  require(positive_and_finite(kernel.signal_sd), "Kernel", "signal_sd = " + text_of(kernel.signal_sd), "must be positive and finite");
-  require(kernel.signal_sd >= 1e-150 && kernel.signal_sd <= 1e150, "Kernel", "signal_sd = " + text_of(kernel.signal_sd),
+  require(positive_and_finite(kernel.length_m), "Kernel", "length_m = " + text_of(kernel.length_m),
+          "must be positive and finite");
+  require(positive_and_finite(kernel.signal_sd), "Kernel",
+          "signal_sd = " + text_of(kernel.signal_sd), "must be positive and finite");
+  require(kernel.signal_sd >= 1e-150 && kernel.signal_sd <= 1e150, "Kernel",
+          "signal_sd = " + text_of(kernel.signal_sd),
           "must be from 1e-150 to 1e150, so that its square is a number");
   if (kernel.family == KernelFamily::Periodic) {
-    require(positive_and_finite(kernel.period_m), "Kernel", "period_m = " + text_of(kernel.period_m), "must be positive and finite");
+    require(positive_and_finite(kernel.period_m), "Kernel",
+            "period_m = " + text_of(kernel.period_m), "must be positive and finite");
   }
 }
 
@@ -91,7 +99,8 @@ double correlation(const Kernel& kernel, const Vec3& difference) {
 
 double decorrelation(const Kernel& kernel, const Vec3& difference) {
   const double r2 = squared_ratio(kernel, difference);
-  if (kernel.family == KernelFamily::SquaredExponential || kernel.family == KernelFamily::Periodic) return -std::expm1(-0.5 * r2);
+  if (kernel.family == KernelFamily::SquaredExponential || kernel.family == KernelFamily::Periodic)
+    return -std::expm1(-0.5 * r2);
   const double s = matern_s(kernel.family, r2);
   if (kernel.family == KernelFamily::Matern12) return -std::expm1(-s);
   if (s > 1.0) return 1.0 - correlation(kernel, difference);
@@ -109,7 +118,9 @@ double correlation_change(const Kernel& kernel, const Vec3& difference, const Ve
   const double moved = matern_s(kernel.family, squared_ratio(kernel, difference + step));
   if (!std::isfinite(s) || !std::isfinite(moved) || s + moved == 0.0)
     return correlation(kernel, difference + step) - correlation(kernel, difference);
-  const double factor = kernel.family == KernelFamily::Matern12 ? 1.0 : kernel.family == KernelFamily::Matern32 ? 3.0 : 5.0;
+  const double factor = kernel.family == KernelFamily::Matern12   ? 1.0
+                        : kernel.family == KernelFamily::Matern32 ? 3.0
+                                                                  : 5.0;
   const double ds = factor * change / (s + moved);
   const double rise = kernel.family == KernelFamily::Matern12   ? 0.0
                       : kernel.family == KernelFamily::Matern32 ? ds

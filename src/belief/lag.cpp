@@ -10,18 +10,22 @@
 namespace palpation {
 namespace {
 
-constexpr double kBeside_m = 0.0005;  // a displaced reading may lie this far beyond the border: as far as a touch is smaller than a probe
-constexpr double kGridStep_m = 0.00025;  // a field's likelihood has one peak within a fraction of its length
+constexpr double kBeside_m = 0.0005;  // a displaced reading may lie this far beyond the border: as
+                                      // far as a touch is smaller than a probe
+constexpr double kGridStep_m =
+    0.00025;  // a field's likelihood has one peak within a fraction of its length
 constexpr double kPrecision_m = 1e-5;
 constexpr double kOneLine = 0.95;  // cosine: within 18 degrees
-/// What the curvature says, times this: an edge is no stationary field. Over phantoms lags scatter 2.0 to 2.8 times as far as it says where
-/// touches are made anywhere, and 2.2 to 2.4 times where they are chosen (24 seeds).
+/// What the curvature says, times this: an edge is no stationary field. Over phantoms lags
+/// scatter 2.0 to 2.8 times as far as it says where touches are made anywhere, and 2.2 to 2.4 times
+/// where they are chosen (24 seeds).
 constexpr double kScatter = 2.5;
 constexpr double kEdgeStep_m = 0.001;
 constexpr double kEdgeShare = 0.5;
 constexpr double kEdgeNoise = 0.1;  // of the signal: so that drift is no edge
 constexpr std::size_t kLeastAtEdges = 20;
-constexpr std::size_t kMostReadings = 400;  // for one number; the likelihood costs their third power
+constexpr std::size_t kMostReadings =
+    400;  // for one number; the likelihood costs their third power
 
 bool is_on_border(const Surface& surface, const SurfacePoint& point) {
   for (int i = 0; i < 3; ++i) {
@@ -31,7 +35,8 @@ bool is_on_border(const Surface& surface, const SurfacePoint& point) {
 }
 
 /// Where a reading belongs; nothing if that is beyond the border.
-std::optional<SurfacePoint> place_of(const Surface& surface, const Palpation& palpation, double lag_m) {
+std::optional<SurfacePoint> place_of(const Surface& surface, const Palpation& palpation,
+                                     double lag_m) {
   const Vec3 position = surface.position(palpation.where) - lag_m * palpation.travel;
   const SurfacePoint closest = surface.project(position);
   if (!is_on_border(surface, closest)) return closest;
@@ -44,11 +49,14 @@ std::optional<SurfacePoint> place_of(const Surface& surface, const Palpation& pa
 bool travels(const Palpation& palpation) { return !palpation.travel.isZero(0.0); }
 
 /// The readings that every lag leaves on the tissue, thinned evenly.
-std::vector<Palpation> telling(const Surface& surface, std::span<const Palpation> palpations, const LagPrior& prior) {
+std::vector<Palpation> telling(const Surface& surface, std::span<const Palpation> palpations,
+                               const LagPrior& prior) {
   std::vector<Palpation> kept;
   for (const Palpation& palpation : palpations) {
     if (!palpation.set_aside.empty()) continue;
-    if (travels(palpation) && !(place_of(surface, palpation, prior.least_m) && place_of(surface, palpation, prior.most_m))) continue;
+    if (travels(palpation) && !(place_of(surface, palpation, prior.least_m) &&
+                                place_of(surface, palpation, prior.most_m)))
+      continue;
     kept.push_back(palpation);
   }
   const std::size_t stride = (kept.size() + kMostReadings - 1) / kMostReadings;
@@ -61,13 +69,15 @@ std::vector<Palpation> telling(const Surface& surface, std::span<const Palpation
 /// Whether all readings were made to and fro along one line, as a raster's are.
 bool run_along_a_line(const std::vector<Palpation>& readings) {
   const auto first = std::find_if(readings.begin(), readings.end(), travels);
-  return std::all_of(readings.begin(), readings.end(),
-                     [&](const Palpation& one) { return !travels(one) || std::abs(one.travel.dot(first->travel)) > kOneLine; });
+  return std::all_of(readings.begin(), readings.end(), [&](const Palpation& one) {
+    return !travels(one) || std::abs(one.travel.dot(first->travel)) > kOneLine;
+  });
 }
 
-/// Of the readings those at the edges, where the field, believed without a lag, changes along the travel by half of the most it does
-/// anywhere; all where these are few.
-std::vector<Palpation> at_edges(const Prior& prior, const std::vector<Palpation>& readings, const Hyperparameters& at) {
+/// Of the readings those at the edges, where the field, believed without a lag, changes along the
+/// travel by half of the most it does anywhere; all where these are few.
+std::vector<Palpation> at_edges(const Prior& prior, const std::vector<Palpation>& readings,
+                                const Hyperparameters& at) {
   const Surface& surface = prior.surface();
   Kernel kernel = prior.kernel();
   kernel.length_m = at.length_m;
@@ -85,11 +95,14 @@ std::vector<Palpation> at_edges(const Prior& prior, const std::vector<Palpation>
   Eigen::MatrixXd covariance = field.covariance(places, places);
   const double least_noise = kEdgeNoise * at.signal_sd;
   covariance.diagonal().array() += std::max(at.noise_sd * at.noise_sd, least_noise * least_noise);
-  const Eigen::VectorXd weights = covariance.llt().solve(Eigen::VectorXd(values.array() - values.mean()));
-  const Eigen::VectorXd change = ((field.covariance(ahead, places) - field.covariance(behind, places)) * weights).cwiseAbs();
+  const Eigen::VectorXd weights =
+      covariance.llt().solve(Eigen::VectorXd(values.array() - values.mean()));
+  const Eigen::VectorXd change =
+      ((field.covariance(ahead, places) - field.covariance(behind, places)) * weights).cwiseAbs();
   std::vector<Palpation> kept;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (change[static_cast<Eigen::Index>(i)] >= kEdgeShare * change.maxCoeff()) kept.push_back(readings[i]);
+    if (change[static_cast<Eigen::Index>(i)] >= kEdgeShare * change.maxCoeff())
+      kept.push_back(readings[i]);
   }
   return kept.size() < kLeastAtEdges ? readings : kept;
 }
@@ -118,7 +131,8 @@ double peak_between(double least, double most, const Function& function) {
 
 }  // namespace
 
-std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpation> palpations, double lag_m) {
+std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpation> palpations,
+                                 double lag_m) {
   require(std::isfinite(lag_m), "displaced", "lag_m = " + text_of(lag_m), "must be finite");
   std::vector<Palpation> moved(palpations.begin(), palpations.end());
   if (lag_m == 0.0) return moved;
@@ -133,23 +147,28 @@ std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpati
   return moved;
 }
 
-std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palpations, const Hyperparameters& at,
-                             const LagPrior& lag_prior) {
+std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palpations,
+                             const Hyperparameters& at, const LagPrior& lag_prior) {
   const Surface& surface = prior.surface();
   std::vector<Palpation> readings = telling(surface, palpations, lag_prior);
-  if (readings.size() < 2 || std::none_of(readings.begin(), readings.end(), travels)) return std::nullopt;
-  // A base that drifts along a raster's rows looks like a lag, but for the edges; touches from everywhere average it out.
+  if (readings.size() < 2 || std::none_of(readings.begin(), readings.end(), travels))
+    return std::nullopt;
+  // A base that drifts along a raster's rows looks like a lag, but for the edges; touches from
+  // everywhere average it out.
   if (run_along_a_line(readings)) readings = at_edges(prior, readings, at);
   const auto log_posterior = [&](double lag_m) {
     const double z = (lag_m - lag_prior.mean_m) / lag_prior.sd_m;
     try {
-      return log_likelihood(prior, gather_sites(prior, displaced(surface, readings, lag_m)), at) - 0.5 * z * z;
+      return log_likelihood(prior, gather_sites(prior, displaced(surface, readings, lag_m)), at) -
+             0.5 * z * z;
     } catch (const NumericalError&) {
-      return -std::numeric_limits<double>::infinity();  // this lag brings places together that the noise does not part
+      return -std::numeric_limits<double>::infinity();  // this lag brings places together that the
+                                                        // noise does not part
     }
   };
   double best = lag_prior.mean_m, best_value = -std::numeric_limits<double>::infinity();
-  const int steps = static_cast<int>(std::lround((lag_prior.most_m - lag_prior.least_m) / kGridStep_m));
+  const int steps =
+      static_cast<int>(std::lround((lag_prior.most_m - lag_prior.least_m) / kGridStep_m));
   for (int i = 0; i <= steps; ++i) {
     const double lag_m = lag_prior.least_m + i * kGridStep_m;
     const double value = log_posterior(lag_m);
@@ -158,12 +177,16 @@ std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palp
       best_value = value;
     }
   }
-  const double least = std::max(lag_prior.least_m, best - kGridStep_m), most = std::min(lag_prior.most_m, best + kGridStep_m);
+  const double least = std::max(lag_prior.least_m, best - kGridStep_m),
+               most = std::min(lag_prior.most_m, best + kGridStep_m);
   Lag lag{.value_m = peak_between(least, most, log_posterior), .stddev_m = lag_prior.sd_m};
-  lag.at_bound = std::min(lag.value_m - lag_prior.least_m, lag_prior.most_m - lag.value_m) < 2.0 * kPrecision_m;
+  lag.at_bound = std::min(lag.value_m - lag_prior.least_m, lag_prior.most_m - lag.value_m) <
+                 2.0 * kPrecision_m;
   const double step = 0.5 * kGridStep_m;
-  const double fall = 2.0 * log_posterior(lag.value_m) - log_posterior(lag.value_m - step) - log_posterior(lag.value_m + step);
-  if (fall > 0.0 && std::isfinite(fall)) lag.stddev_m = std::min(lag.stddev_m, kScatter * step / std::sqrt(fall));
+  const double fall = 2.0 * log_posterior(lag.value_m) - log_posterior(lag.value_m - step) -
+                      log_posterior(lag.value_m + step);
+  if (fall > 0.0 && std::isfinite(fall))
+    lag.stddev_m = std::min(lag.stddev_m, kScatter * step / std::sqrt(fall));
   return lag;
 }
 

@@ -14,7 +14,8 @@
 namespace palpation {
 namespace {
 
-/// d log(scatter likelihood) / d log(noise sd), and d (merged variance, merged mean) / d log(noise sd).
+/// d log(scatter likelihood) / d log(noise sd), and d (merged variance, merged mean) / d log(noise
+/// sd).
 struct NoiseSlopes {
   double scatter = 0.0;
   double variance = 0.0;
@@ -30,11 +31,13 @@ NoiseSlopes noise_slopes(const Site& site, const MergedReading& merged, double n
     plain_square += (reading - merged.mean) * (reading - merged.mean);
   }
   const double share = count * merged.variance / noise_variance;  // of the precision
-  return {plain_square / noise_variance - count + share, 2.0 * merged.variance * share, 2.0 * share * (merged.mean - plain_mean)};
+  return {plain_square / noise_variance - count + share, 2.0 * merged.variance * share,
+          2.0 * share * (merged.mean - plain_mean)};
 }
 
 /// The sums over all elements of a a' - P times those of K, and times those of its slope.
-std::pair<double, double> along(const Eigen::VectorXd& a, const Eigen::MatrixXd& p, const PairCorrelations& k) {
+std::pair<double, double> along(const Eigen::VectorXd& a, const Eigen::MatrixXd& p,
+                                const PairCorrelations& k) {
   double by_value = 0.0, by_slope = 0.0;
   Eigen::VectorXd column(a.size());
   for (Eigen::Index j = 0, rest = a.size(); rest > 0; ++j, --rest) {
@@ -49,10 +52,12 @@ std::pair<double, double> along(const Eigen::VectorXd& a, const Eigen::MatrixXd&
 
 }  // namespace
 
-Likelihood::Likelihood(const Prior& prior, std::span<const Site> sites) : prior_(prior), sites_(sites), correlations_(prior, sites) {
+Likelihood::Likelihood(const Prior& prior, std::span<const Site> sites)
+    : prior_(prior), sites_(sites), correlations_(prior, sites) {
   const auto n = static_cast<Eigen::Index>(sites.size());
   p_.resize(n, n);
-  for (Eigen::VectorXd* values : {&readings_, &variances_, &variance_slopes_, &mean_slopes_}) values->resize(n);
+  for (Eigen::VectorXd* values : {&readings_, &variances_, &variance_slopes_, &mean_slopes_})
+    values->resize(n);
 }
 
 void Likelihood::merge_readings(double noise_variance, LikelihoodGradient& result) {
@@ -69,23 +74,27 @@ void Likelihood::merge_readings(double noise_variance, LikelihoodGradient& resul
   }
 }
 
-/// P - P 1 1' P / (1' P 1 + 1 / sd^2); returns what that adds to the log likelihood besides the change of P.
+/// P - P 1 1' P / (1' P 1 + 1 / sd^2); returns what that adds to the log likelihood besides the
+/// change of P.
 double Likelihood::integrate_constant_out() {
   const double sd = prior_.constant().sd;
   if (sd == 0.0) return 0.0;
   const double constant_precision = 1.0 / (sd * sd);  // 0 if infinite
-  const Eigen::VectorXd weights = p_.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(p_.rows());
+  const Eigen::VectorXd weights =
+      p_.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(p_.rows());
   const double precision = weights.sum() + constant_precision;
   p_.selfadjointView<Eigen::Lower>().rankUpdate(weights, -1.0 / precision);
   return -0.5 * std::log(std::isinf(sd) ? precision : precision / constant_precision);
 }
 
-/// P - P H (I + H' P H)^-1 H' P with H = Prior::tilt at the sites, where the prior has a slope; returns as above.
+/// P - P H (I + H' P H)^-1 H' P with H = Prior::tilt at the sites, where the prior has a slope;
+/// returns as above.
 double Likelihood::integrate_slope_out() {
   if (!prior_.has_slope()) return 0.0;
   const Tilts tilts = tilts_of(prior_, sites_);
   const Tilts weights = p_.selfadjointView<Eigen::Lower>() * tilts;
-  const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + tilts.transpose() * weights);
+  const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() +
+                                              tilts.transpose() * weights);
   const Eigen::Matrix3Xd roots = precision.matrixL().solve(weights.transpose());
   p_.selfadjointView<Eigen::Lower>().rankUpdate(roots.transpose(), -1.0);
   return -precision.matrixLLT().diagonal().array().log().sum();
@@ -100,13 +109,17 @@ LikelihoodGradient Likelihood::operator()(const Hyperparameters& at) {
   p_.triangularView<Eigen::Lower>() = signal_variance * correlations_.value();
   p_.diagonal() += variances_;
   const std::optional<double> log_determinant = inverse_(p_);
-  if (!log_determinant) throw NumericalError("likelihood: the covariance is not positive definite at length " + text_of(at.length_m));
+  if (!log_determinant)
+    throw NumericalError("likelihood: the covariance is not positive definite at length " +
+                         text_of(at.length_m));
   result.value += integrate_constant_out() - 0.5 * *log_determinant;
   result.value += integrate_slope_out();
 
-  // Readings are taken relative to one of them where the constant is unknown: P 1 = 0 then, so only rounding changes.
+  // Readings are taken relative to one of them where the constant is unknown: P 1 = 0 then, so only
+  // rounding changes.
   const bool is_constant_unknown = std::isinf(prior_.constant().sd);
-  const double free_readings = static_cast<double>(sites_.size()) - (is_constant_unknown ? 1.0 : 0.0);
+  const double free_readings =
+      static_cast<double>(sites_.size()) - (is_constant_unknown ? 1.0 : 0.0);
   const Eigen::VectorXd residuals = readings_.array() - (is_constant_unknown ? readings_[0] : 0.0);
   const Eigen::VectorXd a = p_.selfadjointView<Eigen::Lower>() * residuals;
   result.value -= 0.5 * (residuals.dot(a) + free_readings * std::log(2.0 * std::numbers::pi));
@@ -114,16 +127,20 @@ LikelihoodGradient Likelihood::operator()(const Hyperparameters& at) {
   const auto [along_value, along_slope] = along(a, p_, correlations_);
   result.gradient[0] = 0.5 * signal_variance * along_slope;
   result.gradient[1] = signal_variance * along_value;
-  result.gradient[2] += 0.5 * ((a.array().square() - p_.diagonal().array()) * variance_slopes_.array()).sum() - a.dot(mean_slopes_);
+  result.gradient[2] +=
+      0.5 * ((a.array().square() - p_.diagonal().array()) * variance_slopes_.array()).sum() -
+      a.dot(mean_slopes_);
   return result;
 }
 
-LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at) {
+LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site> sites,
+                                       const Hyperparameters& at) {
   return Likelihood(prior, sites)(at);
 }
 
-/// With L L' = S, w = L^-1 (y - origin) and H = L^-1 (the constant and the slope, each over its prior's standard deviation):
-/// log p = -(w'w - w'H (I + H'H)^-1 H'w + log|S| + log|I + H'H| + n log 2 pi) / 2, without I for a constant that is not known at all.
+/// With L L' = S, w = L^-1 (y - origin) and H = L^-1 (the constant and the slope, each over its
+/// prior's standard deviation): log p = -(w'w - w'H (I + H'H)^-1 H'w + log|S| + log|I + H'H| + n
+/// log 2 pi) / 2, without I for a constant that is not known at all.
 double log_likelihood(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at) {
   const auto n = static_cast<Eigen::Index>(sites.size());
   Kernel kernel = prior.kernel();
@@ -141,21 +158,25 @@ double log_likelihood(const Prior& prior, std::span<const Site> sites, const Hyp
     right(j, 0) = merged.mean;
     right(j, 1) = std::isinf(constant_sd) ? 1.0 : constant_sd;
   }
-  // Readings are taken relative to one of them where the constant is not known: rounding is all that changes.
+  // Readings are taken relative to one of them where the constant is not known: rounding is all
+  // that changes.
   if (std::isinf(constant_sd)) right.col(0).array() -= right(0, 0);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(s);
   const auto diagonal = s.diagonal().array();
   if (factor.info() != Eigen::Success || !diagonal.isFinite().all() || !(diagonal > 0.0).all()) {
-    throw NumericalError("log_likelihood: the covariance is not positive definite at length " + text_of(at.length_m));
+    throw NumericalError("log_likelihood: the covariance is not positive definite at length " +
+                         text_of(at.length_m));
   }
   factor.matrixL().solveInPlace(right);
   const Eigen::VectorXd along = right.rightCols<4>().transpose() * right.col(0);
   Eigen::Matrix4d precision = right.rightCols<4>().transpose() * right.rightCols<4>();
-  precision.diagonal().array() += Eigen::Array4d(std::isinf(constant_sd) ? 0.0 : 1.0, 1.0, 1.0, 1.0);
+  precision.diagonal().array() +=
+      Eigen::Array4d(std::isinf(constant_sd) ? 0.0 : 1.0, 1.0, 1.0, 1.0);
   const Eigen::LLT<Eigen::Matrix4d> normal(precision);
   const double free_readings = static_cast<double>(n) - (std::isinf(constant_sd) ? 1.0 : 0.0);
   result -= diagonal.log().sum() + normal.matrixLLT().diagonal().array().log().sum();
-  return result - 0.5 * (right.col(0).squaredNorm() - along.dot(normal.solve(along)) + free_readings * std::log(2.0 * std::numbers::pi));
+  return result - 0.5 * (right.col(0).squaredNorm() - along.dot(normal.solve(along)) +
+                         free_readings * std::log(2.0 * std::numbers::pi));
 }
 
 }  // namespace palpation

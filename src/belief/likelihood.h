@@ -1,5 +1,5 @@
-/// The likelihood of one hyperparameter after another, given the readings of the same sites: what does not depend on them is kept, and the
-/// memory for the rest.
+/// The likelihood of one hyperparameter after another, given the readings of the same sites: what
+/// does not depend on them is kept, and the memory for the rest.
 #pragma once
 
 #include <Eigen/Core>

@@ -21,11 +21,14 @@ struct LookAhead::Touch {
 };
 
 LookAhead::LookAhead(const Belief& belief, const Field& variance)
-    : belief_(belief), tiles_(belief.prior_.tiles()), signal_variance_(belief.signal_sd() * belief.signal_sd()) {
-  require(variance.size() == tiles_.vertex_count(), "LookAhead", std::to_string(variance.size()) + " variances",
-          "must be one for each vertex");
+    : belief_(belief),
+      tiles_(belief.prior_.tiles()),
+      signal_variance_(belief.signal_sd() * belief.signal_sd()) {
+  require(variance.size() == tiles_.vertex_count(), "LookAhead",
+          std::to_string(variance.size()) + " variances", "must be one for each vertex");
   variance_.resize(static_cast<std::size_t>(tiles_.count()) * kLanes);
-  for (std::size_t place = 0; place < variance_.size(); ++place) variance_[place] = variance[tiles_.vertices(0)[place]];
+  for (std::size_t place = 0; place < variance_.size(); ++place)
+    variance_[place] = variance[tiles_.vertices(0)[place]];
   known_.resize(static_cast<std::size_t>(tiles_.count()));
   e_.resize(static_cast<std::size_t>(tiles_.count()));
 }
@@ -38,11 +41,15 @@ bool LookAhead::is_current(int tile) const { return known_[tile] == touch_count(
 
 int LookAhead::tile_count() const { return tiles_.count(); }
 
-std::span<const int> LookAhead::vertices(int tile) const { return {tiles_.vertices(tile), static_cast<std::size_t>(tiles_.lanes(tile))}; }
+std::span<const int> LookAhead::vertices(int tile) const {
+  return {tiles_.vertices(tile), static_cast<std::size_t>(tiles_.lanes(tile))};
+}
 
 int LookAhead::tile_of(int vertex) const { return tiles_.place(vertex) / kLanes; }
 
-const double* LookAhead::variances(int tile) const { return variance_.data() + static_cast<long>(tile) * kLanes; }
+const double* LookAhead::variances(int tile) const {
+  return variance_.data() + static_cast<long>(tile) * kLanes;
+}
 
 /// c between the tile's vertices and `count` touches from `first` on, one a row.
 void LookAhead::add_covariances(int tile, int first, int count, double* rows) const {
@@ -50,12 +57,14 @@ void LookAhead::add_covariances(int tile, int first, int count, double* rows) co
   long depth = 0;
   for (const TileRows& strip : strips) {
     depth += strip.depth;
-    // Tiles are looked at here and there, so nothing of them is near yet: ask for all of it at once.
+    // Tiles are looked at here and there, so nothing of them is near yet: ask for all of it at
+    // once.
     for (int i = 0; i < strip.depth; ++i) __builtin_prefetch(strip.address(tile, i));
   }
   for (int k = 0; k < count; ++k) touches_[first + k].correlations(tile, 1, rows + k * kLanes);
   for (int k = 0; k < count && depth > 0; k += panel_rows()) {
-    const Panel panel{columns_.data() + (first + k) * depth, depth, std::min(panel_rows(), count - k), nullptr};
+    const Panel panel{columns_.data() + (first + k) * depth, depth,
+                      std::min(panel_rows(), count - k), nullptr};
     subtract_strips(panel, strips.data(), static_cast<int>(strips.size()), tile, rows + k * kLanes);
   }
   const std::span around = vertices(tile);
@@ -64,8 +73,10 @@ void LookAhead::add_covariances(int tile, int first, int count, double* rows) co
     for (std::size_t lane = 0; lane < around.size(); ++lane) {
       double& value = rows[k * kLanes + static_cast<int>(lane)];
       value = belief_.held(value, touch.vertex, around[lane]);
-      if (touch.constant_share != 0.0) value += touch.constant_share * belief_.residual_ones(around[lane]);
-      if (belief_.prior_.has_slope()) value += belief_.tilt_residual_at(around[lane], Part::Whole).dot(touch.tilt_weights);
+      if (touch.constant_share != 0.0)
+        value += touch.constant_share * belief_.residual_ones(around[lane]);
+      if (belief_.prior_.has_slope())
+        value += belief_.tilt_residual_at(around[lane], Part::Whole).dot(touch.tilt_weights);
       value *= signal_variance_;
     }
   }
@@ -81,7 +92,8 @@ void LookAhead::bring_up_to_date(int tile) {
   for (int k = first; k < touch_count(); ++k) {
     double* row = e.data() + k * kLanes;
     for (int j = 0; j < k; ++j) {
-      for (int lane = 0; lane < kLanes; ++lane) row[lane] -= e[j * kLanes + lane] * touches_[k].earlier[j];
+      for (int lane = 0; lane < kLanes; ++lane)
+        row[lane] -= e[j * kLanes + lane] * touches_[k].earlier[j];
     }
     for (int lane = 0; lane < kLanes; ++lane) {
       row[lane] *= touches_[k].scale;
@@ -92,14 +104,17 @@ void LookAhead::bring_up_to_date(int tile) {
 }
 
 void LookAhead::touch(int vertex, double noise_variance) {
-  require(vertex >= 0 && vertex < belief_.prior_.surface().vertex_count(), "LookAhead", "vertex " + std::to_string(vertex),
-          "is not on the surface");
+  require(vertex >= 0 && vertex < belief_.prior_.surface().vertex_count(), "LookAhead",
+          "vertex " + std::to_string(vertex), "is not on the surface");
   const int place = tiles_.place(vertex), tile = place / kLanes, lane = place % kLanes;
   bring_up_to_date(tile);
   const double total = variance_[place] + noise_variance;
-  Touch next{vertex, TileCorrelations(belief_.prior_, vertex), 0.0, Vec3::Zero(), {}, total > 0.0 ? 1.0 / std::sqrt(total) : 0.0};
-  if (belief_.constant_is_unsure()) next.constant_share = belief_.residual_ones(vertex) / belief_.constant_precision_;
-  if (belief_.prior_.has_slope()) next.tilt_weights = belief_.tilt_covariance_ * belief_.tilt_residual_at(vertex, Part::Whole);
+  Touch next{vertex, TileCorrelations(belief_.prior_, vertex),  0.0, Vec3::Zero(),
+             {},     total > 0.0 ? 1.0 / std::sqrt(total) : 0.0};
+  if (belief_.constant_is_unsure())
+    next.constant_share = belief_.residual_ones(vertex) / belief_.constant_precision_;
+  if (belief_.prior_.has_slope())
+    next.tilt_weights = belief_.tilt_covariance_ * belief_.tilt_residual_at(vertex, Part::Whole);
   for (int k = 0; k < touch_count(); ++k) next.earlier.push_back(e_[tile][k * kLanes + lane]);
   const std::vector<double> column = belief_.column_of_v(vertex);
   columns_.insert(columns_.end(), column.begin(), column.end());

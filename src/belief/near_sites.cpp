@@ -1,11 +1,13 @@
-// Variances that are all but nothing: at a site that was read with little noise, and beside it. There 1 - v'v is a difference of equals.
-// With e the site's unit vector, g = L^-1 e and d its noise, the posterior covariance of the field at the site with anything of prior
-// covariance k is d g'(L^-1 k), so that without a difference
+// Variances that are all but nothing: at a site that was read with little noise, and beside it.
+// There 1 - v'v is a difference of equals. With e the site's unit vector, g = L^-1 e and d its
+// noise, the posterior covariance of the field at the site with anything of prior covariance k is d
+// g'(L^-1 k), so that without a difference
 //
 //     variance at the site = d (1 - d g'g),
 //     variance beside it   = that + 2 d g'w + 2 (1 - k(x, p)) - w'w,  w = L^-1 (k(., x) - k(., p)),
 //
-// the second from the increment f(x) - f(p), whose own prior variance 2 (1 - k) and covariances are small from the start.
+// the second from the increment f(x) - f(p), whose own prior variance 2 (1 - k) and covariances are
+// small from the start.
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +22,11 @@
 namespace palpation {
 namespace {
 
-/// An increment is small where a correlation is above this: within 0.3 lengths for the squared exponential.
+/// An increment is small where a correlation is above this: within 0.3 lengths for the squared
+/// exponential.
 constexpr double kBeside = 0.95;
-/// Vertices of less variance than this are looked at again: above it 1 - v'v is good to eight digits.
+/// Vertices of less variance than this are looked at again: above it 1 - v'v is good to eight
+/// digits.
 constexpr double kSmallVariance = 1e-6;
 
 /// `is_small`: the noise d.
@@ -61,16 +65,20 @@ Belief::Seen Belief::look_at(const Place& place) const {
   const Vec3& p = sites_[site].place.coordinates;
   Eigen::VectorXd change(k.size());
   for (Eigen::Index i = 0; i < k.size(); ++i)
-    change[i] = correlation_change(prior_.kernel(), p - sites_[i].place.coordinates, place.coordinates - p);
+    change[i] =
+        correlation_change(prior_.kernel(), p - sites_[i].place.coordinates, place.coordinates - p);
   const Eigen::VectorXd w = solve_lower(std::move(change));
-  seen.unexplained = there + 2.0 * d * g.dot(w) + 2.0 * decorrelation(prior_.kernel(), place.coordinates - p) - w.squaredNorm();
+  seen.unexplained = there + 2.0 * d * g.dot(w) +
+                     2.0 * decorrelation(prior_.kernel(), place.coordinates - p) - w.squaredNorm();
   return seen;
 }
 
-/// 1 - sum V^2 at the vertices, restated where too few of its digits are left; empty where all have enough.
+/// 1 - sum V^2 at the vertices, restated where too few of its digits are left; empty where all have
+/// enough.
 void Belief::sharpen() {
   sharp_.resize(0);
-  if (sites_.empty() || *std::min_element(diagonal_.begin(), diagonal_.end()) >= kSmallNoise) return;
+  if (sites_.empty() || *std::min_element(diagonal_.begin(), diagonal_.end()) >= kSmallNoise)
+    return;
   const VertexTiles& tiles = prior_.tiles();
   sharp_.resize(tiles.vertex_count());
   Field covered(tiles.vertex_count());
@@ -94,7 +102,9 @@ void Belief::sharpen() {
       const Vec3 x = prior_.coordinates(vertex);
       std::size_t site = 0;
       for (std::size_t i = 1; i < sites_.size(); ++i) {
-        if ((sites_[i].place.coordinates - x).squaredNorm() < (sites_[site].place.coordinates - x).squaredNorm()) site = i;
+        if ((sites_[i].place.coordinates - x).squaredNorm() <
+            (sites_[site].place.coordinates - x).squaredNorm())
+          site = i;
       }
       const double apart = decorrelation(prior_.kernel(), x - sites_[site].place.coordinates);
       if (diagonal_[site] >= kSmallNoise || apart > 1.0 - kBeside) continue;

@@ -12,11 +12,13 @@ namespace palpation {
 namespace {
 
 constexpr std::size_t kAround = 20;
-constexpr std::size_t kListed = 40;        // neighbours, of whom some may be set aside
-constexpr double kSure = 5.0;              // standard deviations
-constexpr double kSameWay = 0.9;           // cosine: within 25 degrees, where a lag moves both alike
-constexpr double kLeastNoise = 0.03;       // of the field's standard deviation: no model of an edge is better
-constexpr double kShown = 6.0;             // noises between the least and the greatest reading: the others show a contrast of their own
+constexpr std::size_t kListed = 40;  // neighbours, of whom some may be set aside
+constexpr double kSure = 5.0;        // standard deviations
+constexpr double kSameWay = 0.9;     // cosine: within 25 degrees, where a lag moves both alike
+constexpr double kLeastNoise =
+    0.03;                       // of the field's standard deviation: no model of an edge is better
+constexpr double kShown = 6.0;  // noises between the least and the greatest reading: the others
+                                // show a contrast of their own
 constexpr double kMostShare = 0.1;         // of the readings
 constexpr std::size_t kLeastReadings = 5;  // fewer cannot say which of them is wrong
 constexpr Kernel kRough{.family = KernelFamily::Matern32, .length_m = 0.0035};
@@ -28,7 +30,8 @@ bool comparable(const Palpation& a, const Palpation& b) {
 
 class Neighbourhoods {
  public:
-  Neighbourhoods(const std::vector<Palpation>& palpations, const std::vector<Vec3>& places) : palpations_(palpations), places_(places) {
+  Neighbourhoods(const std::vector<Palpation>& palpations, const std::vector<Vec3>& places)
+      : palpations_(palpations), places_(places) {
     for (std::size_t i = 0; i < palpations.size(); ++i) {
       if (palpations[i].set_aside.empty()) used_.push_back(i);
     }
@@ -49,11 +52,14 @@ class Neighbourhoods {
       if (out_[i]) continue;
       left.push_back(palpations_[i].reading);
       const std::vector<std::size_t> around = left_around(i, 1);
-      if (!around.empty()) differences.push_back(std::abs(palpations_[i].reading - palpations_[around.front()].reading));
+      if (!around.empty())
+        differences.push_back(
+            std::abs(palpations_[i].reading - palpations_[around.front()].reading));
     }
     std::sort(left.begin(), left.end());
     sorted_ = std::move(left);
-    noise_ = differences.empty() ? 0.5 * range(0, 0) : 1.4826 * median(differences) / std::sqrt(2.0);
+    noise_ =
+        differences.empty() ? 0.5 * range(0, 0) : 1.4826 * median(differences) / std::sqrt(2.0);
   }
 
   std::vector<std::size_t> left_around(std::size_t i, std::size_t most) const {
@@ -64,13 +70,15 @@ class Neighbourhoods {
     return left;
   }
 
-  /// How many standard deviations a reading is from what those around it predict: kriging with an unknown mean.
+  /// How many standard deviations a reading is from what those around it predict: kriging with an
+  /// unknown mean.
   double deviation(std::size_t i) const {
     const std::vector<std::size_t> around = left_around(i, kAround);
     const auto n = static_cast<Eigen::Index>(around.size());
     const double signal = signal_without(palpations_[i].reading);
     if (n < 2 || signal == 0.0) return 0.0;
-    const double noise = std::max(noise_, kLeastNoise * signal), noise_ratio = noise * noise / (signal * signal);
+    const double noise = std::max(noise_, kLeastNoise * signal),
+                 noise_ratio = noise * noise / (signal * signal);
     Eigen::MatrixXd k(n, n);
     Eigen::MatrixXd right_sides(n, 3);  // correlations with the place, ones, readings
     for (Eigen::Index a = 0; a < n; ++a) {
@@ -79,23 +87,27 @@ class Neighbourhoods {
         k(a, b) = correlation(kRough, places_[here] - places_[around[static_cast<std::size_t>(b)]]);
       }
       k(a, a) += noise_ratio;
-      right_sides.row(a) << correlation(kRough, places_[i] - places_[here]), 1.0, palpations_[here].reading - palpations_[i].reading;
+      right_sides.row(a) << correlation(kRough, places_[i] - places_[here]), 1.0,
+          palpations_[here].reading - palpations_[i].reading;
     }
     const Eigen::MatrixXd solved = k.llt().solve(right_sides);
     const double precision = solved.col(1).sum();
     const double mean = solved.col(2).sum() / precision;
     const double residual_one = 1.0 - solved.col(0).sum();
     const double predicted = right_sides.col(0).dot(solved.col(2)) + residual_one * mean;
-    const double variance = 1.0 + noise_ratio - right_sides.col(0).dot(solved.col(0)) + residual_one * residual_one / precision;
+    const double variance = 1.0 + noise_ratio - right_sides.col(0).dot(solved.col(0)) +
+                            residual_one * residual_one / precision;
     return std::abs(predicted) / (signal * std::sqrt(variance));
   }
 
  private:
   double range(std::size_t from_least, std::size_t from_greatest) const {
-    return sorted_.size() < 2 ? 0.0 : sorted_[sorted_.size() - 1 - from_greatest] - sorted_[from_least];
+    return sorted_.size() < 2 ? 0.0
+                              : sorted_[sorted_.size() - 1 - from_greatest] - sorted_[from_least];
   }
 
-  /// Half the range of the readings, without this one where the others show contrast: one that is far off would hide behind itself.
+  /// Half the range of the readings, without this one where the others show contrast: one that is
+  /// far off would hide behind itself.
   double signal_without(double reading) const {
     if (sorted_.empty()) return 0.0;
     const double others = range(reading == sorted_.front(), reading == sorted_.back());
@@ -109,7 +121,8 @@ class Neighbourhoods {
       others.emplace_back((places_[other] - places_[i]).squaredNorm(), other);
     }
     const std::size_t count = std::min(kListed, others.size());
-    std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count), others.end());
+    std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count),
+                      others.end());
     std::vector<std::size_t> numbers;
     for (std::size_t rank = 0; rank < count; ++rank) numbers.push_back(others[rank].second);
     return numbers;
@@ -126,7 +139,8 @@ class Neighbourhoods {
 
 }  // namespace
 
-std::vector<std::size_t> outliers(const std::vector<Palpation>& palpations, const std::vector<Vec3>& places) {
+std::vector<std::size_t> outliers(const std::vector<Palpation>& palpations,
+                                  const std::vector<Vec3>& places) {
   Neighbourhoods field(palpations, places);
   const std::vector<std::size_t>& used = field.used();
   if (used.size() < kLeastReadings) return {};
@@ -138,14 +152,17 @@ std::vector<std::size_t> outliers(const std::vector<Palpation>& palpations, cons
     for (std::size_t i : used) {
       if (deviation[i] <= kSure) continue;
       const std::vector<std::size_t> around = field.left_around(i, kAround);
-      const bool is_worst = std::all_of(around.begin(), around.end(), [&](std::size_t other) { return deviation[other] <= deviation[i]; });
+      const bool is_worst = std::all_of(around.begin(), around.end(), [&](std::size_t other) {
+        return deviation[other] <= deviation[i];
+      });
       if (!is_worst) continue;
       field.take_out(i);
       deviation[i] = 0.0;
       found.push_back(i);
       is_new = true;
     }
-    if (static_cast<double>(found.size()) > kMostShare * static_cast<double>(used.size())) return {};
+    if (static_cast<double>(found.size()) > kMostShare * static_cast<double>(used.size()))
+      return {};
     field.restate_scales();
   }
   std::sort(found.begin(), found.end());

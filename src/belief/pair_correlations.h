@@ -1,4 +1,5 @@
-/// The correlations of sites with each other and their derivatives by the length, at one length after another.
+/// The correlations of sites with each other and their derivatives by the length, at one length
+/// after another.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +20,12 @@ class PairCorrelations {
 
   /// All with all: on the diagonal and below it; nothing is meant by what stands above.
   using Lower = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-  Lower value() const { return Lower(value_.data(), count_, count_, Eigen::OuterStride<>(stride_)); }
-  Lower slope() const { return Lower(slope_.data(), count_, count_, Eigen::OuterStride<>(stride_)); }  ///< d value / d log(length)
+  Lower value() const {
+    return Lower(value_.data(), count_, count_, Eigen::OuterStride<>(stride_));
+  }
+  Lower slope() const {
+    return Lower(slope_.data(), count_, count_, Eigen::OuterStride<>(stride_));
+  }  ///< d value / d log(length)
 
  private:
   void of_distances(const Kernel& kernel);

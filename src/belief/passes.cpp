@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kJump_m = 0.005;
 constexpr double kTurn_m = 0.0015;
-constexpr double kHeading_m = 0.003;  // a pass has a heading once it is this long: poses tremble by a tenth of a millimetre
+constexpr double kHeading_m =
+    0.003;  // a pass has a heading once it is this long: poses tremble by a tenth of a millimetre
 
 }  // namespace
 
@@ -22,7 +23,8 @@ std::vector<Pass> passes_of(const std::vector<Vec3>& places) {
     if (!ends && !heading.isZero(0.0)) {
       const Vec3 from_start = places[i] - places[passes.back().front()];
       const double along_m = from_start.dot(heading);
-      ends = along_m < farthest_m - kTurn_m || (from_start - along_m * heading).norm() > kTurn_m + 0.1 * along_m;
+      ends = along_m < farthest_m - kTurn_m ||
+             (from_start - along_m * heading).norm() > kTurn_m + 0.1 * along_m;
       farthest_m = std::max(farthest_m, along_m);
     }
     if (ends) {
@@ -39,7 +41,8 @@ std::vector<Pass> passes_of(const std::vector<Vec3>& places) {
 
 double median_step_m(const std::vector<Vec3>& places, const Pass& pass) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < pass.size(); ++i) steps.push_back((places[pass[i]] - places[pass[i - 1]]).norm());
+  for (std::size_t i = 1; i < pass.size(); ++i)
+    steps.push_back((places[pass[i]] - places[pass[i - 1]]).norm());
   return steps.empty() ? 0.0 : median(steps);
 }
 

@@ -23,7 +23,8 @@ std::vector<double> used_readings(std::span<const Palpation> palpations) {
 PlacedReadings placed_readings(const Surface& surface, std::span<const Palpation> palpations) {
   const std::vector<double> readings = used_readings(palpations);
   PlacedReadings placed{Eigen::MatrixX3d(readings.size(), 3),
-                        Eigen::Map<const Eigen::VectorXd>(readings.data(), static_cast<Eigen::Index>(readings.size()))};
+                        Eigen::Map<const Eigen::VectorXd>(
+                            readings.data(), static_cast<Eigen::Index>(readings.size()))};
   Eigen::Index row = 0;
   for (const Palpation& palpation : palpations) {
     if (palpation.set_aside.empty()) placed.places.row(row++) = surface.position(palpation.where);
@@ -31,7 +32,9 @@ PlacedReadings placed_readings(const Surface& surface, std::span<const Palpation
   return placed;
 }
 
-bool all_equal(std::span<const double> readings) { return std::ranges::adjacent_find(readings, std::not_equal_to<>()) == readings.end(); }
+bool all_equal(std::span<const double> readings) {
+  return std::ranges::adjacent_find(readings, std::not_equal_to<>()) == readings.end();
+}
 
 Spread spread_of(std::span<const double> readings) {
   const auto count = static_cast<double>(readings.size());
@@ -39,7 +42,8 @@ Spread spread_of(std::span<const double> readings) {
   for (const double reading : readings) spread.mean += (reading - readings.front()) / count;
   spread.mean += readings.front();
   double square = 0.0;
-  for (const double reading : readings) square += (reading - spread.mean) * (reading - spread.mean) / count;
+  for (const double reading : readings)
+    square += (reading - spread.mean) * (reading - spread.mean) / count;
   spread.sd = all_equal(readings) ? 0.0 : std::sqrt(square);
   return spread;
 }

@@ -34,7 +34,8 @@ Belief::Regressors Belief::regressors(std::span<const Site> sites) const {
     const MergedReading merged = merge(site, noise_variance());
     const bool keeps_pace = site.known.empty() && options_.noise_is_relative;
     result.noise[i] =
-        keeps_pace ? options_.noise_sd * options_.noise_sd / static_cast<double>(site.plain.size()) : merged.variance / signal_variance;
+        keeps_pace ? options_.noise_sd * options_.noise_sd / static_cast<double>(site.plain.size())
+                   : merged.variance / signal_variance;
     result.all_plain = result.all_plain && keeps_pace;
     result.right(i, 0) = 1.0;
     result.right(i, 1) = merged.mean - origin_;
@@ -50,8 +51,10 @@ bool Belief::reduce(std::size_t more) {
   restate_spread();
   if (reduced_) {
     const bool same_noise = signal_sd() == reduced_->signal_sd || reduced_->noise_keeps_pace;
-    if (same_noise && append_to_reduced(gather_sites(prior_, std::span(palpations_).last(more)))) return true;
-  } else if (palpations_.size() < static_cast<std::size_t>(2 * reduction_tried_at_) || palpations_.size() < kFewSites) {
+    if (same_noise && append_to_reduced(gather_sites(prior_, std::span(palpations_).last(more))))
+      return true;
+  } else if (palpations_.size() < static_cast<std::size_t>(2 * reduction_tried_at_) ||
+             palpations_.size() < kFewSites) {
     return false;
   }
   return reduce_all();
@@ -65,7 +68,9 @@ bool Belief::reduce_all() {
   reduced_.reset();
   if (row_count() == 0) state_origin(sites);
   const Regressors readings = regressors(sites);
-  if (sites.size() < kFewSites || readings.noise.minCoeff() < kLeastNoiseForReducedRank * options_.reduced_rank_tolerance) return false;
+  if (sites.size() < kFewSites ||
+      readings.noise.minCoeff() < kLeastNoiseForReducedRank * options_.reduced_rank_tolerance)
+    return false;
   reduction_tried_at_ = static_cast<int>(sites.size());
   features = Features::of(prior_, sites, options_.reduced_rank_tolerance, most, features);
   if (!features) return false;
@@ -76,9 +81,10 @@ bool Belief::reduce_all() {
   repeat_count_ = 0;
   readings_.clear();
   diagonal_.clear();
-  auto reduced = std::make_shared<Reduced>(Reduced{features, WeightSpace(features->at(prior_, sites), readings.noise, readings.right),
-                                                   static_cast<int>(sites.size()), signal_sd(), readings.all_plain,
-                                                   readings.noise.cwiseInverse().sum(), readings.scatter});
+  auto reduced = std::make_shared<Reduced>(
+      Reduced{features, WeightSpace(features->at(prior_, sites), readings.noise, readings.right),
+              static_cast<int>(sites.size()), signal_sd(), readings.all_plain,
+              readings.noise.cwiseInverse().sum(), readings.scatter});
   reduced_ = reduced;
   see_all();
   restate_reduced();
@@ -90,9 +96,11 @@ bool Belief::append_to_reduced(const std::vector<Site>& sites) {
   const Features& features = *reduced_->features;
   const Regressors readings = regressors(sites);
   if (!sites.empty()) {
-    if (readings.noise.minCoeff() < kLeastNoiseForReducedRank * options_.reduced_rank_tolerance) return false;
+    if (readings.noise.minCoeff() < kLeastNoiseForReducedRank * options_.reduced_rank_tolerance)
+      return false;
     const Eigen::MatrixXd seen = features.at(prior_, sites);
-    if (1.0 - seen.colwise().squaredNorm().minCoeff() > options_.reduced_rank_tolerance) return false;
+    if (1.0 - seen.colwise().squaredNorm().minCoeff() > options_.reduced_rank_tolerance)
+      return false;
     auto next = std::make_shared<Reduced>(*reduced_);
     const WeightSpace::Rows rows = next->weights.append(seen, readings.noise, readings.right);
     next->site_count += static_cast<int>(sites.size());
@@ -118,14 +126,18 @@ void Belief::restate_reduced() {
 /// The sums over the vertices, from the features alone: |f|^2 - f' A^-1 f and f.w.
 void Belief::see_all() {
   const Features& features = *reduced_->features;
-  const int rank = features.rank(), tile_count = prior_.tiles().count(), weight_count = sum_rows() - 2;
+  const int rank = features.rank(), tile_count = prior_.tiles().count(),
+            weight_count = sum_rows() - 2;
   const WeightSpace::Rows factor = reduced_->weights.factor();
-  const Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor> minus_weights = -reduced_->weights.weights().transpose();
-  const PackedFactor packed(factor.data(), rank, rank, rank), weights(minus_weights.data(), rank, weight_count, rank);
+  const Eigen::Matrix<double, 5, Eigen::Dynamic, Eigen::RowMajor> minus_weights =
+      -reduced_->weights.weights().transpose();
+  const PackedFactor packed(factor.data(), rank, rank, rank),
+      weights(minus_weights.data(), rank, weight_count, rank);
   const long per_tile = static_cast<long>(rank) * kLanes;
   auto sums = std::make_shared<Sums>(tile_count, sum_rows());
   for_ranges(tile_count, kTilesAtOnce, [&](int first, int last) {
-    const AlignedDoubles solved = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
+    const AlignedDoubles solved =
+        aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
     for (int begin = first; begin < last; begin += kTilesTogether) {
       const int count = std::min(kTilesTogether, last - begin);
       const double* tiles = features.tile(begin);
@@ -146,9 +158,11 @@ void Belief::see_all() {
 }
 
 /// What the last readings add to the sums: rows t f as if of V.
-void Belief::see(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& rows) {
+void Belief::see(
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& rows) {
   const Features& features = *reduced_->features;
-  const int rank = features.rank(), tile_count = prior_.tiles().count(), count = static_cast<int>(rows.rows());
+  const int rank = features.rank(), tile_count = prior_.tiles().count(),
+            count = static_cast<int>(rows.rows());
   const Eigen::MatrixXd whitened = reduced_->weights.whitened().bottomRows(count);
   const WeightSpace::Rows minus_rows = -rows;
   const PackedFactor packed(minus_rows.data(), rank, count, rank);
@@ -158,19 +172,23 @@ void Belief::see(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
     const AlignedDoubles v = aligned_doubles(static_cast<std::size_t>(kTilesTogether * per_tile));
     for (int begin = first; begin < last; begin += kTilesTogether) {
       const int tiles = std::min(kTilesTogether, last - begin);
-      std::copy_n(sums_->tile(begin), static_cast<long>(tiles) * sums->width * kLanes, sums->tile(begin));
+      std::copy_n(sums_->tile(begin), static_cast<long>(tiles) * sums->width * kLanes,
+                  sums->tile(begin));
       std::fill_n(v.get(), tiles * per_tile, 0.0);
       subtract_product(packed, features.rows(), begin, tiles, v.get(), per_tile);
       for (int tile = 0; tile < tiles; ++tile)
-        add_sums(v.get() + tile * per_tile, count, whitened.data(), count, sum_rows() - 2, sums->tile(begin + tile));
+        add_sums(v.get() + tile * per_tile, count, whitened.data(), count, sum_rows() - 2,
+                 sums->tile(begin + tile));
     }
   });
   sums_ = std::move(sums);
 }
 
-/// With E the residual's covariance, at most e everywhere, a the weights of the reduced belief at a place and s^2 its variance: the exact
-/// variance is the least of |(1, -a)|^2 in the covariance with E, plus a' D a, so s^2 + e (1 + |a|_1)^2 bounds it; and the means differ by
-/// (e(x) - E a)' alpha, alpha = D^-1 (y - mean). a' D a <= s^2 and alpha' D alpha <= y' S^-1 y bound both sums of magnitudes.
+/// With E the residual's covariance, at most e everywhere, a the weights of the reduced belief at a
+/// place and s^2 its variance: the exact variance is the least of |(1, -a)|^2 in the covariance
+/// with E, plus a' D a, so s^2 + e (1 + |a|_1)^2 bounds it; and the means differ by (e(x) - E a)'
+/// alpha, alpha = D^-1 (y - mean). a' D a <= s^2 and alpha' D alpha <= y' S^-1 y bound both sums of
+/// magnitudes.
 std::optional<ReducedRank> Belief::reduced_rank() const {
   if (!reduced_) return std::nullopt;
   const double signal = signal_sd();

@@ -12,8 +12,8 @@ namespace palpation {
 struct Belief::Reduced {
   std::shared_ptr<const Features> features;
   WeightSpace weights;
-  int site_count = 0;            // of places touched, each counted anew in every call of condition_on
-  double signal_sd = 1.0;        // that the noise is counted in
+  int site_count = 0;      // of places touched, each counted anew in every call of condition_on
+  double signal_sd = 1.0;  // that the noise is counted in
   bool noise_keeps_pace = true;  // with the signal's: all relative to it
   double precision = 0.0;        // sum 1 / d
   double scatter = 0.0;          // log likelihood of the readings given those merged

@@ -14,27 +14,34 @@ namespace {
 
 // The probe of Garg et al. 2016, section VII: a tip 4.5 mm wide.
 constexpr double kTipWidth_m = 0.0045;
-constexpr std::size_t kLeastFrozen = 8;  // readings: chance repeats the last digit of a plateau a few times
+constexpr std::size_t kLeastFrozen =
+    8;  // readings: chance repeats the last digit of a plateau a few times
 
 constexpr double kAcross = 0.6;        // of the longest pass: a row that crosses most of the tissue
 constexpr std::size_t kLeastRows = 3;  // fewer say nothing about what rows have in common
 constexpr double kMostOfAll = 0.5;     // of all readings lie on rows, or it is no scan
 
-constexpr double kFlat = 0.05;            // of the rows' usual range: no contact, no change
-constexpr double kGapWidth = 0.25;        // of the way between two groups of readings, without ...
-constexpr double kGapShare = 0.03;        // ... this share of the smaller group: an edge of tissue leaves four times as many
-constexpr double kLeastGroup = 0.01;      // of the readings: fewer are outliers, judged one by one
-constexpr double kSoundShare = 0.15;      // of the readings: tissue's own group is no smaller
-constexpr double kMostPokesApart = 0.05;  // of the readings: a poke fails alone, and few pokes fall on a tumour's edge
-constexpr double kStartUp_m = 0.003;      // after rest until the probe reads true
-constexpr double kSliding_m = 0.0011;     // between readings made in motion; farther apart they are pokes, each from rest
-constexpr double kDense_m = 0.0005;       // between readings: several to a millimetre, where tissue turns slowly ...
-constexpr double kTurnShare = 0.05;       // ... by less than this part of a step at one reading
+constexpr double kFlat = 0.05;      // of the rows' usual range: no contact, no change
+constexpr double kGapWidth = 0.25;  // of the way between two groups of readings, without ...
+constexpr double kGapShare =
+    0.03;  // ... this share of the smaller group: an edge of tissue leaves four times as many
+constexpr double kLeastGroup = 0.01;  // of the readings: fewer are outliers, judged one by one
+constexpr double kSoundShare = 0.15;  // of the readings: tissue's own group is no smaller
+constexpr double kMostPokesApart =
+    0.05;  // of the readings: a poke fails alone, and few pokes fall on a tumour's edge
+constexpr double kStartUp_m = 0.003;  // after rest until the probe reads true
+constexpr double kSliding_m =
+    0.0011;  // between readings made in motion; farther apart they are pokes, each from rest
+constexpr double kDense_m =
+    0.0005;  // between readings: several to a millimetre, where tissue turns slowly ...
+constexpr double kTurnShare = 0.05;  // ... by less than this part of a step at one reading
 constexpr std::size_t kLeastToBeGross = 20;
-constexpr double kGrossBelow = 10.0;    // ranges of nine tenths of the readings
-constexpr double kGrossAbove = 1000.0;  // the same: a tumour stands out of noise of 0.1 % by three hundred
-constexpr double kSure = 4.0;           // robust standard deviations
-constexpr double kBaseShare = 0.5;      // of the contrast: a row's base that steps as far as half a tumour
+constexpr double kGrossBelow = 10.0;  // ranges of nine tenths of the readings
+constexpr double kGrossAbove =
+    1000.0;                    // the same: a tumour stands out of noise of 0.1 % by three hundred
+constexpr double kSure = 4.0;  // robust standard deviations
+constexpr double kBaseShare =
+    0.5;  // of the contrast: a row's base that steps as far as half a tumour
 
 struct Screen {
   const Surface& surface;
@@ -72,7 +79,9 @@ void find_frozen(Screen& screen) {
   if (is_coarse) return;
   for (std::size_t first = 0, last = 0; first < screen.places.size(); first = last + 1) {
     double path_m = 0.0;
-    for (last = first; last + 1 < screen.places.size() && screen.reading(last + 1) == screen.reading(first); ++last) {
+    for (last = first;
+         last + 1 < screen.places.size() && screen.reading(last + 1) == screen.reading(first);
+         ++last) {
       path_m += (screen.places[last + 1] - screen.places[last]).norm();
     }
     if (last - first + 1 < kLeastFrozen || path_m <= kTipWidth_m) continue;
@@ -82,9 +91,12 @@ void find_frozen(Screen& screen) {
 
 /// Low readings of a row: healthy tissue's.
 double base_of(const std::vector<double>& row) { return quantile(row, 0.1); }
-double range_of(const std::vector<double>& row) { return quantile(row, 0.95) - quantile(row, 0.05); }
+double range_of(const std::vector<double>& row) {
+  return quantile(row, 0.95) - quantile(row, 0.05);
+}
 
-/// Rows with next to no change that lie apart from the nearest rows that have some: those between them may have drifted, a step a row.
+/// Rows with next to no change that lie apart from the nearest rows that have some: those between
+/// them may have drifted, a step a row.
 void find_flat_rows(Screen& screen, const std::vector<Pass>& rows) {
   std::vector<double> bases, ranges;
   for (const Pass& row : rows) {
@@ -97,7 +109,9 @@ void find_flat_rows(Screen& screen, const std::vector<Pass>& rows) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (ranges[i] < kFlat * usual || ranges[i] == 0.0) continue;
-    if (!alive.empty()) steps.push_back(std::abs(bases[i] - bases[alive.back()]) / static_cast<double>(i - alive.back()));
+    if (!alive.empty())
+      steps.push_back(std::abs(bases[i] - bases[alive.back()]) /
+                      static_cast<double>(i - alive.back()));
     alive.push_back(i);
   }
   if (alive.size() < kLeastRows) return;
@@ -109,7 +123,9 @@ void find_flat_rows(Screen& screen, const std::vector<Pass>& rows) {
       return std::abs(bases[i] - bases[other]) <= kSure * usual_step * rows_between;
     };
     const auto after = std::upper_bound(alive.begin(), alive.end(), i);
-    if ((after != alive.end() && is_near(*after)) || (after != alive.begin() && is_near(*(after - 1)))) continue;
+    if ((after != alive.end() && is_near(*after)) ||
+        (after != alive.begin() && is_near(*(after - 1))))
+      continue;
     for (std::size_t reading : rows[i]) screen.set_aside(reading, kNoContact);
   }
 }
@@ -126,8 +142,10 @@ struct Gap {
 /// The widest gap that no tissue leaves; of width 0 where there is none. `sorted` rises.
 Gap widest_gap(const std::vector<double>& sorted) {
   Gap best;
-  const auto least = static_cast<std::size_t>(std::ceil(kLeastGroup * static_cast<double>(sorted.size())));
-  for (std::size_t below = std::max<std::size_t>(least, 1), upper = below; below + least <= sorted.size(); ++below) {
+  const auto least =
+      static_cast<std::size_t>(std::ceil(kLeastGroup * static_cast<double>(sorted.size())));
+  for (std::size_t below = std::max<std::size_t>(least, 1), upper = below;
+       below + least <= sorted.size(); ++below) {
     // The farthest reading that leaves few enough in between.
     upper = std::max(upper, below);
     const auto few_between = [&](std::size_t first_above) {
@@ -137,17 +155,21 @@ Gap widest_gap(const std::vector<double>& sorted) {
     while (upper + least < sorted.size() && few_between(upper + 1)) ++upper;
     if (!few_between(upper)) continue;
     const Gap gap{sorted[below - 1], sorted[upper], below, sorted.size() - upper};
-    const double middle_below = sorted[below / 2], middle_above = sorted[upper + (sorted.size() - upper) / 2];
-    if (gap.width() > best.width() && gap.width() > kGapWidth * (middle_above - middle_below)) best = gap;
+    const double middle_below = sorted[below / 2],
+                 middle_above = sorted[upper + (sorted.size() - upper) / 2];
+    if (gap.width() > best.width() && gap.width() > kGapWidth * (middle_above - middle_below))
+      best = gap;
   }
   return best;
 }
 
-/// The widest stretch within the gap that no reading has at all: the few others in it belong to the side where they are.
+/// The widest stretch within the gap that no reading has at all: the few others in it belong to the
+/// side where they are.
 Gap empty_part(const std::vector<double>& sorted, const Gap& gap) {
   Gap widest{gap.low, gap.low, gap.below, gap.above};
   for (std::size_t i = gap.below; i < sorted.size() && sorted[i - 1] < gap.high; ++i) {
-    if (sorted[i] - sorted[i - 1] > widest.width()) widest = {sorted[i - 1], sorted[i], i, sorted.size() - i};
+    if (sorted[i] - sorted[i - 1] > widest.width())
+      widest = {sorted[i - 1], sorted[i], i, sorted.size() - i};
   }
   return widest;
 }
@@ -161,11 +183,15 @@ void find_levels_apart(Screen& screen, bool pokes) {
     Gap gap = widest_gap(sorted);
     // A gap narrower than tissue's own readings are spread is one of its own steps.
     if (gap.width() <= 0.0) return;
-    const bool lower_is_tissue = static_cast<double>(gap.below) >= kSoundShare * static_cast<double>(sorted.size());
-    const double spread = lower_is_tissue ? sorted[gap.below - 1] - sorted[gap.below / 50] : sorted.back() - gap.high;
+    const bool lower_is_tissue =
+        static_cast<double>(gap.below) >= kSoundShare * static_cast<double>(sorted.size());
+    const double spread =
+        lower_is_tissue ? sorted[gap.below - 1] - sorted[gap.below / 50] : sorted.back() - gap.high;
     if (gap.width() <= 0.5 * spread) return;
     gap = empty_part(sorted, gap);
-    if (pokes && static_cast<double>(std::min(gap.below, gap.above)) > kMostPokesApart * static_cast<double>(sorted.size())) return;
+    if (pokes && static_cast<double>(std::min(gap.below, gap.above)) >
+                     kMostPokesApart * static_cast<double>(sorted.size()))
+      return;
     for (std::size_t i = 0; i < screen.palpations.size(); ++i) {
       if (lower_is_tissue && screen.reading(i) > gap.low) screen.set_aside(i, kJammed);
       if (!lower_is_tissue && screen.reading(i) < gap.high) screen.set_aside(i, kNoContact);
@@ -174,7 +200,8 @@ void find_levels_apart(Screen& screen, bool pokes) {
 }
 
 /// Median of the readings on a row between two distances from its start; nothing without any.
-std::optional<double> reading_between(const Screen& screen, const Pass& row, double least_m, double most_m) {
+std::optional<double> reading_between(const Screen& screen, const Pass& row, double least_m,
+                                      double most_m) {
   std::vector<double> values;
   for (std::size_t i : row) {
     const double far_m = (screen.places[i] - screen.places[row.front()]).norm();
@@ -198,25 +225,30 @@ void find_start_ups(Screen& screen, const std::vector<Pass>& rows) {
     if (median_step_m(screen.places, row) > kSliding_m) continue;
     if (const auto change = change_at(screen, row, 0.0)) at_start.push_back(*change);
     const double length_m = (screen.places[row.back()] - screen.places[row.front()]).norm();
-    for (double from_m = 2.0 * kStartUp_m; from_m + 2.0 * kStartUp_m < length_m; from_m += kStartUp_m) {
+    for (double from_m = 2.0 * kStartUp_m; from_m + 2.0 * kStartUp_m < length_m;
+         from_m += kStartUp_m) {
       if (const auto change = change_at(screen, row, from_m)) elsewhere.push_back(*change);
     }
   }
   if (at_start.size() < kLeastRows || elsewhere.empty()) return;
   const double common = median(at_start);
-  const auto alike = std::count_if(at_start.begin(), at_start.end(), [&](double change) { return change * common > 0.0; });
+  const auto alike = std::count_if(at_start.begin(), at_start.end(),
+                                   [&](double change) { return change * common > 0.0; });
   if (static_cast<double>(alike) < 0.75 * static_cast<double>(at_start.size())) return;
   for (double& change : elsewhere) change = std::abs(change);
   if (std::abs(common) <= 2.0 * median(elsewhere)) return;
   for (const Pass& row : rows) {
     for (std::size_t i : row) {
-      if ((screen.places[i] - screen.places[row.front()]).norm() <= kStartUp_m) screen.set_aside(i, kStartUp);
+      if ((screen.places[i] - screen.places[row.front()]).norm() <= kStartUp_m)
+        screen.set_aside(i, kStartUp);
     }
   }
 }
 
 /// The range of the readings on all rows but one; nothing without any.
-std::optional<std::pair<double, double>> range_of_others(const Screen& screen, const std::vector<Pass>& rows, const Pass& row) {
+std::optional<std::pair<double, double>> range_of_others(const Screen& screen,
+                                                         const std::vector<Pass>& rows,
+                                                         const Pass& row) {
   std::vector<double> others;
   for (const Pass& other : rows) {
     if (&other == &row) continue;
@@ -228,8 +260,8 @@ std::optional<std::pair<double, double>> range_of_others(const Screen& screen, c
   return std::pair(*least, *greatest);
 }
 
-/// What comes next to a fault on its row belongs to it as far as it lies outside the range of the other rows: the probe's filter takes its
-/// time.
+/// What comes next to a fault on its row belongs to it as far as it lies outside the range of the
+/// other rows: the probe's filter takes its time.
 void find_transitions(Screen& screen, const std::vector<Pass>& rows) {
   for (const Pass& row : rows) {
     for (const std::string& reason : {kJammed, kNoContact}) {
@@ -238,7 +270,8 @@ void find_transitions(Screen& screen, const std::vector<Pass>& rows) {
       const auto range = range_of_others(screen, rows, row);
       if (!range) return;
       const auto is_outside = [&](std::size_t i) {
-        return reason == kJammed ? screen.reading(i) > range->second : screen.reading(i) < range->first;
+        return reason == kJammed ? screen.reading(i) > range->second
+                                 : screen.reading(i) < range->first;
       };
       for (std::size_t i = 1; i < row.size(); ++i) {
         if (is_fault(row[i - 1]) && is_outside(row[i])) screen.set_aside(row[i], reason);
@@ -250,8 +283,9 @@ void find_transitions(Screen& screen, const std::vector<Pass>& rows) {
   }
 }
 
-/// The greatest turn of a row's course at one reading: where its slope changes at once. A filtered step has one at its onset; tissue, felt
-/// by a tip of several millimetres, turns over many readings.
+/// The greatest turn of a row's course at one reading: where its slope changes at once. A filtered
+/// step has one at its onset; tissue, felt by a tip of several millimetres, turns over many
+/// readings.
 struct Turn {
   std::size_t at = 0;  // the last reading before it, in the row
   double size = 0.0;
@@ -261,17 +295,20 @@ Turn sharpest_turn(const Screen& screen, const Pass& row) {
   Turn sharpest;
   for (std::size_t i = 1; i + 1 < row.size(); ++i) {
     if (!screen.uses(row[i - 1]) || !screen.uses(row[i]) || !screen.uses(row[i + 1])) continue;
-    const double turn = std::abs(screen.reading(row[i + 1]) - 2.0 * screen.reading(row[i]) + screen.reading(row[i - 1]));
+    const double turn = std::abs(screen.reading(row[i + 1]) - 2.0 * screen.reading(row[i]) +
+                                 screen.reading(row[i - 1]));
     if (turn > sharpest.size) sharpest = {i, turn};
   }
   return sharpest;
 }
 
-/// Rows of which one end lies apart from the readings of all other rows, up to a sharp turn: the probe jammed or hung in the air there.
+/// Rows of which one end lies apart from the readings of all other rows, up to a sharp turn: the
+/// probe jammed or hung in the air there.
 void find_parts_apart(Screen& screen, const std::vector<Pass>& rows) {
   std::vector<double> turns;
   for (const Pass& row : rows) {
-    if (median_step_m(screen.places, row) <= kDense_m) turns.push_back(sharpest_turn(screen, row).size);
+    if (median_step_m(screen.places, row) <= kDense_m)
+      turns.push_back(sharpest_turn(screen, row).size);
   }
   if (turns.size() < kLeastRows) return;
   const double usual_turn = median(turns);
@@ -290,7 +327,8 @@ void find_parts_apart(Screen& screen, const std::vector<Pass>& rows) {
     };
     for (const double sign : {1.0, -1.0}) {
       const double bound = sign > 0.0 ? greatest : least;
-      const bool before = is_apart(0, turn.at + 1, sign, bound), after = is_apart(turn.at + 1, row.size(), sign, bound);
+      const bool before = is_apart(0, turn.at + 1, sign, bound),
+                 after = is_apart(turn.at + 1, row.size(), sign, bound);
       if (before == after) continue;  // a whole row apart is not this fault
       const double step = std::abs(screen.reading(row[turn.at]) - bound);
       if (turn.size <= kTurnShare * step) continue;
@@ -321,9 +359,13 @@ void find_base_steps(Screen& screen, const std::vector<Pass>& rows) {
     }
     const double step = bases[i] - median(around);
     // A tilt goes on beyond the last row but one.
-    const std::size_t next = i == 0 ? 1 : i - 1, after = i == 0 ? 2 : i + 1 == bases.size() ? i - 2 : i + 1;
-    const double bend = i == 0 || i + 1 == bases.size() ? bases[i] - 2.0 * bases[next] + bases[after] : step;
-    steps.push_back(step * bend > 0.0 ? std::copysign(std::min(std::abs(step), std::abs(bend)), step) : 0.0);
+    const std::size_t next = i == 0 ? 1 : i - 1, after = i == 0                  ? 2
+                                                         : i + 1 == bases.size() ? i - 2
+                                                                                 : i + 1;
+    const double bend =
+        i == 0 || i + 1 == bases.size() ? bases[i] - 2.0 * bases[next] + bases[after] : step;
+    steps.push_back(
+        step * bend > 0.0 ? std::copysign(std::min(std::abs(step), std::abs(bend)), step) : 0.0);
   }
   const double scale = robust_sd(steps);
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -334,21 +376,27 @@ void find_base_steps(Screen& screen, const std::vector<Pass>& rows) {
 
 /// Passes that each cross most of the tissue, if they are most of what was felt; otherwise none.
 std::vector<Pass> rows_among(const std::vector<Pass>& passes, const std::vector<Vec3>& places) {
-  const auto length_m = [&](const Pass& pass) { return (places[pass.back()] - places[pass.front()]).norm(); };
+  const auto length_m = [&](const Pass& pass) {
+    return (places[pass.back()] - places[pass.front()]).norm();
+  };
   double longest_m = 0.0;
   for (const Pass& pass : passes) longest_m = std::max(longest_m, length_m(pass));
   std::vector<Pass> rows;
   std::size_t on_rows = 0;
   for (const Pass& pass : passes) {
-    if (length_m(pass) < kAcross * longest_m || length_m(pass) < 2.0 * kTipWidth_m || pass.size() < kLeastFrozen) continue;
+    if (length_m(pass) < kAcross * longest_m || length_m(pass) < 2.0 * kTipWidth_m ||
+        pass.size() < kLeastFrozen)
+      continue;
     rows.push_back(pass);
     on_rows += pass.size();
   }
-  const bool is_scan = rows.size() >= 2 && static_cast<double>(on_rows) >= kMostOfAll * static_cast<double>(places.size());
+  const bool is_scan = rows.size() >= 2 && static_cast<double>(on_rows) >=
+                                               kMostOfAll * static_cast<double>(places.size());
   return is_scan ? rows : std::vector<Pass>{};
 }
 
-/// What no tissue reads: far below all others, for tumours stand out upwards; or so far above them that no stiffness would.
+/// What no tissue reads: far below all others, for tumours stand out upwards; or so far above them
+/// that no stiffness would.
 void find_gross(Screen& screen) {
   const std::vector<double> readings = used_readings(screen.palpations);
   if (readings.size() < kLeastToBeGross) return;
@@ -356,7 +404,8 @@ void find_gross(Screen& screen) {
   if (!(high > low)) return;
   for (std::size_t i = 0; i < screen.palpations.size(); ++i) {
     const double reading = screen.palpations[i].reading;
-    if (reading < low - kGrossBelow * (high - low) || reading > high + kGrossAbove * (high - low)) screen.set_aside(i, kOutlier);
+    if (reading < low - kGrossBelow * (high - low) || reading > high + kGrossAbove * (high - low))
+      screen.set_aside(i, kOutlier);
   }
 }
 
@@ -365,12 +414,14 @@ void find_gross(Screen& screen) {
 std::vector<Palpation> screened(const Surface& surface, std::span<const Palpation> palpations) {
   std::vector<Palpation> result(palpations.begin(), palpations.end());
   Screen screen{surface, result, {}};
-  for (const Palpation& palpation : result) screen.places.push_back(surface.position(palpation.where));
+  for (const Palpation& palpation : result)
+    screen.places.push_back(surface.position(palpation.where));
   const std::vector<Pass> rows = rows_among(passes_of(screen.places), screen.places);
   find_frozen(screen);
   if (!rows.empty()) {
     find_flat_rows(screen, rows);
-    const bool pokes = std::ranges::all_of(rows, [&](const Pass& row) { return median_step_m(screen.places, row) > kSliding_m; });
+    const bool pokes = std::ranges::all_of(
+        rows, [&](const Pass& row) { return median_step_m(screen.places, row) > kSliding_m; });
     find_levels_apart(screen, pokes);
     find_start_ups(screen, rows);
     find_parts_apart(screen, rows);

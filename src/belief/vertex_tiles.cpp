@@ -22,7 +22,8 @@ VertexTiles::VertexTiles(const Prior& prior) {
   coordinates_.resize(vertex_.size() * 3);
   for (std::size_t place = 0; place < vertex_.size(); ++place) {
     const Vec3 x = prior.coordinates(vertex_[place]);
-    for (int axis = 0; axis < 3; ++axis) coordinates_[(place / kLanes * 3 + axis) * kLanes + place % kLanes] = x[axis];
+    for (int axis = 0; axis < 3; ++axis)
+      coordinates_[(place / kLanes * 3 + axis) * kLanes + place % kLanes] = x[axis];
   }
 }
 

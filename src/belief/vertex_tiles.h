@@ -1,4 +1,5 @@
-/// The order in which a belief stores the vertices: tiles of eight that lie together, so that what is near is looked at together.
+/// The order in which a belief stores the vertices: tiles of eight that lie together, so that what
+/// is near is looked at together.
 #pragma once
 
 #include <memory>
@@ -9,8 +10,9 @@
 
 namespace palpation {
 
-/// Places are numbered tile * kLanes + lane. In the intrinsic metric they are the vertices themselves, as the spectrum has them; in the
-/// others they follow the surface's locality order. The last tile is filled up with its last vertex, again and again.
+/// Places are numbered tile * kLanes + lane. In the intrinsic metric they are the vertices
+/// themselves, as the spectrum has them; in the others they follow the surface's locality order.
+/// The last tile is filled up with its last vertex, again and again.
 class VertexTiles {
  public:
   explicit VertexTiles(const Prior& prior);
@@ -22,7 +24,9 @@ class VertexTiles {
   const int* vertices(int tile) const { return vertex_.data() + static_cast<long>(tile) * kLanes; }
   int place(int vertex) const { return place_[vertex]; }
   /// Eight x, eight y, eight z in the metric.
-  const double* coordinates(int tile) const { return coordinates_.data() + static_cast<long>(tile) * 3 * kLanes; }
+  const double* coordinates(int tile) const {
+    return coordinates_.data() + static_cast<long>(tile) * 3 * kLanes;
+  }
 
  private:
   std::vector<int> vertex_;  // in whole tiles

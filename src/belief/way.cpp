@@ -11,20 +11,23 @@ constexpr double kSameDirection = 0.999;  // cosine
 
 }  // namespace
 
-std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const Palpation> palpations, double within_m,
+std::vector<Palpation> merged_on_the_way(const Surface& surface,
+                                         std::span<const Palpation> palpations, double within_m,
                                          double noise_variance) {
   std::vector<Palpation> merged;
   const auto variance_of = [&](const Palpation& palpation) {
     return std::isnan(palpation.noise_variance) ? noise_variance : palpation.noise_variance;
   };
   const auto may_merge = [&](const Palpation& palpation) {
-    return palpation.kind == TouchKind::Way && palpation.set_aside.empty() && variance_of(palpation) > 0.0;
+    return palpation.kind == TouchKind::Way && palpation.set_aside.empty() &&
+           variance_of(palpation) > 0.0;
   };
   for (std::size_t first = 0, end = 0; first < palpations.size(); first = end) {
     const Palpation& one = palpations[first];
     const Vec3 start = surface.position(one.where);
     const auto joins = [&](const Palpation& next) {
-      return may_merge(one) && may_merge(next) && next.batch == one.batch && next.travel.dot(one.travel) > kSameDirection &&
+      return may_merge(one) && may_merge(next) && next.batch == one.batch &&
+             next.travel.dot(one.travel) > kSameDirection &&
              (surface.position(next.where) - start).norm() <= within_m;
     };
     end = first + 1;
@@ -41,7 +44,8 @@ std::vector<Palpation> merged_on_the_way(const Surface& surface, std::span<const
     }
     const double step = (shift / precision).norm();
     if (step > 0.0) {
-      const std::vector<SurfacePoint> middle = way_between(surface, one.where, palpations[end - 1].where, step);
+      const std::vector<SurfacePoint> middle =
+          way_between(surface, one.where, palpations[end - 1].where, step);
       if (!middle.empty()) merged.back().where = middle.front();
     }
     merged.back().reading = one.reading + offset / precision;

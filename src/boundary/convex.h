@@ -7,7 +7,8 @@
 
 namespace palpation {
 
-/// A convex polygon that half-planes cut smaller: a triangle cut three times has at most six corners.
+/// A convex polygon that half-planes cut smaller: a triangle cut three times has at most six
+/// corners.
 class Convex {
  public:
   Convex(const Vec2& a, const Vec2& b, const Vec2& c) : corners_{a, b, c}, count_(3) {}
@@ -30,7 +31,8 @@ class Convex {
 
   double area() const {
     double twice = 0.0;
-    for (int i = 2; i < count_; ++i) twice += twice_area(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+    for (int i = 2; i < count_; ++i)
+      twice += twice_area(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
     return 0.5 * twice;
   }
 

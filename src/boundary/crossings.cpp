@@ -24,9 +24,12 @@ using Box = Eigen::AlignedBox2d;
 
 Vec2 near(const ExactPoint& point) { return {point.approx().x().inf(), point.approx().y().inf()}; }
 
-bool is_lower(const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
+bool is_lower(const Vec2& a, const Vec2& b) {
+  return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+}
 
-/// From the lower end (x before y) to the higher. Edges that are equal count as one: they are merged before the overlay is made.
+/// From the lower end (x before y) to the higher. Edges that are equal count as one: they are
+/// merged before the overlay is made.
 std::vector<Edge> edges_of(std::span<const ExactRing* const> rings) {
   std::vector<Edge> edges;
   for (const ExactRing* ring : rings) {
@@ -36,14 +39,18 @@ std::vector<Edge> edges_of(std::span<const ExactRing* const> rings) {
       edges.push_back(is_lower(a, b) ? Edge{a, b} : Edge{b, a});
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const Edge& e, const Edge& f) { return e.from == f.from ? is_lower(e.to, f.to) : is_lower(e.from, f.from); });
-  edges.erase(std::unique(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) { return e.from == f.from && e.to == f.to; }),
-              edges.end());
+  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
+    return e.from == f.from ? is_lower(e.to, f.to) : is_lower(e.from, f.from);
+  });
+  edges.erase(
+      std::unique(edges.begin(), edges.end(),
+                  [](const Edge& e, const Edge& f) { return e.from == f.from && e.to == f.to; }),
+      edges.end());
   return edges;
 }
 
-/// Pairs of edges that meet at one point, where more than a hundred do: the time that an overlay takes grows with their number.
+/// Pairs of edges that meet at one point, where more than a hundred do: the time that an overlay
+/// takes grows with their number.
 long crowded_pairs(const std::vector<Edge>& edges) {
   constexpr long kCrowd = 100;
   std::vector<Vec2> ends;
@@ -52,7 +59,8 @@ long crowded_pairs(const std::vector<Edge>& edges) {
   std::sort(ends.begin(), ends.end(), is_lower);
   long pairs = 0;
   for (auto first = ends.begin(); first != ends.end();) {
-    const auto last = std::find_if(first, ends.end(), [&](const Vec2& end) { return end != *first; });
+    const auto last =
+        std::find_if(first, ends.end(), [&](const Vec2& end) { return end != *first; });
     const long crowd = last - first;
     if (crowd > kCrowd) pairs += crowd * (crowd - 1) / 2;
     first = last;
@@ -92,14 +100,18 @@ bool cross_in(const Edge& e, const Edge& f, const Box& box) {
   const double slant = cross(along_e, along_f);
   const double on_e = cross(f.from - e.from, along_f) / slant;
   const double on_f = cross(f.from - e.from, along_e) / slant;
-  return on_e > 0.0 && on_e < 1.0 && on_f > 0.0 && on_f < 1.0 && is_in(box, e.from + on_e * along_e);
+  return on_e > 0.0 && on_e < 1.0 && on_f > 0.0 && on_f < 1.0 &&
+         is_in(box, e.from + on_e * along_e);
 }
 
-/// Whether the edges run along one line, to rounding, and share a part of it that begins in the box.
+/// Whether the edges run along one line, to rounding, and share a part of it that begins in the
+/// box.
 bool overlap_in(const Edge& e, const Edge& f, const Box& box, double rounding) {
   const Vec2 along = e.to - e.from;
   const double reach = rounding * along.lpNorm<1>();
-  if (std::abs(cross(along, f.from - e.from)) > reach || std::abs(cross(along, f.to - e.from)) > reach) return false;
+  if (std::abs(cross(along, f.from - e.from)) > reach ||
+      std::abs(cross(along, f.to - e.from)) > reach)
+    return false;
   const Vec2& first = is_lower(e.from, f.from) ? f.from : e.from;
   const Vec2& last = is_lower(e.to, f.to) ? e.to : f.to;
   return is_lower(first, last) && is_in(box, first);
@@ -107,9 +119,11 @@ bool overlap_in(const Edge& e, const Edge& f, const Box& box, double rounding) {
 
 class Count {
  public:
-  Count(const std::vector<Edge>& edges, double rounding, long limit) : edges_(edges), rounding_(rounding), crossings_left_(limit) {}
+  Count(const std::vector<Edge>& edges, double rounding, long limit)
+      : edges_(edges), rounding_(rounding), crossings_left_(limit) {}
 
-  /// Halves the box, across the axis that leaves fewer pairs, until few edges are left. False when the limit is passed.
+  /// Halves the box, across the axis that leaves fewer pairs, until few edges are left. False when
+  /// the limit is passed.
   bool within(const Box& box, const std::vector<int>& edges, int depth) {
     work_left_ -= static_cast<long>(edges.size());
     if (work_left_ < 0) return false;
@@ -117,7 +131,8 @@ class Count {
     const Halves across_x = halves(box, edges, 0);
     const Halves across_y = halves(box, edges, 1);
     const Halves& better = across_x.pairs() <= across_y.pairs() ? across_x : across_y;
-    return within(better.low_box, better.low, depth + 1) && within(better.high_box, better.high, depth + 1);
+    return within(better.low_box, better.low, depth + 1) &&
+           within(better.high_box, better.high, depth + 1);
   }
 
  private:
@@ -173,7 +188,8 @@ bool cross_at_most(long limit, std::span<const ExactRing* const> rings) {
     all.push_back(static_cast<int>(all.size()));
   }
   // Highest corners are in the box too.
-  const double greatest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double greatest =
+      std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * greatest;
   box.max().array() += rounding;
   return Count(edges, rounding, limit).within(box, all, 0);

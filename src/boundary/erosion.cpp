@@ -26,21 +26,25 @@ std::vector<std::vector<int>> neighbours(const Surface& surface) {
   return around;
 }
 
-/// How far along the edge from a place inside the ball around `centre` to one outside its sphere is crossed, in [0, 1].
+/// How far along the edge from a place inside the ball around `centre` to one outside its sphere is
+/// crossed, in [0, 1].
 double crossing(const Vec3& centre, const Vec3& inside, const Vec3& outside, double radius_m) {
   const Vec3 start = inside - centre, way = outside - inside;
-  const double a = way.squaredNorm(), b = start.dot(way), c = start.squaredNorm() - radius_m * radius_m;
+  const double a = way.squaredNorm(), b = start.dot(way),
+               c = start.squaredNorm() - radius_m * radius_m;
   return std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, 1.0);
 }
 
 }  // namespace
 
 Eroded eroded(const Surface& surface, const Field& field, double radius_m) {
-  require(std::isfinite(radius_m) && radius_m >= 0.0, "eroded", "radius_m = " + text_of(radius_m), "must be finite and not negative");
-  require(field.size() == surface.vertex_count(), "eroded", "a field of " + std::to_string(field.size()) + " values",
-          "must have one per vertex");
+  require(std::isfinite(radius_m) && radius_m >= 0.0, "eroded", "radius_m = " + text_of(radius_m),
+          "must be finite and not negative");
+  require(field.size() == surface.vertex_count(), "eroded",
+          "a field of " + std::to_string(field.size()) + " values", "must have one per vertex");
   Eroded result{field, std::vector<int>(static_cast<std::size_t>(surface.vertex_count()))};
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) result.from[static_cast<std::size_t>(vertex)] = vertex;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
+    result.from[static_cast<std::size_t>(vertex)] = vertex;
   if (radius_m == 0.0) return result;
   const std::vector<std::vector<int>> around = neighbours(surface);
   for_ranges(surface.vertex_count(), 256, [&](int first, int last) {
@@ -61,7 +65,8 @@ Eroded eroded(const Surface& surface, const Field& field, double radius_m) {
         for (int next : around[static_cast<std::size_t>(inside)]) {
           if (seen[static_cast<std::size_t>(next)] == centre) continue;
           if ((surface.vertex(next) - middle).norm() > radius_m) {
-            const double share = crossing(middle, surface.vertex(inside), surface.vertex(next), radius_m);
+            const double share =
+                crossing(middle, surface.vertex(inside), surface.vertex(next), radius_m);
             take(std::lerp(field[inside], field[next], share), share < 0.5 ? inside : next);
             continue;
           }

@@ -19,7 +19,9 @@ double nearest(const Number& value) {
   return leading + CGAL::to_double(Number(value - Number(leading)));
 }
 
-bool is_double(const ExactPoint& point) { return point.approx().x().is_point() && point.approx().y().is_point(); }
+bool is_double(const ExactPoint& point) {
+  return point.approx().x().is_point() && point.approx().y().is_point();
+}
 
 /// value * 2^bits, cut to an integer.
 Integer fixed_point(const Rational& value, int bits) {
@@ -38,7 +40,8 @@ double greatest_coordinate(const std::vector<ExactRing>& rings) {
   double greatest = 0.0;
   for (const ExactRing& ring : rings) {
     for (const ExactPoint& point : ring) {
-      greatest = std::max({greatest, CGAL::abs(point.approx().x()).sup(), CGAL::abs(point.approx().y()).sup()});
+      greatest = std::max(
+          {greatest, CGAL::abs(point.approx().x()).sup(), CGAL::abs(point.approx().y()).sup()});
     }
   }
   return greatest;

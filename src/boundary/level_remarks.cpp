@@ -11,7 +11,8 @@ namespace {
 
 double way_around(const Surface& surface, int face) {
   const Eigen::Vector3i t = surface.triangle(face);
-  return (surface.vertex(t[1]) - surface.vertex(t[0])).norm() + (surface.vertex(t[2]) - surface.vertex(t[1])).norm() +
+  return (surface.vertex(t[1]) - surface.vertex(t[0])).norm() +
+         (surface.vertex(t[2]) - surface.vertex(t[1])).norm() +
          (surface.vertex(t[0]) - surface.vertex(t[2])).norm();
 }
 
@@ -28,7 +29,8 @@ bool is_small(const Surface& surface, const LevelLoop& loop) {
   return length < least;
 }
 
-/// Vertices at the level, less those of triangles in which something is above it, or all of which is at it.
+/// Vertices at the level, less those of triangles in which something is above it, or all of which
+/// is at it.
 int count_bare_vertices(const Surface& surface, const Field& field, double level) {
   std::vector<bool> bare(field.size());
   for (int vertex = 0; vertex < field.size(); ++vertex) bare[vertex] = field[vertex] == level;
@@ -46,22 +48,27 @@ int count_bare_vertices(const Surface& surface, const Field& field, double level
 std::vector<std::string> LevelRemarks::words() const {
   std::vector<std::string> words;
   if (small_loops == 1) {
-    words.emplace_back("1 loop of the boundary is smaller than a triangle of the mesh, which cannot show how large it really is");
+    words.emplace_back(
+        "1 loop of the boundary is smaller than a triangle of the mesh, which cannot show how "
+        "large it really is");
   } else if (small_loops > 1) {
     words.push_back(std::to_string(small_loops) +
-                    " loops of the boundary are smaller than a triangle of the mesh, which cannot show how large they really are");
+                    " loops of the boundary are smaller than a triangle of the mesh, which cannot "
+                    "show how large they really are");
   }
   if (bare_vertices == 1) {
     words.emplace_back("1 vertex only just reaches the level and bounds no area");
   } else if (bare_vertices > 1) {
-    words.push_back(std::to_string(bare_vertices) + " vertices only just reach the level and bound no area");
+    words.push_back(std::to_string(bare_vertices) +
+                    " vertices only just reach the level and bound no area");
   }
   return words;
 }
 
 LevelRemarks remarks_on_level_set(const Surface& surface, const Field& field, double level) {
   LevelRemarks remarks;
-  for (const LevelLoop& loop : level_loops(surface, field, level)) remarks.small_loops += is_small(surface, loop) ? 1 : 0;
+  for (const LevelLoop& loop : level_loops(surface, field, level))
+    remarks.small_loops += is_small(surface, loop) ? 1 : 0;
   remarks.bare_vertices = count_bare_vertices(surface, field, level);
   return remarks;
 }

@@ -33,7 +33,8 @@ std::vector<CrossedFace> crossed_faces(const Surface& surface, const Field& fiel
   std::vector<CrossedFace> crossed;
   const Triangles& triangles = surface.mesh().triangles;
   for (int face = 0; face < surface.face_count(); ++face) {
-    const std::array<bool, 3> inside{field[triangles(face, 0)] >= level, field[triangles(face, 1)] >= level,
+    const std::array<bool, 3> inside{field[triangles(face, 0)] >= level,
+                                     field[triangles(face, 1)] >= level,
                                      field[triangles(face, 2)] >= level};
     if (inside[0] == inside[1] && inside[1] == inside[2]) continue;
     const int apex = inside[1] == inside[2] ? 0 : (inside[0] == inside[2] ? 1 : 2);
@@ -42,10 +43,11 @@ std::vector<CrossedFace> crossed_faces(const Surface& surface, const Field& fiel
   return crossed;
 }
 
-/// The crossed triangles by themselves, each with corners of its own, which carry their barycentric weights: so each point that the filter
-/// makes tells where it is in its triangle, exactly, and no point is looked up or merged by its coordinates.
-vtkNew<vtkPolyData> corners_of(const std::vector<CrossedFace>& crossed, const Surface& surface, const Field& field, double level,
-                               double scale) {
+/// The crossed triangles by themselves, each with corners of its own, which carry their barycentric
+/// weights: so each point that the filter makes tells where it is in its triangle, exactly, and no
+/// point is looked up or merged by its coordinates.
+vtkNew<vtkPolyData> corners_of(const std::vector<CrossedFace>& crossed, const Surface& surface,
+                               const Field& field, double level, double scale) {
   const auto count = static_cast<vtkIdType>(crossed.size());
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -82,7 +84,8 @@ vtkNew<vtkPolyData> corners_of(const std::vector<CrossedFace>& crossed, const Su
 }
 
 /// Weights of the two ends of the line in each crossed triangle, in the filter's order.
-std::vector<std::array<Vec3, 2>> contour(const std::vector<CrossedFace>& crossed, vtkPolyData* mesh, double level) {
+std::vector<std::array<Vec3, 2>> contour(const std::vector<CrossedFace>& crossed, vtkPolyData* mesh,
+                                         double level) {
   vtkNew<vtkNonMergingPointLocator> locator;
   vtkNew<vtkContourFilter> filter;
   filter->SetInputData(mesh);
@@ -95,9 +98,12 @@ std::vector<std::array<Vec3, 2>> contour(const std::vector<CrossedFace>& crossed
   vtkDataArray* weights = lines->GetPointData()->GetArray("weights");
   auto* numbers = vtkIntArray::SafeDownCast(lines->GetCellData()->GetArray("number"));
   const auto count = static_cast<vtkIdType>(crossed.size());
-  if (lines->GetNumberOfLines() != count || lines->GetNumberOfCells() != count || weights == nullptr || numbers == nullptr) {
-    throw NumericalError("level_loops: the contour filter made " + std::to_string(lines->GetNumberOfLines()) + " lines in " +
-                         std::to_string(count) + " triangles that the level " + text_of(level) + " crosses");
+  if (lines->GetNumberOfLines() != count || lines->GetNumberOfCells() != count ||
+      weights == nullptr || numbers == nullptr) {
+    throw NumericalError("level_loops: the contour filter made " +
+                         std::to_string(lines->GetNumberOfLines()) + " lines in " +
+                         std::to_string(count) + " triangles that the level " + text_of(level) +
+                         " crosses");
   }
   std::vector<std::array<Vec3, 2>> ends(crossed.size());
   vtkCellArray* cells = lines->GetLines();
@@ -105,23 +111,28 @@ std::vector<std::array<Vec3, 2>> contour(const std::vector<CrossedFace>& crossed
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     cells->GetCellAtId(i, size, ids);
-    for (int end = 0; end < 2; ++end) weights->GetTuple(ids[end], ends[numbers->GetValue(i)][end].data());
+    for (int end = 0; end < 2; ++end)
+      weights->GetTuple(ids[end], ends[numbers->GetValue(i)][end].data());
   }
   return ends;
 }
 
-/// A point so near to a vertex that it has the vertex' coordinates, or is nearer than any rounding of its edge, is at the vertex: so no
-/// piece of a line is without length because of it, and none has the size of nothing.
+/// A point so near to a vertex that it has the vertex' coordinates, or is nearer than any rounding
+/// of its edge, is at the vertex: so no piece of a line is without length because of it, and none
+/// has the size of nothing.
 Vec3 settled(const Surface& surface, int face, const Vec3& weights) {
   const Vec3 place = surface.position({face, weights});
   for (int corner = 0; corner < 3; ++corner) {
     const double others = weights[(corner + 1) % 3] + weights[(corner + 2) % 3];
-    if (others < 0x1p-60 || (weights[corner] > 0.0 && place == surface.vertex(surface.triangle(face)[corner]))) return Vec3::Unit(corner);
+    if (others < 0x1p-60 ||
+        (weights[corner] > 0.0 && place == surface.vertex(surface.triangle(face)[corner])))
+      return Vec3::Unit(corner);
   }
   return weights;
 }
 
-/// Where the level crosses the edge from a corner of the face to the next, as the filter says it: counted from the lower value.
+/// Where the level crosses the edge from a corner of the face to the next, as the filter says it:
+/// counted from the lower value.
 Vec3 crossing(const Surface& surface, const Field& field, double level, int face, int corner) {
   int low = corner;
   int high = (corner + 1) % 3;
@@ -134,16 +145,21 @@ Vec3 crossing(const Surface& surface, const Field& field, double level, int face
   return (1.0 - part) * Vec3::Unit(low) + part * Vec3::Unit(high);
 }
 
-/// Tells the two ends apart: an end with weight at the far corner of one of the apex' two edges is on that edge; without, it is at the apex
-/// itself, which is on both.
+/// Tells the two ends apart: an end with weight at the far corner of one of the apex' two edges is
+/// on that edge; without, it is at the apex itself, which is on both.
 LevelSegment segment(const CrossedFace& crossed, std::array<Vec3, 2> ends) {
   const int next = (crossed.apex + 1) % 3;
   const int previous = (crossed.apex + 2) % 3;
   if (ends[0][previous] > 0.0 || ends[1][next] > 0.0) std::swap(ends[0], ends[1]);
   if (ends[0][previous] != 0.0 || ends[1][next] != 0.0) {
-    throw NumericalError("level_loops: the contour filter left the edges of triangle " + std::to_string(crossed.face));
+    throw NumericalError("level_loops: the contour filter left the edges of triangle " +
+                         std::to_string(crossed.face));
   }
-  LevelSegment made{.face = crossed.face, .entry = crossed.apex, .exit = previous, .entry_weights = ends[0], .exit_weights = ends[1]};
+  LevelSegment made{.face = crossed.face,
+                    .entry = crossed.apex,
+                    .exit = previous,
+                    .entry_weights = ends[0],
+                    .exit_weights = ends[1]};
   if (!crossed.apex_inside) {
     std::swap(made.entry, made.exit);
     std::swap(made.entry_weights, made.exit_weights);
@@ -158,7 +174,9 @@ double safe_scale(double greatest) { return greatest > 1e300 ? 0x1p-8 : 1.0; }
 double scaled_value(double value, double level, double scale) {
   const double scaled = scale * value;
   // Scaling may round a tiny value up to the level: it stays below.
-  return value < level && scaled >= scale * level ? std::nextafter(scale * level, -std::numeric_limits<double>::infinity()) : scaled;
+  return value < level && scaled >= scale * level
+             ? std::nextafter(scale * level, -std::numeric_limits<double>::infinity())
+             : scaled;
 }
 
 std::vector<LevelSegment> level_segments(const Surface& surface, const Field& field, double level) {

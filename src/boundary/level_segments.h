@@ -7,9 +7,10 @@
 
 namespace palpation {
 
-/// One piece of the level line: across a face, with the inside (field >= level) on its left seen from outside. It enters by the edge from
-/// corner `entry` to the next one and leaves by the edge from corner `exit` to the next one. Two faces name the same point of an edge by
-/// the same weights.
+/// One piece of the level line: across a face, with the inside (field >= level) on its left seen
+/// from outside. It enters by the edge from corner `entry` to the next one and leaves by the edge
+/// from corner `exit` to the next one. Two faces name the same point of an edge by the same
+/// weights.
 struct LevelSegment {
   int face;
   int entry;
@@ -18,7 +19,8 @@ struct LevelSegment {
   Vec3 exit_weights;
 };
 
-/// A factor, 1 but for values near the limit of doubles, by which differences of values up to `greatest` stay finite.
+/// A factor, 1 but for values near the limit of doubles, by which differences of values up to
+/// `greatest` stay finite.
 double safe_scale(double greatest);
 
 /// The field's value times that factor, on the same side of the scaled level as before.

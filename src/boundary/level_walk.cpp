@@ -19,11 +19,15 @@ int corner_of(const Surface& surface, int face, int vertex) {
   return triangle[0] == vertex ? 0 : (triangle[1] == vertex ? 1 : 2);
 }
 
-int origin(const Surface& surface, const FaceEdge& edge) { return surface.triangle(edge.face)[edge.corner]; }
-int tip(const Surface& surface, const FaceEdge& edge) { return surface.triangle(edge.face)[(edge.corner + 1) % 3]; }
+int origin(const Surface& surface, const FaceEdge& edge) {
+  return surface.triangle(edge.face)[edge.corner];
+}
+int tip(const Surface& surface, const FaceEdge& edge) {
+  return surface.triangle(edge.face)[(edge.corner + 1) % 3];
+}
 
-/// The border edge that leaves a border vertex with the tissue on its left: at the end of the vertex' fan, which is walked from any of its
-/// faces.
+/// The border edge that leaves a border vertex with the tissue on its left: at the end of the
+/// vertex' fan, which is walked from any of its faces.
 FaceEdge border_edge_from(const Surface& surface, int vertex, int face) {
   for (;;) {
     const int corner = corner_of(surface, face, vertex);
@@ -46,14 +50,19 @@ Step step_at(const Surface& surface, int face, int entry, const Vec3& weights) {
 
 Step border_step(const Surface& surface, const FaceEdge& edge) {
   const int vertex = origin(surface, edge);
-  return {.point = {edge.face, Vec3::Unit(edge.corner)}, .place = {vertex, vertex}, .on_border = true};
+  return {
+      .point = {edge.face, Vec3::Unit(edge.corner)}, .place = {vertex, vertex}, .on_border = true};
 }
 
 /// Joins segments by the mesh edges they share.
 class Walk {
  public:
   Walk(const Surface& surface, const Field& field, double level)
-      : surface_(surface), field_(field), level_(level), segments_(level_segments(surface, field, level)), done_(segments_.size(), false) {}
+      : surface_(surface),
+        field_(field),
+        level_(level),
+        segments_(level_segments(surface, field, level)),
+        done_(segments_.size(), false) {}
 
   std::vector<ClosedWalk> all() {
     std::vector<ClosedWalk> walks;
@@ -61,7 +70,8 @@ class Walk {
       if (!done_[start]) walks.push_back(from(start));
     }
     for (const std::vector<int>& border : surface_.border_loops()) {
-      if (std::all_of(border.begin(), border.end(), [&](int vertex) { return inside(vertex); })) walks.push_back(whole(border));
+      if (std::all_of(border.begin(), border.end(), [&](int vertex) { return inside(vertex); }))
+        walks.push_back(whole(border));
     }
     return walks;
   }
@@ -70,8 +80,9 @@ class Walk {
   bool inside(int vertex) const { return field_[vertex] >= level_; }
 
   std::size_t segment_in(int face) const {
-    const auto found = std::lower_bound(segments_.begin(), segments_.end(), face,
-                                        [](const LevelSegment& segment, int wanted) { return segment.face < wanted; });
+    const auto found = std::lower_bound(
+        segments_.begin(), segments_.end(), face,
+        [](const LevelSegment& segment, int wanted) { return segment.face < wanted; });
     return static_cast<std::size_t>(found - segments_.begin());
   }
 
@@ -103,7 +114,8 @@ class Walk {
   ClosedWalk whole(const std::vector<int>& border) const {
     ClosedWalk steps;
     for (const int vertex : border)
-      steps.push_back(border_step(surface_, border_edge_from(surface_, vertex, surface_.face_of_vertex(vertex))));
+      steps.push_back(border_step(
+          surface_, border_edge_from(surface_, vertex, surface_.face_of_vertex(vertex))));
     return steps;
   }
 
@@ -116,6 +128,8 @@ class Walk {
 
 }  // namespace
 
-std::vector<ClosedWalk> walks_around(const Surface& surface, const Field& field, double level) { return Walk(surface, field, level).all(); }
+std::vector<ClosedWalk> walks_around(const Surface& surface, const Field& field, double level) {
+  return Walk(surface, field, level).all();
+}
 
 }  // namespace palpation

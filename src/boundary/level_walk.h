@@ -1,4 +1,5 @@
-/// From the pieces of a level line in single triangles to closed walks around the inside. Private to this folder.
+/// From the pieces of a level line in single triangles to closed walks around the inside. Private
+/// to this folder.
 #pragma once
 
 #include <vector>
@@ -7,8 +8,8 @@
 
 namespace palpation {
 
-/// Where a walk passes, by name and not by coordinates: inside the mesh edge between two vertices (the level crosses an edge at one place
-/// only), or at a vertex, which is then named twice.
+/// Where a walk passes, by name and not by coordinates: inside the mesh edge between two vertices
+/// (the level crosses an edge at one place only), or at a vertex, which is then named twice.
 struct Place {
   int low;
   int high;
@@ -24,8 +25,9 @@ struct Step {
 
 using ClosedWalk = std::vector<Step>;
 
-/// Along the level line, and along the border from where one line leaves the tissue to where the next one enters: everywhere with the
-/// inside (field >= level) on the left. Borders that are inside all along are walks of their own.
+/// Along the level line, and along the border from where one line leaves the tissue to where the
+/// next one enters: everywhere with the inside (field >= level) on the left. Borders that are
+/// inside all along are walks of their own.
 std::vector<ClosedWalk> walks_around(const Surface& surface, const Field& field, double level);
 
 }  // namespace palpation

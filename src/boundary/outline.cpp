@@ -23,7 +23,9 @@ struct Corner {
   int number;
 };
 
-std::string coordinates(const Vec2& point) { return "(" + text_of(point.x()) + " " + text_of(point.y()) + ")"; }
+std::string coordinates(const Vec2& point) {
+  return "(" + text_of(point.x()) + " " + text_of(point.y()) + ")";
+}
 
 /// Whether a walk from a over b to c turns back at b along the way it came.
 bool turns_back(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
@@ -76,22 +78,24 @@ bool on_segment(const ExactPoint& a, const ExactPoint& b, const ExactPoint& plac
 }
 
 /// "edges 0, from (0 0) to (2 2), and 2, from (2 0) to (0 2)": the first two that `are_there`.
-std::string names_of_edges(const std::vector<Corner>& corners, const Ring& ring,
-                           const std::function<bool(const ExactPoint&, const ExactPoint&)>& are_there) {
+std::string names_of_edges(
+    const std::vector<Corner>& corners, const Ring& ring,
+    const std::function<bool(const ExactPoint&, const ExactPoint&)>& are_there) {
   std::string names = "edges ";
   int found = 0;
   for (std::size_t i = 0; i < corners.size() && found < 2; ++i) {
     if (!are_there(corners[i].point, corners[(i + 1) % corners.size()].point)) continue;
     const auto number = static_cast<std::size_t>(corners[i].number);
-    names += std::string(found == 0 ? "" : ", and ") + std::to_string(number) + ", from " + coordinates(ring[number]) + " to " +
-             coordinates(ring[(number + 1) % ring.size()]);
+    names += std::string(found == 0 ? "" : ", and ") + std::to_string(number) + ", from " +
+             coordinates(ring[number]) + " to " + coordinates(ring[(number + 1) % ring.size()]);
     ++found;
   }
   return names;
 }
 
 /// What a single ring encloses.
-std::vector<ExactPolygon> enclosed_by(const Ring& ring, const std::string& function, const std::string& name) {
+std::vector<ExactPolygon> enclosed_by(const Ring& ring, const std::string& function,
+                                      const std::string& name) {
   const ExactRing given = exact_ring(ring, function, name);
   Untidy untidy;
   const std::vector<Corner> corners = cleaned(given, untidy);
@@ -105,17 +109,24 @@ std::vector<ExactPolygon> enclosed_by(const Ring& ring, const std::string& funct
         return on_segment(a, b, shared->front()) && on_segment(a, b, shared->back());
       };
       require(false, function, name,
-              "must not touch itself along a line, as its " + names_of_edges(corners, ring, run_there) + ", do from " +
-                  coordinates(rounded(shared->front())) + " to " + coordinates(rounded(shared->back())));
+              "must not touch itself along a line, as its " +
+                  names_of_edges(corners, ring, run_there) + ", do from " +
+                  coordinates(rounded(shared->front())) + " to " +
+                  coordinates(rounded(shared->back())));
     }
     const bool positive = overlay.any([](const Winding& winding) { return winding[0] > 0; });
-    const bool crosses = overlay.any([&](const Winding& winding) { return winding[0] < (positive ? 0 : -1) || winding[0] > 1; });
+    const bool crosses = overlay.any(
+        [&](const Winding& winding) { return winding[0] < (positive ? 0 : -1) || winding[0] > 1; });
     if (const auto place = crosses ? overlay.crossing() : std::nullopt) {
-      const auto pass_there = [&](const ExactPoint& a, const ExactPoint& b) { return b != *place && on_segment(a, b, *place); };
+      const auto pass_there = [&](const ExactPoint& a, const ExactPoint& b) {
+        return b != *place && on_segment(a, b, *place);
+      };
       require(false, function, name,
-              "must not cross itself, as its " + names_of_edges(corners, ring, pass_there) + ", do at " + coordinates(rounded(*place)));
+              "must not cross itself, as its " + names_of_edges(corners, ring, pass_there) +
+                  ", do at " + coordinates(rounded(*place)));
     }
-    std::vector<ExactPolygon> enclosed = overlay.polygons([](const Winding& winding) { return winding[0] != 0; });
+    std::vector<ExactPolygon> enclosed =
+        overlay.polygons([](const Winding& winding) { return winding[0] != 0; });
     const double expected = std::abs(signed_area({points}));
     require_identity(function, area_of(enclosed), expected, expected);
     return enclosed;
@@ -128,21 +139,25 @@ class Holes {
   Holes(const PolygonWithHoles& polygon, const std::string& function, const std::string& which)
       : polygon_(polygon), function_(function), which_(which) {
     for (std::size_t i = 0; i < polygon.holes.size(); ++i) {
-      holes_.push_back(enclosed_by(polygon.holes[i], function, "hole " + std::to_string(i) + which));
+      holes_.push_back(
+          enclosed_by(polygon.holes[i], function, "hole " + std::to_string(i) + which));
     }
   }
 
   std::vector<ExactPolygon> cut_out_of(const std::vector<ExactPolygon>& outer) const {
     const RingPointers rings = ring_pointers(outer);
-    return with_overlay(function_, rings, first(holes_.size()), reproducer(), [&](const Overlay& overlay) {
-      if (const auto place = overlay.lowest(overlap)) refuse_overlap(*place);
-      if (const auto place = overlay.lowest(outside)) refuse_outside(rings, *place);
-      std::vector<ExactPolygon> rest = overlay.polygons([](const Winding& winding) { return winding[0] > winding[1]; });
-      double area_of_holes = 0.0;
-      for (const std::vector<ExactPolygon>& hole : holes_) area_of_holes += area_of(hole);
-      require_identity(function_, area_of(rest), area_of(outer) - area_of_holes, area_of(outer) + area_of_holes);
-      return rest;
-    });
+    return with_overlay(
+        function_, rings, first(holes_.size()), reproducer(), [&](const Overlay& overlay) {
+          if (const auto place = overlay.lowest(overlap)) refuse_overlap(*place);
+          if (const auto place = overlay.lowest(outside)) refuse_outside(rings, *place);
+          std::vector<ExactPolygon> rest =
+              overlay.polygons([](const Winding& winding) { return winding[0] > winding[1]; });
+          double area_of_holes = 0.0;
+          for (const std::vector<ExactPolygon>& hole : holes_) area_of_holes += area_of(hole);
+          require_identity(function_, area_of(rest), area_of(outer) - area_of_holes,
+                           area_of(outer) + area_of_holes);
+          return rest;
+        });
   }
 
  private:
@@ -168,8 +183,8 @@ class Holes {
     std::size_t low = 0;
     for (std::size_t high = holes_.size() - 1; low < high;) {
       const std::size_t middle = (low + high) / 2;
-      const bool made =
-          with_overlay(function_, rings, first(middle + 1), reproducer(), [&](const Overlay& overlay) { return overlay.any(part); });
+      const bool made = with_overlay(function_, rings, first(middle + 1), reproducer(),
+                                     [&](const Overlay& overlay) { return overlay.any(part); });
       (made ? high : low) = made ? middle : middle + 1;
     }
     return low;
@@ -178,7 +193,8 @@ class Holes {
   void refuse_overlap(const ExactPoint& place) const {
     const std::size_t second = first_to_make(overlap, {});
     const std::size_t other = first_to_make(both, ring_pointers(holes_[second]));
-    require(false, function_, "holes " + std::to_string(other) + " and " + std::to_string(second) + which_,
+    require(false, function_,
+            "holes " + std::to_string(other) + " and " + std::to_string(second) + which_,
             "must not overlap, as holes do near " + coordinates(rounded(place)));
   }
 
@@ -201,7 +217,9 @@ ExactRing exact_ring(const Ring& ring, const std::string& function, const std::s
   double greatest = 0.0;
   for (const Vec2& point : ring) {
     if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kGreatestCoordinate) {
-      require(false, function, "corner " + std::to_string(points.size()) + " of " + name + ", " + coordinates(point) + ",",
+      require(false, function,
+              "corner " + std::to_string(points.size()) + " of " + name + ", " +
+                  coordinates(point) + ",",
               point.allFinite() ? "must be within 1e9 m of the origin" : "must be finite");
     }
     greatest = std::max(greatest, point.cwiseAbs().maxCoeff());
@@ -209,7 +227,8 @@ ExactRing exact_ring(const Ring& ring, const std::string& function, const std::s
   }
   if (greatest > 0.0 && greatest < kLeastExtent) {
     require(false, function, name,
-            "must reach farther than 1e-100 m from the origin, and only reaches " + text_of(greatest) + ": its area would be no number");
+            "must reach farther than 1e-100 m from the origin, and only reaches " +
+                text_of(greatest) + ": its area would be no number");
   }
   return points;
 }
@@ -225,7 +244,8 @@ std::string which_polygon(std::size_t number, std::size_t count) {
   return count > 1 ? " of polygon " + std::to_string(number) : std::string();
 }
 
-std::vector<ExactPolygon> enclosed_by(const PolygonWithHoles& polygon, const std::string& which, const std::string& function) {
+std::vector<ExactPolygon> enclosed_by(const PolygonWithHoles& polygon, const std::string& which,
+                                      const std::string& function) {
   std::vector<ExactPolygon> outer = enclosed_by(polygon.outer, function, "the outer ring" + which);
   if (polygon.holes.empty()) return outer;
   return Holes(polygon, function, which).cut_out_of(outer);

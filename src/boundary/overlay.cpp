@@ -16,13 +16,14 @@ namespace palpation {
 
 namespace {
 
-/// Each curve carries the number of its segment; where segments overlap in part, all numbers are kept.
+/// Each curve carries the number of its segment; where segments overlap in part, all numbers are
+/// kept.
 using SegmentTraits = CGAL::Arr_segment_traits_2<ExactKernel>;
 using Traits = CGAL::Arr_consolidated_curve_data_traits_2<SegmentTraits, int>;
 using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_extended_dcel<Traits, int, int, int>>;
 
-/// The edges of all rings between the same two corners, as one: the time that CGAL takes for equal segments grows with the cube of their
-/// number.
+/// The edges of all rings between the same two corners, as one: the time that CGAL takes for equal
+/// segments grows with the cube of their number.
 struct Segment {
   const ExactPoint* low;  ///< x before y
   const ExactPoint* high;
@@ -37,7 +38,8 @@ void add_edges(const ExactRing& ring, int layer, std::vector<Segment>& segments)
     const CGAL::Comparison_result order = CGAL::compare_xy(from, to);
     if (order == CGAL::EQUAL) continue;
     const bool runs_right = order == CGAL::SMALLER;
-    Segment& segment = segments.emplace_back(Segment{.low = runs_right ? &from : &to, .high = runs_right ? &to : &from});
+    Segment& segment = segments.emplace_back(
+        Segment{.low = runs_right ? &from : &to, .high = runs_right ? &to : &from});
     segment.step[layer] = runs_right ? 1 : -1;
   }
 }
@@ -59,8 +61,8 @@ std::vector<Segment> merged(const std::vector<Segment>& edges) {
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Segment& edge = edges[order[i].second];
-    const bool repeats =
-        i > 0 && order[i].first == order[i - 1].first && *edge.low == *segments.back().low && *edge.high == *segments.back().high;
+    const bool repeats = i > 0 && order[i].first == order[i - 1].first &&
+                         *edge.low == *segments.back().low && *edge.high == *segments.back().high;
     if (!repeats) {
       segments.push_back(edge);
       continue;
@@ -75,7 +77,8 @@ Arrangement arrangement_of(const std::vector<Segment>& segments) {
   std::vector<Traits::X_monotone_curve_2> curves;
   curves.reserve(segments.size());
   for (const Segment& segment : segments) {
-    curves.emplace_back(SegmentTraits::X_monotone_curve_2(*segment.low, *segment.high), static_cast<int>(curves.size()));
+    curves.emplace_back(SegmentTraits::X_monotone_curve_2(*segment.low, *segment.high),
+                        static_cast<int>(curves.size()));
   }
   Arrangement arrangement;
   CGAL::insert(arrangement, curves.begin(), curves.end());
@@ -90,7 +93,8 @@ int number_elements(Iterator first, Iterator last) {
 }
 
 /// Cuts a closed walk wherever it comes back to a corner, so that no ring visits a point twice.
-std::vector<std::vector<int>> split_at_repeats(const std::vector<int>& walk, std::vector<int>& place_on_path) {
+std::vector<std::vector<int>> split_at_repeats(const std::vector<int>& walk,
+                                               std::vector<int>& place_on_path) {
   std::vector<std::vector<int>> rings;
   std::vector<int> path;
   for (const int corner : walk) {
@@ -108,7 +112,9 @@ std::vector<std::vector<int>> split_at_repeats(const std::vector<int>& walk, std
   return rings;
 }
 
-bool is_lower(const ExactPoint& a, const ExactPoint& b) { return CGAL::compare_xy(a, b) == CGAL::SMALLER; }
+bool is_lower(const ExactPoint& a, const ExactPoint& b) {
+  return CGAL::compare_xy(a, b) == CGAL::SMALLER;
+}
 
 /// The ring without straight corners, from its lowest corner, its points evaluated.
 ExactRing normal_form(const std::vector<int>& corners, const std::vector<ExactPoint>& points) {
@@ -119,21 +125,25 @@ ExactRing normal_form(const std::vector<int>& corners, const std::vector<ExactPo
     const ExactPoint& here = points[corners[i]];
     if (!CGAL::collinear(before, here, points[corners[(i + 1) % count]])) ring.push_back(here);
   }
-  if (ring.size() < 3) throw NumericalError("Overlay: a ring of " + std::to_string(count) + " corners has no area");
+  if (ring.size() < 3)
+    throw NumericalError("Overlay: a ring of " + std::to_string(count) + " corners has no area");
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), is_lower), ring.end());
   for (const ExactPoint& point : ring) point.exact();
   return ring;
 }
 
 /// At the lowest corner a ring without repeats turns the way it runs.
-bool runs_counter_clockwise(const ExactRing& normal) { return CGAL::orientation(normal.back(), normal[0], normal[1]) == CGAL::LEFT_TURN; }
+bool runs_counter_clockwise(const ExactRing& normal) {
+  return CGAL::orientation(normal.back(), normal[0], normal[1]) == CGAL::LEFT_TURN;
+}
 
 void take_lower(const ExactPoint& point, std::optional<ExactPoint>& lowest) {
   if (!lowest || is_lower(point, *lowest)) lowest = point;
 }
 
 /// Order of the half-edges, and where each face's begin in it.
-void sort_by_face(std::span<const int> face_of, int face_count, std::vector<int>& first, std::vector<int>& order) {
+void sort_by_face(std::span<const int> face_of, int face_count, std::vector<int>& first,
+                  std::vector<int>& order) {
   first.assign(face_count + 1, 0);
   for (const int face : face_of) ++first[face + 1];
   for (int face = 0; face < face_count; ++face) first[face + 1] += first[face];
@@ -144,24 +154,30 @@ void sort_by_face(std::span<const int> face_of, int face_count, std::vector<int>
 
 }  // namespace
 
-/// Twice the areas on the left of edges that count so many times, in doubles, and how far rounding may have moved them.
+/// Twice the areas on the left of edges that count so many times, in doubles, and how far rounding
+/// may have moved them.
 struct Overlay::DoubledAreas {
   std::array<double, 2> sum{0.0, 0.0};
   std::array<double, 2> rounding{0.0, 0.0};
 
   void add(const Vec2& from, const Vec2& to, const Winding& times) {
-    constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();  // of the corners, two products, their difference, the sum
+    constexpr double kRounding =
+        16.0 * std::numeric_limits<double>::epsilon();  // of the corners, two products, their
+                                                        // difference, the sum
     const double first = from.x() * to.y();
     const double second = to.x() * from.y();
     for (int layer = 0; layer < 2; ++layer) {
       if (times[layer] == 0) continue;
       sum[layer] += times[layer] * (first - second);
-      rounding[layer] += kRounding * (std::abs(times[layer]) * (std::abs(first) + std::abs(second)) + std::abs(sum[layer]));
+      rounding[layer] +=
+          kRounding *
+          (std::abs(times[layer]) * (std::abs(first) + std::abs(second)) + std::abs(sum[layer]));
     }
   }
 };
 
-Overlay::Overlay(std::span<const ExactRing* const> first, std::span<const ExactRing* const> second) {
+Overlay::Overlay(std::span<const ExactRing* const> first,
+                 std::span<const ExactRing* const> second) {
   std::vector<Segment> edges;
   for (const ExactRing* ring : first) add_edges(*ring, 0, edges);
   for (const ExactRing* ring : second) add_edges(*ring, 1, edges);
@@ -170,9 +186,11 @@ Overlay::Overlay(std::span<const ExactRing* const> first, std::span<const ExactR
 
   number_elements(arrangement.vertices_begin(), arrangement.vertices_end());
   number_elements(arrangement.halfedges_begin(), arrangement.halfedges_end());
-  windings_.assign(number_elements(arrangement.faces_begin(), arrangement.faces_end()), Winding{0, 0});
+  windings_.assign(number_elements(arrangement.faces_begin(), arrangement.faces_end()),
+                   Winding{0, 0});
   points_.reserve(arrangement.number_of_vertices());
-  for (auto vertex = arrangement.vertices_begin(); vertex != arrangement.vertices_end(); ++vertex) points_.push_back(vertex->point());
+  for (auto vertex = arrangement.vertices_begin(); vertex != arrangement.vertices_end(); ++vertex)
+    points_.push_back(vertex->point());
   half_edges_.reserve(arrangement.number_of_halfedges());
   for (auto edge = arrangement.halfedges_begin(); edge != arrangement.halfedges_end(); ++edge) {
     HalfEdge& made = half_edges_.emplace_back(HalfEdge{.twin = edge->twin()->data(),
@@ -185,16 +203,19 @@ Overlay::Overlay(std::span<const ExactRing* const> first, std::span<const ExactR
     const auto& numbers = edge->curve().data();
     for (auto number = numbers.begin(); number != numbers.end(); ++number) {
       made.rings += segments[*number].rings;
-      for (int layer = 0; layer < 2; ++layer) made.step[layer] += direction * segments[*number].step[layer];
+      for (int layer = 0; layer < 2; ++layer)
+        made.step[layer] += direction * segments[*number].step[layer];
     }
   }
   find_windings(arrangement.unbounded_face()->data());
   DoubledAreas given;
-  for (const Segment& segment : segments) given.add(rounded(*segment.low), rounded(*segment.high), segment.step);
+  for (const Segment& segment : segments)
+    given.add(rounded(*segment.low), rounded(*segment.high), segment.step);
   check_areas(given);
 }
 
-/// The arrangement's edges enclose what the rings' edges do, each place as often as its winding says.
+/// The arrangement's edges enclose what the rings' edges do, each place as often as its winding
+/// says.
 void Overlay::check_areas(const DoubledAreas& given) const {
   std::vector<Vec2> places;
   places.reserve(points_.size());
@@ -204,15 +225,16 @@ void Overlay::check_areas(const DoubledAreas& given) const {
     const HalfEdge& twin = half_edges_[edge.twin];
     for (int layer = 0; layer < 2; ++layer) {
       if (windings_[edge.face][layer] - windings_[twin.face][layer] == edge.step[layer]) continue;
-      throw NumericalError("Overlay: the windings on the two sides of an edge contradict the rings along it");
+      throw NumericalError(
+          "Overlay: the windings on the two sides of an edge contradict the rings along it");
     }
     made.add(places[edge.origin], places[twin.origin], windings_[edge.face]);
   }
   for (int layer = 0; layer < 2; ++layer) {
     const double difference = made.sum[layer] - given.sum[layer];
     if (std::abs(difference) <= made.rounding[layer] + given.rounding[layer]) continue;
-    throw NumericalError("Overlay: faces of " + text_of(0.5 * made.sum[layer]) + " m2 come from rings of " +
-                         text_of(0.5 * given.sum[layer]) + " m2");
+    throw NumericalError("Overlay: faces of " + text_of(0.5 * made.sum[layer]) +
+                         " m2 come from rings of " + text_of(0.5 * given.sum[layer]) + " m2");
   }
 }
 
@@ -244,7 +266,8 @@ std::vector<bool> Overlay::faces_of(const Part& part) const {
   return inside;
 }
 
-/// Walks along the part's boundary with the part on the left, around each corner inside the same wedge of the part.
+/// Walks along the part's boundary with the part on the left, around each corner inside the same
+/// wedge of the part.
 std::vector<Overlay::Trace> Overlay::trace(const std::vector<bool>& inside) const {
   const auto is_inside = [&](int half_edge) { return inside[half_edges_[half_edge].face]; };
   std::vector<bool> done(half_edges_.size(), false);
@@ -264,7 +287,8 @@ std::vector<Overlay::Trace> Overlay::trace(const std::vector<bool>& inside) cons
   return traces;
 }
 
-/// For each face of the part, the number of the piece (connected across edges) that it belongs to; -1 outside.
+/// For each face of the part, the number of the piece (connected across edges) that it belongs to;
+/// -1 outside.
 std::vector<int> Overlay::components(const std::vector<bool>& inside) const {
   std::vector<int> component(windings_.size(), -1);
   int count = 0;
@@ -291,7 +315,8 @@ std::vector<int> Overlay::components(const std::vector<bool>& inside) const {
 std::vector<ExactPolygon> Overlay::polygons(const Part& part) const {
   const std::vector<bool> inside = faces_of(part);
   const std::vector<int> component = components(inside);
-  std::vector<ExactPolygon> polygons(component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end()));
+  std::vector<ExactPolygon> polygons(
+      component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end()));
   std::vector<int> place_on_path(points_.size(), -1);
   for (const Trace& trace : trace(inside)) {
     ExactPolygon& polygon = polygons[component[trace.face]];
@@ -318,12 +343,16 @@ double Overlay::area(const Part& part) const {
   return signed_area(rings);
 }
 
-bool Overlay::any(const Part& part) const { return std::any_of(windings_.begin(), windings_.end(), part); }
+bool Overlay::any(const Part& part) const {
+  return std::any_of(windings_.begin(), windings_.end(), part);
+}
 
 std::optional<std::array<ExactPoint, 2>> Overlay::overlap() const {
   const HalfEdge* lowest = nullptr;
   for (const HalfEdge& edge : half_edges_) {
-    if (edge.rings > 1 && (lowest == nullptr || is_lower(points_[edge.origin], points_[lowest->origin]))) lowest = &edge;
+    if (edge.rings > 1 &&
+        (lowest == nullptr || is_lower(points_[edge.origin], points_[lowest->origin])))
+      lowest = &edge;
   }
   if (lowest == nullptr) return std::nullopt;
   return std::array{points_[lowest->origin], points_[half_edges_[lowest->twin].origin]};

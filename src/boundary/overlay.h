@@ -1,8 +1,10 @@
-/// Rings in the plane, cut at all their crossings: the one place where the exact arrangement of CGAL is built. Private to this folder.
+/// Rings in the plane, cut at all their crossings: the one place where the exact arrangement of
+/// CGAL is built. Private to this folder.
 ///
-/// Rings belong to one of two layers. Each face of the arrangement has a winding number per layer, and a part of the plane is what a
-/// predicate of these two numbers says. So a Boolean operation, the area of each part and a check of the rings all come from the same
-/// overlay, and there is no degenerate input: rings may cross, overlap and touch themselves and each other.
+/// Rings belong to one of two layers. Each face of the arrangement has a winding number per layer,
+/// and a part of the plane is what a predicate of these two numbers says. So a Boolean operation,
+/// the area of each part and a check of the rings all come from the same overlay, and there is no
+/// degenerate input: rings may cross, overlap and touch themselves and each other.
 #pragma once
 
 #include <array>
@@ -22,12 +24,12 @@ class Overlay {
  public:
   using Part = std::function<bool(const Winding&)>;
 
-  /// Zero-length edges are skipped. Throws what CGAL throws, and NumericalError if the windings of the faces and their areas do not add up
-  /// to those of the rings.
+  /// Zero-length edges are skipped. Throws what CGAL throws, and NumericalError if the windings of
+  /// the faces and their areas do not add up to those of the rings.
   Overlay(std::span<const ExactRing* const> first, std::span<const ExactRing* const> second);
 
-  /// The closure of the part's interior, in the normal form of ExactPolygon: equal parts give equal polygons. Part must be false for {0,
-  /// 0}.
+  /// The closure of the part's interior, in the normal form of ExactPolygon: equal parts give equal
+  /// polygons. Part must be false for {0, 0}.
   std::vector<ExactPolygon> polygons(const Part& part) const;
 
   double area(const Part& part) const;
@@ -38,15 +40,16 @@ class Overlay {
   /// The ends of the lowest edge along which rings run more than once, the lower end first.
   std::optional<std::array<ExactPoint, 2>> overlap() const;
 
-  /// The lowest point where a ring of the first layer crosses another or itself: more than two windings meet there, as at a mere touch
-  /// they do not. Only meaningful without an overlap.
+  /// The lowest point where a ring of the first layer crosses another or itself: more than two
+  /// windings meet there, as at a mere touch they do not. Only meaningful without an overlap.
   std::optional<ExactPoint> crossing() const;
 
   /// The lowest corner of the part.
   std::optional<ExactPoint> lowest(const Part& part) const;
 
  private:
-  /// Runs with its face on the left. `step`: winding of that face less that of the face on the right.
+  /// Runs with its face on the left. `step`: winding of that face less that of the face on the
+  /// right.
   struct HalfEdge {
     int twin;
     int next;

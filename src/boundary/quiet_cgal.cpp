@@ -11,7 +11,8 @@ namespace {
 
 void say_nothing(const char*, const char*, const char*, int, const char*) {}
 
-/// CGAL keeps its handlers once a process, so they are changed by the first guard and restored by the last.
+/// CGAL keeps its handlers once a process, so they are changed by the first guard and restored by
+/// the last.
 struct Handlers {
   std::mutex mutex;
   int guards = 0;

@@ -1,5 +1,5 @@
-/// While one of these lives, in any thread, CGAL's failed checks throw and print nothing; the handlers that were there come back with the
-/// last.
+/// While one of these lives, in any thread, CGAL's failed checks throw and print nothing; the
+/// handlers that were there come back with the last.
 #pragma once
 
 namespace palpation {

@@ -24,7 +24,8 @@ EdgeHeights heights(const ExactPoint& a, const ExactPoint& b) {
   return {std::min(y_a.inf(), y_b.inf()), std::max(y_a.sup(), y_b.sup())};
 }
 
-bool by_area_then_corner(const std::pair<double, ExactPolygon>& a, const std::pair<double, ExactPolygon>& b) {
+bool by_area_then_corner(const std::pair<double, ExactPolygon>& a,
+                         const std::pair<double, ExactPolygon>& b) {
   if (a.first != b.first) return a.first > b.first;
   return CGAL::compare_xy(a.second.outer.front(), b.second.outer.front()) == CGAL::SMALLER;
 }
@@ -65,11 +66,13 @@ bool in_both(const Winding& winding) { return winding[0] > 0 && winding[1] > 0; 
 }  // namespace
 
 struct Region::State {
-  explicit State(std::vector<ExactPolygon> pieces) : polygons(sorted(std::move(pieces))), area(area_of(polygons)) {
+  explicit State(std::vector<ExactPolygon> pieces)
+      : polygons(sorted(std::move(pieces))), area(area_of(polygons)) {
     const QuietCgal quiet;
     rings = ring_pointers(polygons);
     for (const ExactRing* ring : rings) {
-      for (std::size_t i = 0; i < ring->size(); ++i) edge_heights.push_back(heights((*ring)[i], (*ring)[(i + 1) % ring->size()]));
+      for (std::size_t i = 0; i < ring->size(); ++i)
+        edge_heights.push_back(heights((*ring)[i], (*ring)[(i + 1) % ring->size()]));
     }
   }
   State(const State&) = delete;
@@ -112,7 +115,8 @@ Region::Region() {
 Region::Region(std::span<const PolygonWithHoles> polygons) : Region() {
   std::vector<ExactPolygon> pieces;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    std::vector<ExactPolygon> enclosed = enclosed_by(polygons[i], which_polygon(i, polygons.size()), "Region");
+    std::vector<ExactPolygon> enclosed =
+        enclosed_by(polygons[i], which_polygon(i, polygons.size()), "Region");
     std::move(enclosed.begin(), enclosed.end(), std::back_inserter(pieces));
   }
   if (polygons.size() > 1) {
@@ -131,7 +135,8 @@ Region::Region(std::span<const PolygonWithHoles> polygons) : Region() {
 
 Region Region::even_odd(std::span<const Ring> rings) {
   std::vector<ExactRing> points;
-  for (const Ring& ring : rings) points.push_back(exact_ring(ring, "Region::even_odd", "ring " + std::to_string(points.size())));
+  for (const Ring& ring : rings)
+    points.push_back(exact_ring(ring, "Region::even_odd", "ring " + std::to_string(points.size())));
   RingPointers pointers;
   for (const ExactRing& ring : points) pointers.push_back(&ring);
   return with_overlay(
@@ -156,7 +161,9 @@ bool Region::empty() const { return state_->polygons.empty(); }
 double Region::area() const { return state_->area; }
 
 bool Region::contains(const Vec2& place) const {
-  if (!place.allFinite()) require(false, "Region::contains", text_of(place.x()) + " " + text_of(place.y()), "must be finite");
+  if (!place.allFinite())
+    require(false, "Region::contains", text_of(place.x()) + " " + text_of(place.y()),
+            "must be finite");
   const QuietCgal quiet;
   const ExactPoint here(place.x(), place.y());
   bool inside = false;
@@ -170,8 +177,10 @@ bool Region::contains(const Vec2& place) const {
       const bool a_above = CGAL::compare_y(a, here) == CGAL::LARGER;
       const bool b_above = CGAL::compare_y(b, here) == CGAL::LARGER;
       const CGAL::Orientation side = CGAL::orientation(a, b, here);
-      if (side == CGAL::COLLINEAR && CGAL::collinear_are_ordered_along_line(a, here, b)) return true;
-      // The ray to the right of the place crosses an edge that runs up on the right, or down with the place on its right.
+      if (side == CGAL::COLLINEAR && CGAL::collinear_are_ordered_along_line(a, here, b))
+        return true;
+      // The ray to the right of the place crosses an edge that runs up on the right, or down with
+      // the place on its right.
       if (a_above != b_above && (side == CGAL::LEFT_TURN) == b_above) inside = !inside;
     }
   }
@@ -179,28 +188,34 @@ bool Region::contains(const Vec2& place) const {
 }
 
 Region unite(const Region& a, const Region& b) {
-  return Region::State::combine(a, b,
-                                {.name = "unite",
-                                 .part = [](const Winding& winding) { return winding[0] > 0 || winding[1] > 0; },
-                                 .area = [](double left, double right, double both) { return left + right - both; }});
+  return Region::State::combine(
+      a, b,
+      {.name = "unite",
+       .part = [](const Winding& winding) { return winding[0] > 0 || winding[1] > 0; },
+       .area = [](double left, double right, double both) { return left + right - both; }});
 }
 
 Region intersect(const Region& a, const Region& b) {
-  return Region::State::combine(a, b, {.name = "intersect", .part = in_both, .area = [](double, double, double both) { return both; }});
+  return Region::State::combine(
+      a, b, {.name = "intersect", .part = in_both, .area = [](double, double, double both) {
+               return both;
+             }});
 }
 
 Region subtract(const Region& a, const Region& b) {
-  return Region::State::combine(a, b,
-                                {.name = "subtract",
-                                 .part = [](const Winding& winding) { return winding[0] > 0 && winding[1] == 0; },
-                                 .area = [](double left, double, double both) { return left - both; }});
+  return Region::State::combine(
+      a, b,
+      {.name = "subtract",
+       .part = [](const Winding& winding) { return winding[0] > 0 && winding[1] == 0; },
+       .area = [](double left, double, double both) { return left - both; }});
 }
 
 Region symmetric_difference(const Region& a, const Region& b) {
-  return Region::State::combine(a, b,
-                                {.name = "symmetric_difference",
-                                 .part = [](const Winding& winding) { return (winding[0] > 0) != (winding[1] > 0); },
-                                 .area = [](double left, double right, double both) { return left + right - 2.0 * both; }});
+  return Region::State::combine(
+      a, b,
+      {.name = "symmetric_difference",
+       .part = [](const Winding& winding) { return (winding[0] > 0) != (winding[1] > 0); },
+       .area = [](double left, double right, double both) { return left + right - 2.0 * both; }});
 }
 
 OverlapAreas overlap_areas(const Region& a, const Region& b) {
@@ -211,10 +226,14 @@ OverlapAreas overlap_areas(const Region& a, const Region& b) {
       [&](const Overlay& overlay) {
         OverlapAreas areas;
         areas.both_m2 = overlay.area(in_both);
-        areas.only_a_m2 = overlay.area([](const Winding& winding) { return winding[0] > 0 && winding[1] == 0; });
-        areas.only_b_m2 = overlay.area([](const Winding& winding) { return winding[0] == 0 && winding[1] > 0; });
-        require_identity("overlap_areas", areas.both_m2 + areas.only_a_m2, left.area, left.area + right.area);
-        require_identity("overlap_areas", areas.both_m2 + areas.only_b_m2, right.area, left.area + right.area);
+        areas.only_a_m2 =
+            overlay.area([](const Winding& winding) { return winding[0] > 0 && winding[1] == 0; });
+        areas.only_b_m2 =
+            overlay.area([](const Winding& winding) { return winding[0] == 0 && winding[1] > 0; });
+        require_identity("overlap_areas", areas.both_m2 + areas.only_a_m2, left.area,
+                         left.area + right.area);
+        require_identity("overlap_areas", areas.both_m2 + areas.only_b_m2, right.area,
+                         left.area + right.area);
         return areas;
       });
 }

@@ -51,13 +51,18 @@ std::string text_of_all(const std::string& kind, std::span<const Item> items) {
   }
   text = text.empty() ? kind + " EMPTY" : kind + " (" + text + ")";
   if (left_out == 0) return text;
-  return text + " and " + std::to_string(left_out) + " more of " + std::to_string(corners_left_out) + " corners";
+  return text + " and " + std::to_string(left_out) + " more of " +
+         std::to_string(corners_left_out) + " corners";
 }
 
 }  // namespace
 
-std::string well_known_text(std::span<const PolygonWithHoles> polygons) { return text_of_all("MULTIPOLYGON", polygons); }
+std::string well_known_text(std::span<const PolygonWithHoles> polygons) {
+  return text_of_all("MULTIPOLYGON", polygons);
+}
 
-std::string well_known_text(std::span<const Ring> rings) { return text_of_all("MULTILINESTRING", rings); }
+std::string well_known_text(std::span<const Ring> rings) {
+  return text_of_all("MULTILINESTRING", rings);
+}
 
 }  // namespace palpation

@@ -1,7 +1,9 @@
-/// Rings as well-known text, for the message of an error that should never have happened: what to try again with. Private to this folder.
+/// Rings as well-known text, for the message of an error that should never have happened: what to
+/// try again with. Private to this folder.
 ///
-/// Doubles keep all their digits. The text stays below some 20,000 characters and is well-known text up to its closing bracket: what does
-/// not fit is left out whole, and the words behind the bracket say how much that is.
+/// Doubles keep all their digits. The text stays below some 20,000 characters and is well-known
+/// text up to its closing bracket: what does not fit is left out whole, and the words behind the
+/// bracket say how much that is.
 #pragma once
 
 #include <span>

@@ -10,7 +10,8 @@ namespace palpation {
 
 namespace {
 
-/// Only vertices can be visited twice: inside a mesh edge there is one crossing, with one line through it.
+/// Only vertices can be visited twice: inside a mesh edge there is one crossing, with one line
+/// through it.
 class Visits {
  public:
   void note(const Place& place, std::size_t index) {
@@ -36,7 +37,8 @@ bool on_one_edge(const Place& a, const Place& b) {
   return other.at_vertex() || other.low == vertex.low || other.high == vertex.low;
 }
 
-/// Two steps make a loop only across two triangles back to back; else they go along one mesh edge and come back.
+/// Two steps make a loop only across two triangles back to back; else they go along one mesh edge
+/// and come back.
 bool encloses_nothing(std::span<const Step> loop) {
   return loop.size() < 2 || (loop.size() == 2 && on_one_edge(loop[0].place, loop[1].place));
 }
@@ -78,13 +80,16 @@ std::vector<Piece> pieces_run_twice(const std::vector<ClosedWalk>& loops) {
   std::sort(pieces.begin(), pieces.end());
   std::vector<Piece> twice;
   for (const Piece& piece : pieces) {
-    if (std::binary_search(pieces.begin(), pieces.end(), Piece{piece.second, piece.first})) twice.push_back(piece);
+    if (std::binary_search(pieces.begin(), pieces.end(), Piece{piece.second, piece.first}))
+      twice.push_back(piece);
   }
   return twice;
 }
 
-/// The loop without the pieces, in chains from vertex to vertex. False, and no chain, if it has none of them.
-bool break_open(const ClosedWalk& loop, const std::vector<Piece>& pieces, std::vector<ClosedWalk>& chains) {
+/// The loop without the pieces, in chains from vertex to vertex. False, and no chain, if it has
+/// none of them.
+bool break_open(const ClosedWalk& loop, const std::vector<Piece>& pieces,
+                std::vector<ClosedWalk>& chains) {
   std::vector<std::size_t> ends;  // steps after which a piece is left out
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::optional<Piece> piece = piece_along_edge(loop, i);
@@ -92,14 +97,17 @@ bool break_open(const ClosedWalk& loop, const std::vector<Piece>& pieces, std::v
   }
   for (std::size_t k = 0; k < ends.size(); ++k) {
     ClosedWalk chain;
-    for (std::size_t i = (ends[k] + 1) % loop.size(); i != ends[(k + 1) % ends.size()]; i = (i + 1) % loop.size()) chain.push_back(loop[i]);
+    for (std::size_t i = (ends[k] + 1) % loop.size(); i != ends[(k + 1) % ends.size()];
+         i = (i + 1) % loop.size())
+      chain.push_back(loop[i]);
     chain.push_back(loop[ends[(k + 1) % ends.size()]]);
     if (chain.size() > 1) chains.push_back(std::move(chain));
   }
   return !ends.empty();
 }
 
-/// As many chains begin at a vertex as end there, so a walk that goes on while it can comes back to where it began.
+/// As many chains begin at a vertex as end there, so a walk that goes on while it can comes back to
+/// where it began.
 std::vector<ClosedWalk> joined(const std::vector<ClosedWalk>& chains) {
   std::map<int, std::vector<std::size_t>> from;
   for (std::size_t i = chains.size(); i-- > 0;) from[chains[i].front().place.low].push_back(i);

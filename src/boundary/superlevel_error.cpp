@@ -10,7 +10,9 @@ const Vec2 kA(0.0, 0.0), kB(1.0, 0.0), kC(0.0, 1.0);
 
 struct Linear {
   Vec3 at_corners;
-  double operator()(const Vec2& p) const { return (1.0 - p.x() - p.y()) * at_corners[0] + p.x() * at_corners[1] + p.y() * at_corners[2]; }
+  double operator()(const Vec2& p) const {
+    return (1.0 - p.x() - p.y()) * at_corners[0] + p.x() * at_corners[1] + p.y() * at_corners[2];
+  }
 };
 
 double share(const Convex& part) { return 2.0 * part.area(); }
@@ -22,7 +24,8 @@ RegionError compare(const Surface& surface, const Superlevel& estimate, const Su
   require_field(surface, truth.field, truth.level, "compare");
   double both = 0.0, only_estimate = 0.0, only_truth = 0.0;
   for (int face = 0; face < surface.face_count(); ++face) {
-    const Linear a{above_level(surface, estimate.field, estimate.level, face)}, b{above_level(surface, truth.field, truth.level, face)};
+    const Linear a{above_level(surface, estimate.field, estimate.level, face)},
+        b{above_level(surface, truth.field, truth.level, face)};
     const auto outside = [](const Linear& field) { return Linear{-field.at_corners}; };
     const bool no_a = a.at_corners.maxCoeff() < 0.0, no_b = b.at_corners.maxCoeff() < 0.0;
     if (no_a && no_b) continue;

@@ -15,7 +15,8 @@ constexpr int kMostColumns = 4096;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// An edge of a ring from left to right: what is below it counts as the edge's sign says. Summed over all edges, that leaves the inside.
+/// An edge of a ring from left to right: what is below it counts as the edge's sign says. Summed
+/// over all edges, that leaves the inside.
 struct Edge {
   Vec2 left, right;
   double sign;
@@ -45,7 +46,9 @@ class Columns {
     for (int i = first; i <= last; ++i) {
       for (const Edge& edge : edges_[i]) {
         if (i != std::max(first, edge.first_column)) continue;  // seen in an earlier column
-        if (edge.right.x() <= low_x || edge.left.x() >= high_x || std::max(edge.left.y(), edge.right.y()) <= low_y) continue;
+        if (edge.right.x() <= low_x || edge.left.x() >= high_x ||
+            std::max(edge.left.y(), edge.right.y()) <= low_y)
+          continue;
         sum += edge.sign * below(edge, a, b, c);
       }
     }
@@ -53,7 +56,9 @@ class Columns {
   }
 
  private:
-  int column(double x) const { return static_cast<int>(std::clamp(std::floor((x - left_) / width_), 0.0, count_ - 1.0)); }
+  int column(double x) const {
+    return static_cast<int>(std::clamp(std::floor((x - left_) / width_), 0.0, count_ - 1.0));
+  }
 
   void add(const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -67,7 +72,8 @@ class Columns {
     }
   }
 
-  /// How much of the triangle is below the edge, between its ends; with coordinates from the triangle's first corner.
+  /// How much of the triangle is below the edge, between its ends; with coordinates from the
+  /// triangle's first corner.
   static double below(const Edge& edge, const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 left = edge.left - a, right = edge.right - a;
     Convex part(Vec2::Zero(), b - a, c - a);
@@ -94,7 +100,8 @@ double tissue_area(const Surface& surface, const Region& region) {
     for (int face = first; face < last; ++face) {
       const Eigen::Vector3i t = surface.triangle(face);
       const Vec2 a = uv.row(t[0]), b = uv.row(t[1]), c = uv.row(t[2]);
-      parts[face] = columns.covered(a, b, c) / (0.5 * cross(b - a, c - a)) * surface.face_area(face);
+      parts[face] =
+          columns.covered(a, b, c) / (0.5 * cross(b - a, c - a)) * surface.face_area(face);
     }
   });
   CarefulSum sum;

@@ -17,7 +17,8 @@ class TissueRuler {
   /// Length on the tissue of the straight line in the chart: exact for the mesh.
   double length(const Vec2& from, const Vec2& to) const;
 
-  /// How a small step in the chart at a place runs on the tissue: its length there is |matrix * step|.
+  /// How a small step in the chart at a place runs on the tissue: its length there is |matrix *
+  /// step|.
   Eigen::Matrix2d stretch_at(const Vec2& place) const;
 
  private:
@@ -36,7 +37,8 @@ class TissueRuler {
   Vec2 lower_;
   double bin_m_ = 0.0;
   int columns_ = 0, rows_ = 0;
-  std::vector<int> first_, numbers_;  ///< bin i has the faces numbers_[first_[i]] to numbers_[first_[i + 1] - 1]
+  std::vector<int> first_,
+      numbers_;  ///< bin i has the faces numbers_[first_[i]] to numbers_[first_[i + 1] - 1]
 };
 
 }  // namespace palpation

@@ -35,15 +35,18 @@ BoundaryNodes boundary_nodes(const Surface& surface, const Field& depth) {
   return nodes;
 }
 
-Field spread_from_nodes(const Layout& layout, const BoundaryNodes& nodes, const Eigen::VectorXd& values) {
+Field spread_from_nodes(const Layout& layout, const BoundaryNodes& nodes,
+                        const Eigen::VectorXd& values) {
   const Surface& surface = layout.surface();
   const auto count = static_cast<Eigen::Index>(nodes.points.size());
   if (count == 0) return Field::Zero(surface.vertex_count());
   Eigen::Matrix3Xd places(3, count);
-  for (Eigen::Index node = 0; node < count; ++node) places.col(node) = layout.at(nodes.points[static_cast<std::size_t>(node)]);
+  for (Eigen::Index node = 0; node < count; ++node)
+    places.col(node) = layout.at(nodes.points[static_cast<std::size_t>(node)]);
   Field spread(surface.vertex_count());
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    const Eigen::ArrayXd squared = (places.colwise() - layout.at(vertex)).colwise().squaredNorm().transpose();
+    const Eigen::ArrayXd squared =
+        (places.colwise() - layout.at(vertex)).colwise().squaredNorm().transpose();
     const double nearest = squared.minCoeff();
     double weights = 0.0, sum = 0.0;
     for (Eigen::Index node = 0; node < count; ++node) {

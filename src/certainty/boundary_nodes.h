@@ -13,11 +13,13 @@ struct BoundaryNodes {
   std::vector<bool> follows_last;  ///< whether the node before lies on the same stretch
 };
 
-/// Places at most about 0.8 mm apart along { depth = 0 }, an eighth of the length over which boundaries bend; the tissue's border is no
-/// boundary.
+/// Places at most about 0.8 mm apart along { depth = 0 }, an eighth of the length over which
+/// boundaries bend; the tissue's border is no boundary.
 BoundaryNodes boundary_nodes(const Surface& surface, const Field& depth);
 
-/// The nodes' values at all vertices: at each, the mean over the nearest nodes, their weight falling over one spacing.
-Field spread_from_nodes(const Layout& layout, const BoundaryNodes& nodes, const Eigen::VectorXd& values);
+/// The nodes' values at all vertices: at each, the mean over the nearest nodes, their weight
+/// falling over one spacing.
+Field spread_from_nodes(const Layout& layout, const BoundaryNodes& nodes,
+                        const Eigen::VectorXd& values);
 
 }  // namespace palpation

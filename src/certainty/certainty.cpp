@@ -20,7 +20,9 @@ double boundary_length(const Surface& surface, const Field& score) {
   for (const LevelLoop& loop : level_loops(surface, score, 0.0)) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
       if (loop.on_border[i]) continue;
-      length += (surface.position(loop.points[(i + 1) % loop.points.size()]) - surface.position(loop.points[i])).norm();
+      length += (surface.position(loop.points[(i + 1) % loop.points.size()]) -
+                 surface.position(loop.points[i]))
+                    .norm();
     }
   }
   return length;
@@ -30,12 +32,14 @@ double boundary_length(const Surface& surface, const Field& score) {
 double mean_half_width(const Surface& surface, const Field& score, double band_score) {
   const double length = boundary_length(surface, score);
   if (length == 0.0) return 0.0;
-  const double area = superlevel_area(surface, score, -band_score) - superlevel_area(surface, score, band_score);
+  const double area =
+      superlevel_area(surface, score, -band_score) - superlevel_area(surface, score, band_score);
   return 0.5 * area / length;
 }
 
 void check_probability(double probability) {
-  require(probability > 0.0 && probability < 1.0, "certainty_of", "probability = " + text_of(probability), "must lie in (0, 1)");
+  require(probability > 0.0 && probability < 1.0, "certainty_of",
+          "probability = " + text_of(probability), "must lie in (0, 1)");
 }
 
 }  // namespace
@@ -49,11 +53,13 @@ double Certainty::cut_score(double risk) {
   return normal_quantile(risk);
 }
 
-Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& marginals, const Level& level, double probability) {
+Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& marginals,
+                       const Level& level, double probability) {
   check_probability(probability);
   const double level_variance = level.stddev.value_or(0.0) * level.stddev.value_or(0.0);
   const double least_sd = 1e-9 * std::max(1e-300, marginals.mean.cwiseAbs().maxCoeff());
-  Certainty certainty{.score = marginals.mean.array() - level.value, .probability = probability, .expected = {}};
+  Certainty certainty{
+      .score = marginals.mean.array() - level.value, .probability = probability, .expected = {}};
   certainty.score.array() /= (marginals.variance.array() + level_variance).sqrt().max(least_sd);
   certainty.band_score = normal_quantile(0.5 + 0.5 * probability);
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
@@ -71,14 +77,17 @@ void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m
   certainty.expected.extra_m2 *= share;
 }
 
-void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading, const Field& sd, double whole_loss) {
+void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading,
+                          const Field& sd, double whole_loss) {
   const double before = certainty.half_width_m;
   const Eigen::VectorXd along = surface.mesh().vertices * fading.towards;
   const double start = along.minCoeff(), length = along.maxCoeff() - start;
   const double farthest = fading.base_fall * whole_loss;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     const double here = std::max(sd[vertex], 1e-12 * farthest);
-    if (here > 0.0) certainty.score[vertex] *= here / std::hypot(here, farthest * (along[vertex] - start) / length);
+    if (here > 0.0)
+      certainty.score[vertex] *=
+          here / std::hypot(here, farthest * (along[vertex] - start) / length);
   }
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   if (before == 0.0) return;
@@ -86,7 +95,8 @@ void doubt_fading_contact(Certainty& certainty, const Surface& surface, const Fa
   certainty.expected.extra_m2 *= certainty.half_width_m / before;
 }
 
-double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level) {
+double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals,
+                       const Level& level) {
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
   const std::vector<Vec3> touched = layout.touched(belief.palpations());
@@ -94,14 +104,18 @@ double doubt_untouched(Certainty& certainty, const Belief& belief, const Margina
   double area = 0.0;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     const Vec3 place = layout.at(vertex);
-    const auto is_near = [&](const Vec3& other) { return (other - place).squaredNorm() < kFar_m * kFar_m; };
+    const auto is_near = [&](const Vec3& other) {
+      return (other - place).squaredNorm() < kFar_m * kFar_m;
+    };
     if (std::any_of(touched.begin(), touched.end(), is_near)) continue;
     const double sd = std::sqrt(marginals.variance[vertex] + level_sd * level_sd);
-    const double sureness = std::min(std::abs(certainty.score[vertex]), std::abs(marginals.mean[vertex] - level.value) / sd);
+    const double sureness = std::min(std::abs(certainty.score[vertex]),
+                                     std::abs(marginals.mean[vertex] - level.value) / sd);
     const bool inside = certainty.score[vertex] >= 0.0;
     certainty.score[vertex] = inside ? sureness : -sureness;
     const double here = surface.vertex_areas()[vertex];
-    (inside ? certainty.expected.extra_m2 : certainty.expected.missed_m2) += here * normal_probability(-sureness);
+    (inside ? certainty.expected.extra_m2 : certainty.expected.missed_m2) +=
+        here * normal_probability(-sureness);
     area += here;
   }
   return area;
@@ -109,7 +123,9 @@ double doubt_untouched(Certainty& certainty, const Belief& belief, const Margina
 
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability) {
   check_probability(probability);
-  Certainty certainty{.score = edge.depth().array() / edge.offset_sd().array().max(1e-12), .probability = probability, .expected = {}};
+  Certainty certainty{.score = edge.depth().array() / edge.offset_sd().array().max(1e-12),
+                      .probability = probability,
+                      .expected = {}};
   certainty.band_score = edge.band_score(probability);
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   certainty.expected.missed_m2 = certainty.expected.extra_m2 = 0.5 * edge.expected_error_m2();

@@ -74,17 +74,21 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings) {
   for (const double share : kHighShares) {
     const auto high = static_cast<std::size_t>(std::max(1.0, std::round(share * count)));
     const std::span all(sorted);
-    const double low_mean = mean_of(all.first(sorted.size() - high)), high_mean = mean_of(all.last(high));
+    const double low_mean = mean_of(all.first(sorted.size() - high)),
+                 high_mean = mean_of(all.last(high));
     double square = 0.0;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       const double from = sorted[i] - (i + high < sorted.size() ? low_mean : high_mean);
       square += from * from;
     }
     const double least = kLeastVariance * variance;
-    Plateaus plateaus{static_cast<double>(high) / count, low_mean, high_mean, std::max(square / count, least)};
+    Plateaus plateaus{static_cast<double>(high) / count, low_mean, high_mean,
+                      std::max(square / count, least)};
     for (int round = 0; round < kRounds; ++round) {
-      const double evidence = improve(sorted, plateaus, least) + 0.5 * count * (1.0 + std::log(variance));
-      if (plateaus.high > plateaus.low && evidence > best.evidence) best = {plateaus.low, plateaus.high, evidence};
+      const double evidence =
+          improve(sorted, plateaus, least) + 0.5 * count * (1.0 + std::log(variance));
+      if (plateaus.high > plateaus.low && evidence > best.evidence)
+        best = {plateaus.low, plateaus.high, evidence};
     }
   }
   return best;
@@ -94,12 +98,15 @@ std::optional<LoneReading> lone_reading(std::span<const double> readings) {
   if (readings.size() < kManyReadings) return std::nullopt;
   std::vector<std::size_t> order(readings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return readings[a] < readings[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return readings[a] < readings[b]; });
   const auto at = [&](std::size_t rank) { return readings[order[rank]]; };
   const std::size_t last = order.size() - 1;
   const double above = at(last) - at(last - 1), below = at(1) - at(0);
-  if (const double span = at(last - 1) - at(0); above > span) return LoneReading{order[last], above / span};
-  if (const double span = at(last) - at(1); below > span) return LoneReading{order[0], below / span};
+  if (const double span = at(last - 1) - at(0); above > span)
+    return LoneReading{order[last], above / span};
+  if (const double span = at(last) - at(1); below > span)
+    return LoneReading{order[0], below / span};
   return std::nullopt;
 }
 

@@ -13,7 +13,8 @@ std::vector<Segment<3>> pieces_of(const Layout& layout, std::span<const LevelLoo
   for (const LevelLoop& loop : loops) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
       if (loop.on_border[i]) continue;
-      pieces.push_back({layout.at(loop.points[i]), layout.at(loop.points[(i + 1) % loop.points.size()])});
+      pieces.push_back(
+          {layout.at(loop.points[i]), layout.at(loop.points[(i + 1) % loop.points.size()])});
     }
   }
   return pieces;
@@ -21,14 +22,17 @@ std::vector<Segment<3>> pieces_of(const Layout& layout, std::span<const LevelLoo
 
 }  // namespace
 
-std::vector<double> distances_from(const Layout& layout, std::span<const LevelLoop> loops, std::span<const Vec3> places) {
+std::vector<double> distances_from(const Layout& layout, std::span<const LevelLoop> loops,
+                                   std::span<const Vec3> places) {
   std::vector<Segment<3>> pieces = pieces_of(layout, loops);
   if (pieces.empty()) return {};
   const NearestSegment<3> nearest(std::move(pieces));
   std::vector<double> distances(places.size());
   for_ranges(static_cast<int>(places.size()), kPlacesAtOnce, [&](int first, int last) {
     int hint = 0;
-    for (int i = first; i < last; ++i) distances[static_cast<std::size_t>(i)] = nearest.distance(places[static_cast<std::size_t>(i)], hint);
+    for (int i = first; i < last; ++i)
+      distances[static_cast<std::size_t>(i)] =
+          nearest.distance(places[static_cast<std::size_t>(i)], hint);
   });
   return distances;
 }

@@ -9,8 +9,9 @@
 
 namespace palpation {
 
-/// Distance of each place of the layout from the loops' pieces along the level, in a straight line, unsigned; pieces along the tissue's
-/// border do not count. Empty if there are no others.
-std::vector<double> distances_from(const Layout& layout, std::span<const LevelLoop> loops, std::span<const Vec3> places);
+/// Distance of each place of the layout from the loops' pieces along the level, in a straight line,
+/// unsigned; pieces along the tissue's border do not count. Empty if there are no others.
+std::vector<double> distances_from(const Layout& layout, std::span<const LevelLoop> loops,
+                                   std::span<const Vec3> places);
 
 }  // namespace palpation

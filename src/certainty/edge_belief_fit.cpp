@@ -6,12 +6,15 @@
 namespace palpation {
 namespace {
 
-/// No correction moves a boundary farther than this many of its standard deviations: depths beyond keep their side.
+/// No correction moves a boundary farther than this many of its standard deviations: depths beyond
+/// keep their side.
 constexpr double kReach = 6.0;
 
 }  // namespace
 
-double EdgeBelief::Fit::shift_m() const { return std::log(fraction / (1.0 - fraction)) / std::exp(edge.profile[2]); }
+double EdgeBelief::Fit::shift_m() const {
+  return std::log(fraction / (1.0 - fraction)) / std::exp(edge.profile[2]);
+}
 
 Eigen::Matrix3d EdgeBelief::Fit::profile_covariance() const {
   const Eigen::Matrix3d variance = prior.variance.asDiagonal();
@@ -32,7 +35,8 @@ EdgeProfile EdgeBelief::Fit::edge_profile() const {
 
 Eigen::MatrixXd EdgeBelief::Fit::readings_with_depths(std::span<const SurfacePoint> points) const {
   Eigen::MatrixXd shared = edge.by_depth.asDiagonal() * correction.covariance(places, points);
-  // depth = distance + correction - logit(fraction) / slope, whose derivative by log slope is the shift.
+  // depth = distance + correction - logit(fraction) / slope, whose derivative by log slope is the
+  // shift.
   shared.colwise() += edge.by_profile.col(2) * (prior.variance[2] * shift_m());
   return shared;
 }
@@ -58,8 +62,10 @@ Field EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const 
     near.push_back(surface.at_vertex(vertex));
   }
   // Corrections alone move it: the shift is that of the most probable slope already.
-  const Eigen::VectorXd moved = correction.covariance(near, places) * edge.by_depth.cwiseProduct(edge.pull);
-  for (std::size_t i = 0; i < vertices.size(); ++i) depth[vertices[i]] += moved[static_cast<Eigen::Index>(i)];
+  const Eigen::VectorXd moved =
+      correction.covariance(near, places) * edge.by_depth.cwiseProduct(edge.pull);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    depth[vertices[i]] += moved[static_cast<Eigen::Index>(i)];
   return depth;
 }
 

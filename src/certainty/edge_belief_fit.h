@@ -24,8 +24,8 @@ struct EdgeBelief::Fit {
   /// `distance`: of each vertex from the first boundary, signed.
   Field depth_at_vertices(const Eigen::VectorXd& distance) const;
 
-  /// Prior covariance of the readings (rows) with depths at points (columns): what both share is the correction, and the slope by the
-  /// shift.
+  /// Prior covariance of the readings (rows) with depths at points (columns): what both share is
+  /// the correction, and the slope by the shift.
   Eigen::MatrixXd readings_with_depths(std::span<const SurfacePoint> points) const;
   /// Posterior covariance of the depths at points.
   Eigen::MatrixXd depth_covariance(std::span<const SurfacePoint> points) const;

@@ -13,20 +13,23 @@
 namespace palpation {
 namespace {
 
-constexpr double kAsGood = 0.9;     // of the best
-constexpr double kCell_m = 0.0005;  // an eighth of an edge's width: of the candidates in one such cube, one is tried
+constexpr double kAsGood = 0.9;  // of the best
+constexpr double kCell_m =
+    0.0005;  // an eighth of an edge's width: of the candidates in one such cube, one is tried
 
 std::vector<int> one_per_cell(const Layout& layout, std::span<const int> candidates) {
   std::set<std::array<long, 3>> taken;
   std::vector<int> thinned;
   for (const int vertex : candidates) {
     const Vec3 cell = (layout.at(vertex) / kCell_m).array().round();
-    if (taken.insert({std::lround(cell[0]), std::lround(cell[1]), std::lround(cell[2])}).second) thinned.push_back(vertex);
+    if (taken.insert({std::lround(cell[0]), std::lround(cell[1]), std::lround(cell[2])}).second)
+      thinned.push_back(vertex);
   }
   return thinned;
 }
 
-/// Posterior covariances of readings at the candidates and of depths at the nodes, kept up to date as candidates are picked.
+/// Posterior covariances of readings at the candidates and of depths at the nodes, kept up to date
+/// as candidates are picked.
 class Design {
  public:
   Eigen::MatrixXd depth_reading;     // nodes x candidates
@@ -37,14 +40,17 @@ class Design {
   double gain(const std::vector<double>& length_m, Eigen::Index candidate) const {
     double sum = 0.0;
     for (Eigen::Index node = 0; node < depth_variance.size(); ++node) {
-      const double told = depth_reading(node, candidate) * depth_reading(node, candidate) / reading_variance[candidate];
-      sum += length_m[static_cast<std::size_t>(node)] *
-             (std::sqrt(depth_variance[node]) - std::sqrt(std::max(depth_variance[node] - told, 0.0)));
+      const double told = depth_reading(node, candidate) * depth_reading(node, candidate) /
+                          reading_variance[candidate];
+      sum +=
+          length_m[static_cast<std::size_t>(node)] *
+          (std::sqrt(depth_variance[node]) - std::sqrt(std::max(depth_variance[node] - told, 0.0)));
     }
     return sum;
   }
 
-  /// `with_picked`: posterior covariance of the candidates' readings with the picked one's, before any pick.
+  /// `with_picked`: posterior covariance of the candidates' readings with the picked one's, before
+  /// any pick.
   void pick(Eigen::Index candidate, Eigen::VectorXd with_picked) {
     for (const Eigen::VectorXd& row : rows_) with_picked -= row * row[candidate];
     const double sd = std::sqrt(reading_variance[candidate]);
@@ -64,11 +70,12 @@ class Design {
 
 }  // namespace
 
-std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, int count, double least_spacing_m,
+std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, int count,
+                                          double least_spacing_m,
                                           const Field& field_variance) const {
   require(count >= 0, "most_telling", "count = " + std::to_string(count), "must not be negative");
-  require(field_variance.size() == surface_.vertex_count(), "most_telling", std::to_string(field_variance.size()) + " variances",
-          "must be one for each vertex");
+  require(field_variance.size() == surface_.vertex_count(), "most_telling",
+          std::to_string(field_variance.size()) + " variances", "must be one for each vertex");
   const Fit& fit = *fit_;
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
   const std::vector<int> candidates = one_per_cell(Layout(fit.correction), all_candidates);
@@ -90,7 +97,9 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   const ProfileSlopes by_profile_variance = by_profile * profile_variance;
 
   // Whitened covariances with the readings so far.
-  Eigen::MatrixXd of_candidates = fit.edge.by_depth.asDiagonal() * fit.correction.covariance(fit.places, points) * by_depth.asDiagonal();
+  Eigen::MatrixXd of_candidates = fit.edge.by_depth.asDiagonal() *
+                                  fit.correction.covariance(fit.places, points) *
+                                  by_depth.asDiagonal();
   of_candidates += fit.edge.by_profile * by_profile_variance.transpose();
   fit.edge.covariance.matrixL().solveInPlace(of_candidates);
   Eigen::MatrixXd of_nodes = fit.readings_with_depths(nodes.points);
@@ -102,8 +111,11 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   design.depth_reading = fit.correction.covariance(nodes.points, points) * by_depth.asDiagonal();
   design.depth_reading.rowwise() += shift * by_profile_variance.col(2).transpose();
   design.depth_reading -= of_nodes.transpose() * of_candidates;
-  design.depth_variance = (sd * sd + shift * shift * fit.prior.variance[2] - of_nodes.colwise().squaredNorm().transpose().array()).max(0.0);
-  design.reading_variance = sd * sd * by_depth.cwiseAbs2() + by_profile_variance.cwiseProduct(by_profile).rowwise().sum() -
+  design.depth_variance = (sd * sd + shift * shift * fit.prior.variance[2] -
+                           of_nodes.colwise().squaredNorm().transpose().array())
+                              .max(0.0);
+  design.reading_variance = sd * sd * by_depth.cwiseAbs2() +
+                            by_profile_variance.cwiseProduct(by_profile).rowwise().sum() -
                             of_candidates.colwise().squaredNorm().transpose();
   design.reading_variance = design.reading_variance.cwiseMax(0.0).array() + design.noise;
 
@@ -118,13 +130,16 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
     int picked = -1;
     for (std::size_t i = 0; i < gains.size(); ++i) {
       if (!allowed[i] || gains[i] < kAsGood * best) continue;
-      if (picked < 0 || field_variance[candidates[i]] > field_variance[candidates[static_cast<std::size_t>(picked)]])
+      if (picked < 0 || field_variance[candidates[i]] >
+                            field_variance[candidates[static_cast<std::size_t>(picked)]])
         picked = static_cast<int>(i);
     }
     const int vertex = candidates[static_cast<std::size_t>(picked)];
     picks.push_back(vertex);
     const SurfacePoint place = surface_.at_vertex(vertex);
-    Eigen::VectorXd with_picked = by_depth.cwiseProduct(fit.correction.covariance(points, std::span(&place, 1)).col(0)) * by_depth[picked];
+    Eigen::VectorXd with_picked =
+        by_depth.cwiseProduct(fit.correction.covariance(points, std::span(&place, 1)).col(0)) *
+        by_depth[picked];
     with_picked += by_profile_variance * by_profile.row(picked).transpose();
     with_picked -= of_candidates.transpose() * of_candidates.col(picked);
     design.pick(picked, std::move(with_picked));

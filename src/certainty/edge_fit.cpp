@@ -12,11 +12,13 @@ constexpr int kMostHalvings = 10;
 constexpr double kAtRest = 1e-9;  // of the misfit
 
 /// Minus twice the log posterior density; `weight` is K^-1 correction.
-double misfit(const EdgeData& data, const ProfilePrior& prior, const ProfileParameters& profile, const Eigen::VectorXd& correction,
-              const Eigen::VectorXd& weight) {
-  double sum = correction.dot(weight) + ((profile - prior.mean).array().square() / prior.variance.array()).sum();
+double misfit(const EdgeData& data, const ProfilePrior& prior, const ProfileParameters& profile,
+              const Eigen::VectorXd& correction, const Eigen::VectorXd& weight) {
+  double sum = correction.dot(weight) +
+               ((profile - prior.mean).array().square() / prior.variance.array()).sum();
   for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
-    const double residual = data.reading[i] - profile_reading(profile, data.depth_m[i] + correction[i]);
+    const double residual =
+        data.reading[i] - profile_reading(profile, data.depth_m[i] + correction[i]);
     sum += residual * residual / data.variance[i];
   }
   return sum;
@@ -39,7 +41,8 @@ ReadingSlopes profile_slopes(const ProfileParameters& profile, double depth_m) {
   return {rise * slope, {1.0 - share, share, rise * slope * depth_m}};
 }
 
-EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior) {
+EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covariance,
+                        const ProfilePrior& prior) {
   const Eigen::Index count = data.reading.size();
   EdgeFit fit{.profile = prior.mean,
               .correction_m = Eigen::VectorXd::Zero(count),
@@ -57,26 +60,34 @@ EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covar
       const ReadingSlopes slopes = profile_slopes(fit.profile, depth);
       fit.by_depth[i] = slopes.by_depth;
       fit.by_profile.row(i) = slopes.by_profile;
-      linearized[i] = data.reading[i] - profile_reading(fit.profile, depth) + slopes.by_depth * fit.correction_m[i] +
+      linearized[i] = data.reading[i] - profile_reading(fit.profile, depth) +
+                      slopes.by_depth * fit.correction_m[i] +
                       slopes.by_profile.dot(fit.profile - prior.mean);
     }
-    Eigen::MatrixXd covariance = fit.by_depth.asDiagonal() * prior_covariance * fit.by_depth.asDiagonal();
+    Eigen::MatrixXd covariance =
+        fit.by_depth.asDiagonal() * prior_covariance * fit.by_depth.asDiagonal();
     covariance += fit.by_profile * prior.variance.asDiagonal() * fit.by_profile.transpose();
     covariance.diagonal() += data.variance;
     fit.covariance.compute(covariance);
     if (fit.covariance.info() != Eigen::Success || !covariance.allFinite())
-      throw NumericalError("EdgeBelief: the covariance of " + std::to_string(count) + " readings is not positive definite");
+      throw NumericalError("EdgeBelief: the covariance of " + std::to_string(count) +
+                           " readings is not positive definite");
     fit.pull = fit.covariance.solve(linearized);
-    fit.log_evidence = -0.5 * linearized.dot(fit.pull) - fit.covariance.matrixLLT().diagonal().array().log().sum();
+    fit.log_evidence =
+        -0.5 * linearized.dot(fit.pull) - fit.covariance.matrixLLT().diagonal().array().log().sum();
     if (step == kMostSteps) return fit;
 
     const Eigen::VectorXd to_weight = fit.by_depth.cwiseProduct(fit.pull) - weight;
-    const Eigen::VectorXd to_correction = prior_covariance * (weight + to_weight) - fit.correction_m;
+    const Eigen::VectorXd to_correction =
+        prior_covariance * (weight + to_weight) - fit.correction_m;
     const ProfileParameters to_profile =
-        prior.mean + ProfileParameters(prior.variance.asDiagonal() * (fit.by_profile.transpose() * fit.pull)) - fit.profile;
+        prior.mean +
+        ProfileParameters(prior.variance.asDiagonal() * (fit.by_profile.transpose() * fit.pull)) -
+        fit.profile;
     double part = 1.0, there = here;
     for (int halving = 0; halving < kMostHalvings; ++halving, part *= 0.5) {
-      there = misfit(data, prior, fit.profile + part * to_profile, fit.correction_m + part * to_correction, weight + part * to_weight);
+      there = misfit(data, prior, fit.profile + part * to_profile,
+                     fit.correction_m + part * to_correction, weight + part * to_weight);
       if (there < here) break;
     }
     if (!(there < here)) return fit;

@@ -36,8 +36,9 @@ struct ProfilePrior {
   Eigen::Vector3d variance = Eigen::Vector3d::Ones();
 };
 
-/// Readings are linear in corrections and profile around the most probable ones: their covariance is
-/// C = J K J' + G S G' + noise, J and G the derivatives by correction and profile, K and S the priors.
+/// Readings are linear in corrections and profile around the most probable ones: their covariance
+/// is C = J K J' + G S G' + noise, J and G the derivatives by correction and profile, K and S the
+/// priors.
 struct EdgeFit {
   ProfileParameters profile;
   Eigen::VectorXd correction_m;  ///< at the readings' places
@@ -45,11 +46,14 @@ struct EdgeFit {
   ProfileSlopes by_profile;      ///< G
   Eigen::VectorXd pull;          ///< C^-1 (linearized readings - their prior mean)
   Eigen::LLT<Eigen::MatrixXd> covariance;
-  double scatter = 1.0;       ///< what the noise variances were multiplied by
-  double log_evidence = 0.0;  ///< of the linearized readings, without what depends on their number alone
+  double scatter = 1.0;  ///< what the noise variances were multiplied by
+  double log_evidence =
+      0.0;  ///< of the linearized readings, without what depends on their number alone
 };
 
-/// `prior_covariance`: K, of the corrections at the places. Throws NumericalError if C is not positive definite.
-EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior);
+/// `prior_covariance`: K, of the corrections at the places. Throws NumericalError if C is not
+/// positive definite.
+EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covariance,
+                        const ProfilePrior& prior);
 
 }  // namespace palpation

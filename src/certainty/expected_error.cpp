@@ -11,12 +11,14 @@ Field probability_inside(const Marginals& marginals, const Level& level) {
   for (Eigen::Index vertex = 0; vertex < probability.size(); ++vertex) {
     const double distance = marginals.mean[vertex] - level.value;
     const double variance = marginals.variance[vertex] + level_variance;
-    probability[vertex] = variance > 0.0 ? 0.5 * std::erfc(-distance / std::sqrt(2.0 * variance)) : (distance >= 0.0 ? 1.0 : 0.0);
+    probability[vertex] = variance > 0.0 ? 0.5 * std::erfc(-distance / std::sqrt(2.0 * variance))
+                                         : (distance >= 0.0 ? 1.0 : 0.0);
   }
   return probability;
 }
 
-ExpectedError expected_error(const Surface& surface, const Marginals& marginals, const Level& level) {
+ExpectedError expected_error(const Surface& surface, const Marginals& marginals,
+                             const Level& level) {
   const Field inside = probability_inside(marginals, level);
   ExpectedError error;
   for (Eigen::Index vertex = 0; vertex < inside.size(); ++vertex) {

@@ -5,7 +5,9 @@
 namespace palpation {
 
 Layout::Layout(const Prior& prior)
-    : surface_(prior.surface()), in_chart_(prior.metric() != Metric::Ambient && !surface_.is_planar() && surface_.has_chart()) {}
+    : surface_(prior.surface()),
+      in_chart_(prior.metric() != Metric::Ambient && !surface_.is_planar() &&
+                surface_.has_chart()) {}
 
 Vec3 Layout::at(int vertex) const {
   if (!in_chart_) return surface_.vertex(vertex);

@@ -11,7 +11,8 @@ double normal_probability(double x) { return 0.5 * std::erfc(-x / std::numbers::
 double normal_quantile(double probability) {
   if (probability > 0.5) return -normal_quantile(1.0 - probability);
   double below = -40.0, above = 0.0;
-  for (double middle = -20.0; below < middle && middle < above; middle = below + 0.5 * (above - below)) {
+  for (double middle = -20.0; below < middle && middle < above;
+       middle = below + 0.5 * (above - below)) {
     (normal_probability(middle) < probability ? below : above) = middle;
   }
   return above;

@@ -12,22 +12,27 @@
 namespace palpation {
 namespace {
 
-/// Of outline that one mode stands for: what is smoother than this is known of tumours, what is finer is not asked for.
+/// Of outline that one mode stands for: what is smoother than this is known of tumours, what is
+/// finer is not asked for.
 constexpr double kModeLength_m = 0.0045;
 
 void check(const ReferenceCase& of) {
   const auto check_positive = [](const std::string& what, double value) {
-    require(std::isfinite(value) && value > 0.0, "reference_bound", what + " = " + text_of(value), "must be positive and finite");
+    require(std::isfinite(value) && value > 0.0, "reference_bound", what + " = " + text_of(value),
+            "must be positive and finite");
   };
   check_positive("perimeter_m", of.perimeter_m);
   check_positive("slope_per_m", of.slope_per_m);
-  require(std::isfinite(of.noise) && of.noise >= 0.0, "reference_bound", "noise = " + text_of(of.noise), "must be finite and not negative");
-  require(of.readings > 0, "reference_bound", "readings = " + std::to_string(of.readings), "must be positive");
-  require(of.fraction > 0.0 && of.fraction < 1.0, "reference_bound", "fraction = " + text_of(of.fraction), "must lie in (0, 1)");
+  require(std::isfinite(of.noise) && of.noise >= 0.0, "reference_bound",
+          "noise = " + text_of(of.noise), "must be finite and not negative");
+  require(of.readings > 0, "reference_bound", "readings = " + std::to_string(of.readings),
+          "must be positive");
+  require(of.fraction > 0.0 && of.fraction < 1.0, "reference_bound",
+          "fraction = " + text_of(of.fraction), "must lie in (0, 1)");
 }
 
-/// Readings at the boundary tell P offsets of the line at the level; those on the plateaus, shared between low and high as 1 - f to f, the
-/// level itself.
+/// Readings at the boundary tell P offsets of the line at the level; those on the plateaus, shared
+/// between low and high as 1 - f to f, the level itself.
 double with_best_split(int modes) {
   constexpr int kParts = 20;
   double least = std::numeric_limits<double>::infinity();
@@ -41,7 +46,8 @@ double with_best_split(int modes) {
 }  // namespace
 
 double ReferenceBound::band_half_width_m(double probability) const {
-  require(probability > 0.0 && probability < 1.0, "band_half_width_m", "probability = " + text_of(probability), "must lie in (0, 1)");
+  require(probability > 0.0 && probability < 1.0, "band_half_width_m",
+          "probability = " + text_of(probability), "must lie in (0, 1)");
   return offset_sd_m * normal_quantile(0.5 + 0.5 * std::pow(probability, 1.0 / modes));
 }
 

@@ -18,46 +18,57 @@ constexpr std::size_t kLookedAt = 200;
 constexpr double kTellsNothing = 1e-6;  // of the variance
 
 void check_gamma(const char* function, double gamma) {
-  require(gamma >= 0.0 && gamma <= 1.0, function, "gamma = " + text_of(gamma), "must lie in [0, 1]");
+  require(gamma >= 0.0 && gamma <= 1.0, function, "gamma = " + text_of(gamma),
+          "must lie in [0, 1]");
 }
 
 void check_width(const char* function, double width) {
-  require(std::isfinite(width) && width >= 0.0, function, "width = " + text_of(width), "must be finite and not negative");
+  require(std::isfinite(width) && width >= 0.0, function, "width = " + text_of(width),
+          "must be finite and not negative");
 }
 
 }  // namespace
 
 Pointwise evr() {
-  return {.score = [](double, double stddev, const Level&) { return stddev; }, .grows_with_stddev = true};
+  return {.score = [](double, double stddev, const Level&) { return stddev; },
+          .grows_with_stddev = true};
 }
 
 Pointwise ucb(double gamma, Scaling scaling) {
   check_gamma("ucb", gamma);
-  return {.score = [gamma](double mean, double stddev, const Level&) { return gamma * mean + (1.0 - gamma) * stddev; },
+  return {.score = [gamma](double mean, double stddev,
+                           const Level&) { return gamma * mean + (1.0 - gamma) * stddev; },
           .grows_with_stddev = true,
           .units = scaling == Scaling::Raw ? Units::Readings : Units::OverGreatestMean};
 }
 
 Pointwise ils_ucb(double gamma, Scaling scaling) {
   check_gamma("ils_ucb", gamma);
-  return {.score = [gamma](double mean, double stddev,
-                           const Level& level) { return (1.0 - gamma) * stddev - gamma * std::abs(mean - level.value); },
+  return {.score =
+              [gamma](double mean, double stddev, const Level& level) {
+                return (1.0 - gamma) * stddev - gamma * std::abs(mean - level.value);
+              },
           .grows_with_stddev = true,
           .units = scaling == Scaling::Raw ? Units::Readings : Units::OverGreatestDistance};
 }
 
 Pointwise straddle(double width) {
   check_width("straddle", width);
-  return {.score = [width](double mean, double stddev, const Level& level) { return width * stddev - std::abs(mean - level.value); },
+  return {.score =
+              [width](double mean, double stddev, const Level& level) {
+                return width * stddev - std::abs(mean - level.value);
+              },
           .grows_with_stddev = true};
 }
 
 Pointwise lse_ambiguity(double width) {
   check_width("lse_ambiguity", width);
-  return {
-      .score = [width](double mean, double stddev,
-                       const Level& level) { return std::min(mean + width * stddev - level.value, level.value - (mean - width * stddev)); },
-      .grows_with_stddev = true};
+  return {.score =
+              [width](double mean, double stddev, const Level& level) {
+                return std::min(mean + width * stddev - level.value,
+                                level.value - (mean - width * stddev));
+              },
+          .grows_with_stddev = true};
 }
 
 Whole randomized_straddle(std::uint64_t seed) {
@@ -85,10 +96,12 @@ Whole expected_symmetric_difference() {
       if (!(reading_variance > 0.0)) continue;
       for (int vertex = 0; vertex < covariance.size(); ++vertex) {
         const double before = now.variance[vertex];
-        const double known = std::min(covariance[vertex] * covariance[vertex] / reading_variance, before);
+        const double known =
+            std::min(covariance[vertex] * covariance[vertex] / reading_variance, before);
         if (!(known > kTellsNothing * before)) continue;
         const double z = std::abs(now.mean[vertex] - level.value) / std::sqrt(before);
-        const double misjudged = owens_t(z, std::numeric_limits<double>::infinity()) - owens_t(z, std::sqrt((before - known) / known));
+        const double misjudged = owens_t(z, std::numeric_limits<double>::infinity()) -
+                                 owens_t(z, std::sqrt((before - known) / known));
         gains[candidate] += surface.vertex_areas()[vertex] * 2.0 * misjudged;
       }
     }
@@ -105,8 +118,8 @@ Whole random_scores(std::uint64_t seed) {
   }};
 }
 
-PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& level, const Marginals& marginals,
-                                 std::span<const int> candidates)
+PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& level,
+                                 const Marginals& marginals, std::span<const int> candidates)
     : acquisition_(acquisition), level_(level), is_scaled_(acquisition.units != Units::Readings) {
   if (!is_scaled_) return;
   mean_origin_ = acquisition.units == Units::OverGreatestDistance ? level.value : 0.0;
@@ -121,7 +134,9 @@ PointwiseScorer::PointwiseScorer(const Pointwise& acquisition, const Level& leve
 }
 
 void PointwiseScorer::refuse(double mean, double variance) {
-  require(false, "Acquisition", "the score at mean " + text_of(mean) + ", variance " + text_of(variance), "must not be NaN");
+  require(false, "Acquisition",
+          "the score at mean " + text_of(mean) + ", variance " + text_of(variance),
+          "must not be NaN");
 }
 
 Marginals planning_marginals(const Belief& belief) {

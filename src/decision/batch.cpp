@@ -14,7 +14,8 @@
 namespace palpation {
 namespace {
 
-/// Supposed readings on the way are this far apart: half the length over which stiffness changes; closer ones tell the same.
+/// Supposed readings on the way are this far apart: half the length over which stiffness changes;
+/// closer ones tell the same.
 constexpr double kWayStep_m = 0.002;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -22,12 +23,15 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 class Candidates {
  public:
   Candidates(const Surface& surface, std::span<const int> candidates, double least_spacing_m)
-      : surface_(surface), least_spacing_m_(least_spacing_m), allowed_(static_cast<std::size_t>(surface.vertex_count()), 0) {
+      : surface_(surface),
+        least_spacing_m_(least_spacing_m),
+        allowed_(static_cast<std::size_t>(surface.vertex_count()), 0) {
     int previous = -1;
     const int count = surface.vertex_count();
     for (int vertex : candidates) {
       if (vertex <= previous || vertex >= count) {  // no words for the many that are right
-        require(false, "choose_batch", "candidate " + std::to_string(vertex), "must be a vertex, greater than the one before");
+        require(false, "choose_batch", "candidate " + std::to_string(vertex),
+                "must be a vertex, greater than the one before");
       }
       allowed_[vertex] = 1;
       previous = vertex;
@@ -50,13 +54,15 @@ class Candidates {
 /// Where the probe has been when it comes to the next pick.
 class Trail {
  public:
-  Trail(const Belief& belief, const BatchOptions& options) : belief_(belief), way_reading_m_(options.way_reading_m) {
+  Trail(const Belief& belief, const BatchOptions& options)
+      : belief_(belief), way_reading_m_(options.way_reading_m) {
     if (options.from) places_.push_back(belief.prior().surface().position(*options.from));
   }
 
   /// The readings on the way to a pick, which is then a place of its own.
   std::vector<Supposed> on_the_way_to(int vertex) {
-    const std::vector<Supposed> readings = supposed_on_the_way(belief_, places_, vertex, way_reading_m_);
+    const std::vector<Supposed> readings =
+        supposed_on_the_way(belief_, places_, vertex, way_reading_m_);
     places_.push_back(belief_.prior().surface().vertex(vertex));
     return readings;
   }
@@ -72,7 +78,9 @@ struct Best {
   int vertex = -1;
 
   bool is_none() const { return vertex < 0; }
-  bool operator<(const Best& other) const { return score < other.score || (score == other.score && vertex > other.vertex); }
+  bool operator<(const Best& other) const {
+    return score < other.score || (score == other.score && vertex > other.vertex);
+  }
 };
 
 struct Search {
@@ -95,7 +103,8 @@ struct Search {
       if (!candidates.allows(vertex)) continue;
       ++evaluations;
       const double score = scorer(mean[vertex], variance[i]);
-      if (best.vertex < 0 || score > best.score || (score == best.score && vertex < best.vertex)) best = {score, vertex};
+      if (best.vertex < 0 || score > best.score || (score == best.score && vertex < best.vertex))
+        best = {score, vertex};
     }
     return best;
   }
@@ -103,7 +112,8 @@ struct Search {
   void pick(const Best& best, Batch& batch) {
     batch.vertices.push_back(best.vertex);
     batch.scores.push_back(best.score);
-    for (const Supposed& reading : trail.on_the_way_to(best.vertex)) ahead.touch(reading.vertex, reading.noise_variance);
+    for (const Supposed& reading : trail.on_the_way_to(best.vertex))
+      ahead.touch(reading.vertex, reading.noise_variance);
     ahead.touch(best.vertex, noise_variance);
     candidates.pick(best.vertex);
   }
@@ -157,18 +167,20 @@ Palpation supposition(const Belief& belief, int vertex) {
   return palpation;
 }
 
-Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& level, Candidates candidates, Trail trail, int size) {
+Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& level,
+                   Candidates candidates, Trail trail, int size) {
   const Surface& surface = belief.prior().surface();
   Batch batch;
   Belief supposed = belief;
   while (static_cast<int>(batch.vertices.size()) < size) {
     const Field scores = acquisition.scores(supposed, level);
-    require(scores.size() == surface.vertex_count(), "Acquisition", std::to_string(scores.size()) + " scores",
-            "must be one for each vertex");
+    require(scores.size() == surface.vertex_count(), "Acquisition",
+            std::to_string(scores.size()) + " scores", "must be one for each vertex");
     Best best;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
       if (!candidates.allows(vertex)) continue;
-      require(!std::isnan(scores[vertex]), "Acquisition", "the score of vertex " + std::to_string(vertex), "must not be NaN");
+      require(!std::isnan(scores[vertex]), "Acquisition",
+              "the score of vertex " + std::to_string(vertex), "must not be NaN");
       ++batch.evaluations;
       if (best.vertex < 0 || scores[vertex] > best.score) best = {scores[vertex], vertex};
     }
@@ -189,18 +201,21 @@ Batch choose_whole(const Belief& belief, const Whole& acquisition, const Level& 
 
 }  // namespace
 
-std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const Vec3> places, int vertex, double way_reading_m) {
+std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const Vec3> places,
+                                          int vertex, double way_reading_m) {
   std::vector<Supposed> readings;
   if (way_reading_m == 0.0 || places.empty()) return readings;
   const Surface& surface = belief.prior().surface();
   const Vec3 end = surface.vertex(vertex);
-  const Vec3 start = *std::ranges::min_element(places, {}, [&](const Vec3& place) { return (place - end).squaredNorm(); });
+  const Vec3 start = *std::ranges::min_element(
+      places, {}, [&](const Vec3& place) { return (place - end).squaredNorm(); });
   const double length = (end - start).norm();
   // As many readings as will be made on so long a piece of the way.
   const double variance = belief.noise_variance() * way_reading_m / kWayStep_m;
   if (!surface.is_planar()) {
     const SurfacePoint begin = surface.at_vertex(surface.nearest_vertex(start));
-    for (const SurfacePoint& place : way_between(surface, begin, surface.at_vertex(vertex), kWayStep_m)) {
+    for (const SurfacePoint& place :
+         way_between(surface, begin, surface.at_vertex(vertex), kWayStep_m)) {
       Eigen::Index nearest = 0;
       place.barycentric.maxCoeff(&nearest);
       readings.push_back({surface.triangle(place.face)[nearest], variance});
@@ -213,25 +228,33 @@ std::vector<Supposed> supposed_on_the_way(const Belief& belief, std::span<const 
   return readings;
 }
 
-Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const Level& level, std::span<const int> candidates,
-                   const BatchOptions& options) {
-  require(options.size >= 0, "choose_batch", "size = " + std::to_string(options.size), "must not be negative");
+Batch choose_batch(const Belief& belief, const Acquisition& acquisition, const Level& level,
+                   std::span<const int> candidates, const BatchOptions& options) {
+  require(options.size >= 0, "choose_batch", "size = " + std::to_string(options.size),
+          "must not be negative");
   require(std::isfinite(options.least_spacing_m) && options.least_spacing_m >= 0.0, "choose_batch",
-          "least_spacing_m = " + text_of(options.least_spacing_m), "must be finite and not negative");
+          "least_spacing_m = " + text_of(options.least_spacing_m),
+          "must be finite and not negative");
   require(std::isfinite(options.way_reading_m) && options.way_reading_m >= 0.0, "choose_batch",
           "way_reading_m = " + text_of(options.way_reading_m), "must be finite and not negative");
   Candidates allowed(belief.prior().surface(), candidates, options.least_spacing_m);
   if (const auto* whole = std::get_if<Whole>(&acquisition))
-    return choose_whole(belief, *whole, level, std::move(allowed), Trail(belief, options), options.size);
+    return choose_whole(belief, *whole, level, std::move(allowed), Trail(belief, options),
+                        options.size);
 
   const auto& pointwise = std::get<Pointwise>(acquisition);
-  require(options.evaluation != Evaluation::Lazy || pointwise.grows_with_stddev, "choose_batch", "lazy evaluation",
-          "needs an acquisition that grows with stddev");
+  require(options.evaluation != Evaluation::Lazy || pointwise.grows_with_stddev, "choose_batch",
+          "lazy evaluation", "needs an acquisition that grows with stddev");
   const Marginals marginals = planning_marginals(belief);
   const PointwiseScorer scorer(pointwise, level, marginals, candidates);
-  Search search{
-      scorer, marginals.mean, belief.noise_variance(), LookAhead(belief, marginals.variance), std::move(allowed), Trail(belief, options)};
-  const bool lazy = options.evaluation == Evaluation::Lazy || (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev);
+  Search search{scorer,
+                marginals.mean,
+                belief.noise_variance(),
+                LookAhead(belief, marginals.variance),
+                std::move(allowed),
+                Trail(belief, options)};
+  const bool lazy = options.evaluation == Evaluation::Lazy ||
+                    (options.evaluation == Evaluation::Automatic && pointwise.grows_with_stddev);
   Batch batch;
   if (lazy) {
     choose_lazily(search, options.size, batch);

@@ -21,7 +21,8 @@ class ChartLocator {
   /// Where a point of the tissue lies in the chart.
   Vec2 place(const SurfacePoint& point) const;
 
-  /// The point of the lowest face that contains the place, rounding forgiven; nothing off the tissue.
+  /// The point of the lowest face that contains the place, rounding forgiven; nothing off the
+  /// tissue.
   std::optional<SurfacePoint> at(const Vec2& place) const;
 
  private:

@@ -22,17 +22,22 @@ std::vector<int> checked(const Surface& surface, int count, std::span<const int>
   std::vector<int> vertices(candidates.begin(), candidates.end());
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  for (const int vertex : {vertices.empty() ? 0 : vertices.front(), vertices.empty() ? 0 : vertices.back()}) {
-    require(vertex >= 0 && vertex < surface.vertex_count(), "initial_design", "candidate " + std::to_string(vertex), "is no vertex");
+  for (const int vertex :
+       {vertices.empty() ? 0 : vertices.front(), vertices.empty() ? 0 : vertices.back()}) {
+    require(vertex >= 0 && vertex < surface.vertex_count(), "initial_design",
+            "candidate " + std::to_string(vertex), "is no vertex");
   }
   return vertices;
 }
 
-/// Weighted sampling without replacement (Efraimidis and Spirakis 2006): the least waiting times -ln(uniform) / area.
-std::vector<int> random_vertices(const Surface& surface, int count, const std::vector<int>& candidates, Random& random) {
+/// Weighted sampling without replacement (Efraimidis and Spirakis 2006): the least waiting times
+/// -ln(uniform) / area.
+std::vector<int> random_vertices(const Surface& surface, int count,
+                                 const std::vector<int>& candidates, Random& random) {
   std::vector<std::pair<double, int>> waiting_times;
   for (const int vertex : candidates) {
-    waiting_times.emplace_back(-std::log1p(-random.uniform()) / surface.vertex_areas()[vertex], vertex);
+    waiting_times.emplace_back(-std::log1p(-random.uniform()) / surface.vertex_areas()[vertex],
+                               vertex);
   }
   std::nth_element(waiting_times.begin(), waiting_times.begin() + count, waiting_times.end());
   std::vector<int> vertices;
@@ -40,12 +45,16 @@ std::vector<int> random_vertices(const Surface& surface, int count, const std::v
   return vertices;
 }
 
-/// For each place the nearest candidate in the chart that no place before it has taken, the lowest of equals.
-std::vector<int> nearest_free(const Surface& surface, const std::vector<Vec2>& places, std::vector<int> candidates) {
+/// For each place the nearest candidate in the chart that no place before it has taken, the lowest
+/// of equals.
+std::vector<int> nearest_free(const Surface& surface, const std::vector<Vec2>& places,
+                              std::vector<int> candidates) {
   const Points2& uv = surface.chart().uv;
   std::vector<int> taken;
   for (const Vec2& place : places) {
-    const auto distance2 = [&](int vertex) { return (uv.row(vertex).transpose() - place).squaredNorm(); };
+    const auto distance2 = [&](int vertex) {
+      return (uv.row(vertex).transpose() - place).squaredNorm();
+    };
     auto nearest = candidates.begin();
     double least = std::numeric_limits<double>::infinity();
     for (auto candidate = candidates.begin(); candidate != candidates.end(); ++candidate) {
@@ -64,7 +73,9 @@ std::vector<int> nearest_free(const Surface& surface, const std::vector<Vec2>& p
 /// `count` of the places, spread evenly over their order.
 std::vector<Vec2> thinned(const std::vector<Vec2>& places, int count) {
   std::vector<Vec2> kept;
-  for (int i = 0; i < count; ++i) kept.push_back(places[static_cast<std::int64_t>(i) * static_cast<std::int64_t>(places.size()) / count]);
+  for (int i = 0; i < count; ++i)
+    kept.push_back(
+        places[static_cast<std::int64_t>(i) * static_cast<std::int64_t>(places.size()) / count]);
   return kept;
 }
 
@@ -74,13 +85,17 @@ struct GridShape {
 
 /// How far from square the cells are: ln of the ratio of their sides, 0 for squares.
 double elongation(const GridShape& shape, const Vec2& extent) {
-  return std::abs(std::log(extent.x() / extent.y() * static_cast<double>(shape.rows) / static_cast<double>(shape.columns)));
+  return std::abs(std::log(extent.x() / extent.y() * static_cast<double>(shape.rows) /
+                           static_cast<double>(shape.columns)));
 }
 
-/// Of the grids of exactly this many cells the one whose cells are closest to square; of equals, the one that is closest to square itself.
+/// Of the grids of exactly this many cells the one whose cells are closest to square; of equals,
+/// the one that is closest to square itself.
 GridShape squarest(std::int64_t cells, const Vec2& extent) {
   GridShape best{cells, 1};
-  const auto imbalance = [](const GridShape& shape) { return std::abs(shape.columns - shape.rows); };
+  const auto imbalance = [](const GridShape& shape) {
+    return std::abs(shape.columns - shape.rows);
+  };
   for (std::int64_t side = 1; side * side <= cells; ++side) {
     if (cells % side != 0) continue;
     for (const GridShape shape : {GridShape{side, cells / side}, GridShape{cells / side, side}}) {
@@ -92,7 +107,8 @@ GridShape squarest(std::int64_t cells, const Vec2& extent) {
   return best;
 }
 
-/// The least grid of at least `cells` cells that are at most twice as long as wide; with none up to twice as many, the squarest of `cells`.
+/// The least grid of at least `cells` cells that are at most twice as long as wide; with none up to
+/// twice as many, the squarest of `cells`.
 GridShape grid_shape(std::int64_t cells, const Vec2& extent) {
   for (std::int64_t more = cells; more <= 2 * cells; ++more) {
     const GridShape shape = squarest(more, extent);
@@ -104,7 +120,8 @@ GridShape grid_shape(std::int64_t cells, const Vec2& extent) {
 std::vector<Vec2> grid_places(std::int64_t cells, const ChartLocator& tissue) {
   const Vec2 extent = tissue.upper() - tissue.lower();
   const GridShape shape = grid_shape(cells, extent);
-  const Vec2 cell = extent.cwiseQuotient(Vec2(static_cast<double>(shape.columns), static_cast<double>(shape.rows)));
+  const Vec2 cell = extent.cwiseQuotient(
+      Vec2(static_cast<double>(shape.columns), static_cast<double>(shape.rows)));
   std::vector<Vec2> places;
   for (std::int64_t row = 0; row < shape.rows; ++row) {
     for (std::int64_t column = 0; column < shape.columns; ++column) {
@@ -117,7 +134,8 @@ std::vector<Vec2> grid_places(std::int64_t cells, const ChartLocator& tissue) {
 }
 
 [[noreturn]] void fail_on_thin_tissue() {
-  throw NumericalError("initial_design: the tissue fills less than a ten-thousandth of its chart's bounding box");
+  throw NumericalError(
+      "initial_design: the tissue fills less than a ten-thousandth of its chart's bounding box");
 }
 
 /// Finer and finer grids until enough of the cells' centres lie on the tissue.
@@ -145,19 +163,24 @@ std::vector<Vec2> low_discrepancy_design(int count, const ChartLocator& tissue, 
   return places;
 }
 
-std::vector<int> designed(const Surface& surface, Design design, int count, const std::vector<int>& candidates, Random& random) {
+std::vector<int> designed(const Surface& surface, Design design, int count,
+                          const std::vector<int>& candidates, Random& random) {
   if (design == Design::Random) return random_vertices(surface, count, candidates, random);
   const ChartLocator tissue(surface);
-  const std::vector<Vec2> places = design == Design::Grid ? grid_design(count, tissue) : low_discrepancy_design(count, tissue, random);
+  const std::vector<Vec2> places = design == Design::Grid
+                                       ? grid_design(count, tissue)
+                                       : low_discrepancy_design(count, tissue, random);
   return nearest_free(surface, places, candidates);
 }
 
 }  // namespace
 
-std::vector<int> initial_design(const Surface& surface, Design design, int count, std::span<const int> candidates, Random& random) {
+std::vector<int> initial_design(const Surface& surface, Design design, int count,
+                                std::span<const int> candidates, Random& random) {
   std::vector<int> vertices = checked(surface, count, candidates);
   if (count == 0) return {};
-  if (static_cast<std::size_t>(count) < vertices.size()) vertices = designed(surface, design, count, vertices, random);
+  if (static_cast<std::size_t>(count) < vertices.size())
+    vertices = designed(surface, design, count, vertices, random);
   std::sort(vertices.begin(), vertices.end());
   return vertices;
 }

@@ -19,22 +19,26 @@ constexpr double kLeastGain = 1e-12;  // of the longest distance
 using Path = std::vector<int>;
 
 void check(const Eigen::MatrixXd& distance) {
-  const std::string size = std::to_string(distance.rows()) + " x " + std::to_string(distance.cols()) + " distances";
-  require(distance.rows() == distance.cols() && distance.rows() > 0, "shortest_tour", size, "must be square and hold the probe's row");
+  const std::string size =
+      std::to_string(distance.rows()) + " x " + std::to_string(distance.cols()) + " distances";
+  require(distance.rows() == distance.cols() && distance.rows() > 0, "shortest_tour", size,
+          "must be square and hold the probe's row");
   for (Eigen::Index i = 0; i < distance.rows(); ++i) {
     for (Eigen::Index j = 0; j < distance.cols(); ++j) {
       const double d = distance(i, j);
       if (d >= 0.0 && d <= std::numeric_limits<double>::max()) continue;
-      const std::string value = "distance(" + std::to_string(i) + ", " + std::to_string(j) + ") = " + text_of(d);
+      const std::string value =
+          "distance(" + std::to_string(i) + ", " + std::to_string(j) + ") = " + text_of(d);
       require(false, "shortest_tour", value, "must be finite and not negative");
     }
   }
   const double tolerance = 1e-9 * distance.maxCoeff();
-  require((distance - distance.transpose()).cwiseAbs().maxCoeff() <= tolerance, "shortest_tour", size, "must be symmetric");
+  require((distance - distance.transpose()).cwiseAbs().maxCoeff() <= tolerance, "shortest_tour",
+          size, "must be symmetric");
 }
 
-/// Held and Karp's recursion, from the end: C(S, j) = min over k not in S of d(j, k) + C(S + k, k), the least way through all stops that
-/// are not yet in S.
+/// Held and Karp's recursion, from the end: C(S, j) = min over k not in S of d(j, k) + C(S + k, k),
+/// the least way through all stops that are not yet in S.
 class HeldKarp {
  public:
   explicit HeldKarp(const Eigen::MatrixXd& distance)
@@ -43,7 +47,8 @@ class HeldKarp {
         rest_(Eigen::MatrixXd::Zero(stops_, Eigen::Index{1} << stops_)) {
     for (int visited = all() - 1; visited > 0; --visited) {
       for (int last = 0; last < stops_; ++last) {
-        if (contains(visited, last)) rest_(last, visited) = length_by(visited, last + 1, next_stop(visited, last + 1));
+        if (contains(visited, last))
+          rest_(last, visited) = length_by(visited, last + 1, next_stop(visited, last + 1));
       }
     }
   }
@@ -63,7 +68,9 @@ class HeldKarp {
  private:
   int all() const { return (1 << stops_) - 1; }
   static bool contains(int set, int stop) { return (set >> stop & 1) != 0; }
-  double length_by(int visited, int place, int stop) const { return distance_(place, stop + 1) + rest_(stop, visited | 1 << stop); }
+  double length_by(int visited, int place, int stop) const {
+    return distance_(place, stop + 1) + rest_(stop, visited | 1 << stop);
+  }
 
   /// The lowest of the best.
   int next_stop(int visited, int place) const {
@@ -91,13 +98,15 @@ Path nearest_neighbour(const Eigen::MatrixXd& distance) {
   for (auto next = path.begin() + 1; next != path.end(); ++next) {
     const int here = *(next - 1);
     // The rest is kept in increasing order, so the first of equals is the lowest.
-    const auto nearest = std::min_element(next, path.end(), [&](int a, int b) { return distance(here, a) < distance(here, b); });
+    const auto nearest = std::min_element(
+        next, path.end(), [&](int a, int b) { return distance(here, a) < distance(here, b); });
     std::rotate(next, nearest, nearest + 1);
   }
   return path;
 }
 
-/// Shortens an open path until no reversal of a stretch (2-opt) and no move of up to three neighbours elsewhere (Or-opt) helps.
+/// Shortens an open path until no reversal of a stretch (2-opt) and no move of up to three
+/// neighbours elsewhere (Or-opt) helps.
 class LocalSearch {
  public:
   LocalSearch(const Eigen::MatrixXd& distance, Path path)
@@ -135,19 +144,22 @@ class LocalSearch {
   bool move_stretches() {
     bool helped = false;
     for (int length = 1; length <= 3; ++length) {
-      for (int first = 1; first + length - 1 <= last_; ++first) helped |= move_stretch(first, first + length - 1);
+      for (int first = 1; first + length - 1 <= last_; ++first)
+        helped |= move_stretch(first, first + length - 1);
     }
     return helped;
   }
 
-  /// Puts the stretch first..end behind the first position, in the first orientation, that makes the path shorter.
+  /// Puts the stretch first..end behind the first position, in the first orientation, that makes
+  /// the path shorter.
   bool move_stretch(int first, int end) {
     const double gap_closed = way(first - 1, first) + way(end, end + 1) - way(first - 1, end + 1);
     for (int behind = 0; behind <= last_; ++behind) {
       if (behind >= first - 1 && behind <= end) continue;
       for (const bool reversed : {false, true}) {
         const int head = reversed ? end : first, tail = reversed ? first : end;
-        const double gap_opened = way(behind, head) + way(tail, behind + 1) - way(behind, behind + 1);
+        const double gap_opened =
+            way(behind, head) + way(tail, behind + 1) - way(behind, behind + 1);
         if (!(gap_closed - gap_opened > least_gain_)) continue;
         if (reversed) std::reverse(path_.begin() + first, path_.begin() + end + 1);
         if (behind < first) {
@@ -169,7 +181,8 @@ class LocalSearch {
 
 std::vector<int> stops_of(const Path& path) {
   std::vector<int> stops;
-  for (std::size_t position = 1; position < path.size(); ++position) stops.push_back(path[position] - 1);
+  for (std::size_t position = 1; position < path.size(); ++position)
+    stops.push_back(path[position] - 1);
   return stops;
 }
 
@@ -186,8 +199,8 @@ double tour_length(const Eigen::MatrixXd& distance, const std::vector<int>& orde
   double length = 0.0;
   int place = 0;
   for (int stop : order) {
-    require(stop >= 0 && stop + 1 < distance.rows() && stop + 1 < distance.cols(), "tour_length", "stop " + std::to_string(stop),
-            "has no row in the distances");
+    require(stop >= 0 && stop + 1 < distance.rows() && stop + 1 < distance.cols(), "tour_length",
+            "stop " + std::to_string(stop), "has no row in the distances");
     length += distance(place, stop + 1);
     place = stop + 1;
   }

@@ -35,7 +35,8 @@ std::vector<Tick> ticks(double lowest, double highest, int wanted) {
   const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 12);
   const double slack = step * 1e-9;
   std::vector<Tick> result;
-  for (double count = std::ceil((lowest - slack) / step); count * step <= highest + slack; ++count) {
+  for (double count = std::ceil((lowest - slack) / step); count * step <= highest + slack;
+       ++count) {
     const double value = count == 0.0 ? 0.0 : count * step;
     const bool plain = std::abs(value) < 1e6 && decimals <= 6;
     result.push_back({value, plain ? fixed_number(value, decimals) : short_number(value, 3)});
@@ -47,7 +48,8 @@ std::vector<Tick> logarithmic_ticks(double lowest, double highest) {
   if (!(lowest > 0.0) || !(highest > lowest) || !std::isfinite(highest)) return {};
   const bool narrow = std::log10(highest / lowest) < 2.0;
   std::vector<Tick> result;
-  for (double decade = std::floor(std::log10(lowest)); decade <= std::ceil(std::log10(highest)); ++decade) {
+  for (double decade = std::floor(std::log10(lowest)); decade <= std::ceil(std::log10(highest));
+       ++decade) {
     for (int digit = 1; digit <= 9; ++digit) {
       const double value = digit * std::pow(10.0, decade);
       if (value < lowest * (1.0 - 1e-9) || value > highest * (1.0 + 1e-9)) continue;
@@ -62,7 +64,8 @@ std::string short_number(double value, int significant_digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*g", significant_digits, value);
   const std::string number = text;
-  const bool huge_but_plain = number.find('e') != std::string::npos && std::abs(value) >= 1.0 && std::abs(value) < 1e7;
+  const bool huge_but_plain =
+      number.find('e') != std::string::npos && std::abs(value) >= 1.0 && std::abs(value) < 1e7;
   return huge_but_plain ? fixed_number(value, 0) : with_true_minus(number);
 }
 

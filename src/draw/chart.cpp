@@ -31,7 +31,8 @@ double error_at(const ChartCurve& curve, std::size_t i) {
 }
 
 bool can_be_drawn(const Chart& chart, const ChartCurve& curve, std::size_t i) {
-  return std::isfinite(chart.x[i]) && std::isfinite(curve.y[i]) && (!chart.logarithmic_y || curve.y[i] > 0.0);
+  return std::isfinite(chart.x[i]) && std::isfinite(curve.y[i]) &&
+         (!chart.logarithmic_y || curve.y[i] > 0.0);
 }
 
 Range range_of_y(const Chart& chart) {
@@ -60,7 +61,8 @@ void widen_if_constant(Range& range) {
   range = {range.lowest - half, range.highest + half};
 }
 
-// Linear axes start at zero where that wastes at most half of the height: a curve that falls is then seen at its true proportion.
+// Linear axes start at zero where that wastes at most half of the height: a curve that falls is
+// then seen at its true proportion.
 void add_room(Range& range, bool logarithmic) {
   if (logarithmic) {
     const double factor = std::pow(range.highest / range.lowest, 0.06);
@@ -76,7 +78,8 @@ void add_room(Range& range, bool logarithmic) {
 // The plane of a chart: values to pixels, cut off at the frame.
 class Plane {
  public:
-  Plane(const Chart& chart, const Box& box) : box_(box), logarithmic_(chart.logarithmic_y), x_(range_of_x(chart)), y_(range_of_y(chart)) {
+  Plane(const Chart& chart, const Box& box)
+      : box_(box), logarithmic_(chart.logarithmic_y), x_(range_of_x(chart)), y_(range_of_y(chart)) {
     require(!x_.empty() && !y_.empty(), "chart", "the table", "holds nothing that can be drawn");
     widen_if_constant(x_);
     const double room = 0.03 * (x_.highest - x_.lowest);
@@ -85,9 +88,16 @@ class Plane {
   }
   const Box& box() const { return box_; }
   std::vector<Tick> x_ticks() const { return ticks(x_.lowest, x_.highest, 9); }
-  std::vector<Tick> y_ticks() const { return logarithmic_ ? logarithmic_ticks(y_.lowest, y_.highest) : ticks(y_.lowest, y_.highest, 7); }
-  double across(double x) const { return box_.left + box_.width * (x - x_.lowest) / (x_.highest - x_.lowest); }
-  double up(double y) const { return box_.bottom + box_.height * std::clamp(share_of(y), 0.0, 1.0); }
+  std::vector<Tick> y_ticks() const {
+    return logarithmic_ ? logarithmic_ticks(y_.lowest, y_.highest)
+                        : ticks(y_.lowest, y_.highest, 7);
+  }
+  double across(double x) const {
+    return box_.left + box_.width * (x - x_.lowest) / (x_.highest - x_.lowest);
+  }
+  double up(double y) const {
+    return box_.bottom + box_.height * std::clamp(share_of(y), 0.0, 1.0);
+  }
   Pixel at(double x, double y) const { return {across(x), up(y)}; }
 
  private:
@@ -113,7 +123,8 @@ void draw_axes(Sheet& sheet, const Chart& chart, const Plane& plane) {
     const double x = plane.across(tick.value);
     sheet.line({x, box.bottom}, {x, box.top()}, kGrid);
     sheet.line({x, box.bottom}, {x, box.bottom - 6.0}, kFrame);
-    sheet.text({x, box.bottom - 11.0}, tick.label, {.horizontal = Horizontal::Centre, .vertical = Vertical::Top});
+    sheet.text({x, box.bottom - 11.0}, tick.label,
+               {.horizontal = Horizontal::Centre, .vertical = Vertical::Top});
   }
   for (const Tick& tick : plane.y_ticks()) {
     const double y = plane.up(tick.value);
@@ -122,23 +133,30 @@ void draw_axes(Sheet& sheet, const Chart& chart, const Plane& plane) {
     sheet.text({box.left - 11.0, y}, tick.label, {.horizontal = Horizontal::Right});
   }
   sheet.frame(box, kFrame);
-  sheet.text({box.centre().x(), box.bottom - 56.0}, chart.x_label, {.size_px = 21.0, .horizontal = Horizontal::Centre});
+  sheet.text({box.centre().x(), box.bottom - 56.0}, chart.x_label,
+             {.size_px = 21.0, .horizontal = Horizontal::Centre});
   sheet.text({box.left - widest_label_px(plane.y_ticks()) - 36.0, box.centre().y()}, chart.y_label,
              {.size_px = 21.0, .horizontal = Horizontal::Centre, .turned_deg = 90.0});
   sheet.text({box.left, box.top() + 28.0}, chart.title, {.size_px = 24.0, .bold = true});
 }
 
-void draw_band(Sheet& sheet, const Chart& chart, const Plane& plane, const ChartCurve& curve, Colour colour) {
+void draw_band(Sheet& sheet, const Chart& chart, const Plane& plane, const ChartCurve& curve,
+               Colour colour) {
   colour.alpha = 48;
   for (std::size_t i = 0; i + 1 < chart.x.size(); ++i) {
     if (!can_be_drawn(chart, curve, i) || !can_be_drawn(chart, curve, i + 1)) continue;
-    const auto low = [&](std::size_t k) { return plane.at(chart.x[k], curve.y[k] - error_at(curve, k)); };
-    const auto high = [&](std::size_t k) { return plane.at(chart.x[k], curve.y[k] + error_at(curve, k)); };
+    const auto low = [&](std::size_t k) {
+      return plane.at(chart.x[k], curve.y[k] - error_at(curve, k));
+    };
+    const auto high = [&](std::size_t k) {
+      return plane.at(chart.x[k], curve.y[k] + error_at(curve, k));
+    };
     sheet.fill(std::vector<Pixel>{low(i), low(i + 1), high(i + 1), high(i)}, colour);
   }
 }
 
-void draw_bars(Sheet& sheet, const Chart& chart, const Plane& plane, const ChartCurve& curve, Colour colour) {
+void draw_bars(Sheet& sheet, const Chart& chart, const Plane& plane, const ChartCurve& curve,
+               Colour colour) {
   const LineStyle style{.width_px = 1.8, .colour = colour};
   for (std::size_t i = 0; i < chart.x.size(); ++i) {
     if (!can_be_drawn(chart, curve, i) || error_at(curve, i) == 0.0) continue;
@@ -154,17 +172,23 @@ void draw_bars(Sheet& sheet, const Chart& chart, const Plane& plane, const Chart
 // Shapes differ as colours do, so that a print in grey can still be read.
 void draw_marker(Sheet& sheet, const Pixel& place, std::size_t index, Colour colour) {
   constexpr double kRadius_px = 5.5;
-  const auto corner = [&](double x, double y, double size) { return Pixel(place + kRadius_px * size * Pixel(x, y)); };
+  const auto corner = [&](double x, double y, double size) {
+    return Pixel(place + kRadius_px * size * Pixel(x, y));
+  };
   const auto draw = [&](double size, Colour fill) {
     switch (index % 4) {
       case 1:
-        return sheet.fill(
-            std::vector<Pixel>{corner(-0.9, -0.9, size), corner(0.9, -0.9, size), corner(0.9, 0.9, size), corner(-0.9, 0.9, size)}, fill);
+        return sheet.fill(std::vector<Pixel>{corner(-0.9, -0.9, size), corner(0.9, -0.9, size),
+                                             corner(0.9, 0.9, size), corner(-0.9, 0.9, size)},
+                          fill);
       case 2:
-        return sheet.fill(std::vector<Pixel>{corner(-1.1, -0.75, size), corner(1.1, -0.75, size), corner(0.0, 1.25, size)}, fill);
+        return sheet.fill(std::vector<Pixel>{corner(-1.1, -0.75, size), corner(1.1, -0.75, size),
+                                             corner(0.0, 1.25, size)},
+                          fill);
       case 3:
-        return sheet.fill(
-            std::vector<Pixel>{corner(0.0, -1.25, size), corner(1.25, 0.0, size), corner(0.0, 1.25, size), corner(-1.25, 0.0, size)}, fill);
+        return sheet.fill(std::vector<Pixel>{corner(0.0, -1.25, size), corner(1.25, 0.0, size),
+                                             corner(0.0, 1.25, size), corner(-1.25, 0.0, size)},
+                          fill);
       default:
         return sheet.disc(place, kRadius_px * size, fill);
     }
@@ -189,7 +213,8 @@ void draw_curve(Sheet& sheet, const Chart& chart, const Plane& plane, std::size_
   constexpr std::size_t kMostMarkers = 60;
   const bool markers = chart.x.size() <= kMostMarkers;
   for (std::size_t i = 0; markers && i < chart.x.size(); ++i) {
-    if (can_be_drawn(chart, curve, i)) draw_marker(sheet, plane.at(chart.x[i], curve.y[i]), index, colour);
+    if (can_be_drawn(chart, curve, i))
+      draw_marker(sheet, plane.at(chart.x[i], curve.y[i]), index, colour);
   }
 }
 
@@ -199,10 +224,12 @@ void draw_legend(Sheet& sheet, const Chart& chart, const Plane& plane) {
   constexpr double kRow_px = 31.0;
   constexpr double kSample_px = 46.0;
   double widest = 0.0;
-  for (const ChartCurve& curve : chart.curves) widest = std::max(widest, text_width_px(curve.name, {}));
+  for (const ChartCurve& curve : chart.curves)
+    widest = std::max(widest, text_width_px(curve.name, {}));
   const double width = widest + kSample_px + 38.0;
   const double height = kRow_px * static_cast<double>(chart.curves.size()) + 14.0;
-  const Box box{plane.box().right() - width - 14.0, plane.box().top() - height - 14.0, width, height};
+  const Box box{plane.box().right() - width - 14.0, plane.box().top() - height - 14.0, width,
+                height};
   sheet.fill(box, {255, 255, 255, 235});
   sheet.frame(box, {.width_px = 1.0, .colour = kPaleGrey});
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
@@ -218,7 +245,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 std::size_t count_of_numbers(const std::vector<double>& values) {
-  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); }));
+  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(),
+                                                [](double value) { return std::isfinite(value); }));
 }
 
 }  // namespace
@@ -245,10 +273,12 @@ Chart chart_of(const Table& table) {
   chart.x_label = names.front();
   chart.x = table.numbers(names.front());
   for (std::size_t i = 1; i < names.size(); ++i) {
-    const bool belongs_to_another = ends_with(names[i], "_se") && table.has(names[i].substr(0, names[i].size() - 3));
+    const bool belongs_to_another =
+        ends_with(names[i], "_se") && table.has(names[i].substr(0, names[i].size() - 3));
     if (belongs_to_another) continue;
     const std::string errors = names[i] + "_se";
-    chart.curves.push_back({names[i], table.numbers(names[i]), table.has(errors) ? table.numbers(errors) : std::vector<double>{}});
+    chart.curves.push_back({names[i], table.numbers(names[i]),
+                            table.has(errors) ? table.numbers(errors) : std::vector<double>{}});
   }
   return chart;
 }
@@ -260,11 +290,13 @@ std::optional<Chart> convergence_of(const Table& trace) {
   const std::vector<double>& shown = with_error ? error : level;
   const std::vector<double> measurements = trace.numbers("measurements");
   if (std::min(count_of_numbers(measurements), count_of_numbers(shown)) < 2) return std::nullopt;
-  return Chart{.title = with_error ? "Error of the estimated boundary" : "Estimated level of the boundary",
-               .x_label = "measurements",
-               .y_label = with_error ? "symmetric difference [% of the search area]" : "level [unit of the readings]",
-               .x = measurements,
-               .curves = {{with_error ? "error" : "level", shown, {}}}};
+  return Chart{
+      .title = with_error ? "Error of the estimated boundary" : "Estimated level of the boundary",
+      .x_label = "measurements",
+      .y_label = with_error ? "symmetric difference [% of the search area]"
+                            : "level [unit of the readings]",
+      .x = measurements,
+      .curves = {{with_error ? "error" : "level", shown, {}}}};
 }
 
 }  // namespace palpation::draw

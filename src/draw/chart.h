@@ -27,16 +27,17 @@ struct Chart {
   int height_px = 760;
 };
 
-/// Bytes of a PNG file. On a linear axis y starts at zero if no value is negative and the values reach down to half their height; on a
-/// logarithmic one, values that are not positive are left out. Throws InvalidInput if there is nothing to draw, NoGraphics if nothing can
-/// be drawn here.
+/// Bytes of a PNG file. On a linear axis y starts at zero if no value is negative and the values
+/// reach down to half their height; on a logarithmic one, values that are not positive are left
+/// out. Throws InvalidInput if there is nothing to draw, NoGraphics if nothing can be drawn here.
 std::string picture_of(const Chart& chart);
 
-/// From a table whose first column is x, and every other column `name` a curve, with standard errors in `name_se` where that exists.
+/// From a table whose first column is x, and every other column `name` a curve, with standard
+/// errors in `name_se` where that exists.
 Chart chart_of(const Table& table);
 
-/// Error in percent against measurements, or the level where no error is known. None if the table has fewer than two rows that can be
-/// drawn.
+/// Error in percent against measurements, or the level where no error is known. None if the table
+/// has fewer than two rows that can be drawn.
 std::optional<Chart> convergence_of(const Table& trace);
 
 }  // namespace palpation::draw

@@ -9,13 +9,17 @@
 namespace palpation::draw {
 namespace {
 
-// Moreland's cool-warm ends with a true white between them, so that "at the level" reads as no colour at all.
-constexpr Colour kBlueWhiteRed[] = {{33, 61, 138},   {67, 112, 190},  {132, 170, 219}, {200, 217, 238}, {252, 252, 252},
-                                    {246, 207, 190}, {228, 146, 122}, {197, 76, 68},   {138, 19, 41}};
-constexpr Colour kViridis[] = {{68, 1, 84},    {71, 45, 123}, {59, 82, 139},  {44, 114, 142}, {33, 145, 140},
-                               {40, 174, 128}, {94, 201, 98}, {173, 220, 48}, {253, 231, 37}};
-constexpr Colour kWhitePurple[] = {{252, 251, 253}, {239, 237, 245}, {218, 218, 235}, {188, 189, 220}, {158, 154, 200},
-                                   {128, 125, 186}, {106, 81, 163},  {84, 39, 143},   {63, 0, 125}};
+// Moreland's cool-warm ends with a true white between them, so that "at the level" reads as no
+// colour at all.
+constexpr Colour kBlueWhiteRed[] = {{33, 61, 138},   {67, 112, 190},  {132, 170, 219},
+                                    {200, 217, 238}, {252, 252, 252}, {246, 207, 190},
+                                    {228, 146, 122}, {197, 76, 68},   {138, 19, 41}};
+constexpr Colour kViridis[] = {{68, 1, 84},    {71, 45, 123},  {59, 82, 139},
+                               {44, 114, 142}, {33, 145, 140}, {40, 174, 128},
+                               {94, 201, 98},  {173, 220, 48}, {253, 231, 37}};
+constexpr Colour kWhitePurple[] = {{252, 251, 253}, {239, 237, 245}, {218, 218, 235},
+                                   {188, 189, 220}, {158, 154, 200}, {128, 125, 186},
+                                   {106, 81, 163},  {84, 39, 143},   {63, 0, 125}};
 constexpr Colour kCurves[] = {{0, 114, 178}, {213, 94, 0},   {0, 148, 108}, {160, 84, 150},
                               {90, 90, 90},  {86, 180, 233}, {196, 150, 0}, {140, 60, 40}};
 constexpr Colour kNoValue{225, 225, 225};
@@ -47,8 +51,8 @@ unsigned char mix_channel(unsigned char a, unsigned char b, double share) {
 }  // namespace
 
 Colour mix(Colour a, Colour b, double share) {
-  return {mix_channel(a.red, b.red, share), mix_channel(a.green, b.green, share), mix_channel(a.blue, b.blue, share),
-          mix_channel(a.alpha, b.alpha, share)};
+  return {mix_channel(a.red, b.red, share), mix_channel(a.green, b.green, share),
+          mix_channel(a.blue, b.blue, share), mix_channel(a.alpha, b.alpha, share)};
 }
 
 Colour curve_colour(std::size_t index) { return kCurves[index % std::size(kCurves)]; }

@@ -1,6 +1,7 @@
-// GLEW as Debian builds it looks for GLX first. Without an X display its glewInit() has loaded every entry point when it reports that there
-// is no GLX, and VTK gives up although all that it needs is there. This definition comes before the library's (the program exports its
-// symbols) and forgives that one report.
+// GLEW as Debian builds it looks for GLX first. Without an X display its glewInit() has loaded
+// every entry point when it reports that there is no GLX, and VTK gives up although all that it
+// needs is there. This definition comes before the library's (the program exports its symbols) and
+// forgives that one report.
 #include <dlfcn.h>
 
 namespace {

@@ -12,7 +12,8 @@ constexpr double kAboveLegend_px = 14.0;
 constexpr double kMapHeight_px = 690.0;  // the most a map may take beside others
 constexpr int kStackedWidth_px = 1300;
 constexpr double kStackedMapHeight_px = 340.0;
-constexpr double kStackedAspect = 1.9;  // tissue wider than this times its height: maps one above the other
+constexpr double kStackedAspect =
+    1.9;  // tissue wider than this times its height: maps one above the other
 
 double left_of_map_px(const View& view) { return view.flat ? 62.0 : 12.0; }
 
@@ -33,7 +34,8 @@ Box beside(const Box& map, Box box) {
 }
 
 double below_lowest_map_px(const Layout& layout, const View& view) {
-  return kCaption_px + kLegendRow_px * static_cast<double>(layout.legend.size()) + kAboveLegend_px + below_map_px(view);
+  return kCaption_px + kLegendRow_px * static_cast<double>(layout.legend.size()) + kAboveLegend_px +
+         below_map_px(view);
 }
 
 void put_side_by_side(Layout& layout, const View& view, const View& close_up) {
@@ -41,21 +43,27 @@ void put_side_by_side(Layout& layout, const View& view, const View& close_up) {
   const double cell = (layout.width_px - 2.0 * kEdge_px) / 3.0;
   for (int i = 0; i < 3; ++i) {
     layout.maps[static_cast<std::size_t>(i)] =
-        fitted(view, kEdge_px + i * cell + left, cell - left - kRightOfMap_px, below_lowest_map_px(layout, view), kMapHeight_px);
+        fitted(view, kEdge_px + i * cell + left, cell - left - kRightOfMap_px,
+               below_lowest_map_px(layout, view), kMapHeight_px);
   }
   const Box& last = layout.maps[2];
-  layout.close_up = beside(last, fitted(close_up, kEdge_px + 2.0 * cell + left, cell - left - kRightOfMap_px, last.bottom, last.height));
+  layout.close_up = beside(last, fitted(close_up, kEdge_px + 2.0 * cell + left,
+                                        cell - left - kRightOfMap_px, last.bottom, last.height));
 }
 
 void put_one_above_the_other(Layout& layout, const View& view, const View& close_up) {
   const double left = left_of_map_px(view);
   double bottom = below_lowest_map_px(layout, view);
   for (std::size_t i : {2u, 1u, 0u}) {
-    layout.maps[i] = fitted(view, kEdge_px + left, layout.width_px - 2.0 * kEdge_px - left - kRightOfMap_px, bottom, kStackedMapHeight_px);
+    layout.maps[i] =
+        fitted(view, kEdge_px + left, layout.width_px - 2.0 * kEdge_px - left - kRightOfMap_px,
+               bottom, kStackedMapHeight_px);
     bottom = layout.maps[i].top() + kTitle_px + below_map_px(view);
   }
   const Box& last = layout.maps[2];
-  layout.close_up = fitted(close_up, kEdge_px + left, layout.width_px - 2.0 * kEdge_px - left - kRightOfMap_px, last.bottom, last.height);
+  layout.close_up =
+      fitted(close_up, kEdge_px + left, layout.width_px - 2.0 * kEdge_px - left - kRightOfMap_px,
+             last.bottom, last.height);
 }
 
 }  // namespace

@@ -17,7 +17,10 @@ std::vector<LegendEntry> entries_of(const Outcome& outcome) {
   if (outcome.has_curve("estimate")) entries.push_back({"estimated boundary", {kEstimateLine}, {}});
   if (outcome.has_curve("truth")) entries.push_back({outcome.summary.truth_line, {kTruthLine}, {}});
   if (outcome.has_curve("cut") && outcome.shows_band()) {
-    const std::string risk = outcome.summary.cut_risk ? " (" + short_number(100.0 * *outcome.summary.cut_risk, 3) + " % risk)" : "";
+    const std::string risk =
+        outcome.summary.cut_risk
+            ? " (" + short_number(100.0 * *outcome.summary.cut_risk, 3) + " % risk)"
+            : "";
     entries.push_back({"cut line" + risk, {kCutLine}, {}});
   }
   if (!outcome.shows_band() && (outcome.has_curve("band_inner") || outcome.has_curve("band_outer")))
@@ -26,16 +29,21 @@ std::vector<LegendEntry> entries_of(const Outcome& outcome) {
     const bool occurs = std::any_of(outcome.touches.begin(), outcome.touches.end(), belongs);
     if (occurs) entries.push_back({words, {}, look_of(example, /*radius_px=*/6.5)});
   };
-  add_touch({.initial = true}, "first touches", [](const Touch& t) { return t.initial && !t.set_aside && !t.on_the_way; });
-  add_touch({}, "chosen touches", [](const Touch& t) { return !t.initial && !t.set_aside && !t.on_the_way; });
-  add_touch({.on_the_way = true}, "read on the way", [](const Touch& t) { return t.on_the_way && !t.set_aside; });
+  add_touch({.initial = true}, "first touches",
+            [](const Touch& t) { return t.initial && !t.set_aside && !t.on_the_way; });
+  add_touch({}, "chosen touches",
+            [](const Touch& t) { return !t.initial && !t.set_aside && !t.on_the_way; });
+  add_touch({.on_the_way = true}, "read on the way",
+            [](const Touch& t) { return t.on_the_way && !t.set_aside; });
   add_touch({.set_aside = true}, "set aside", [](const Touch& t) { return t.set_aside; });
   return entries;
 }
 
 double sample_width_px(const LegendEntry& entry) { return entry.touch ? 16.0 : 66.0; }
 
-double width_px(const LegendEntry& entry) { return sample_width_px(entry) + kBeforeWords_px + text_width_px(entry.words, kWords); }
+double width_px(const LegendEntry& entry) {
+  return sample_width_px(entry) + kBeforeWords_px + text_width_px(entry.words, kWords);
+}
 
 double width_px(const std::vector<LegendEntry>& row) {
   double width = row.empty() ? 0.0 : kGap_px * static_cast<double>(row.size() - 1);
@@ -67,7 +75,8 @@ std::vector<std::vector<LegendEntry>> legend_rows(const Outcome& outcome, double
   return rows;
 }
 
-void draw_legend(Sheet& sheet, const std::vector<std::vector<LegendEntry>>& rows, double bottom_px) {
+void draw_legend(Sheet& sheet, const std::vector<std::vector<LegendEntry>>& rows,
+                 double bottom_px) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double height = bottom_px + kLegendRow_px * (static_cast<double>(rows.size() - i) - 0.5);
     Pixel place((sheet.width_px() - width_px(rows[i])) / 2.0, height);

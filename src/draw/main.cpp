@@ -1,12 +1,14 @@
 // palpate-draw: pictures from the files of a run.
 //
-//   palpate-draw OUT_DIR                       reads surface.vtp, boundary.vtp, measurements.csv, trace.csv and summary.json in OUT_DIR,
-//   writes picture.png
-//                                              and, if the trace has at least two rows, convergence.png beside them
-//   palpate-draw --curves CURVES.csv OUT.png   draws curves with standard errors: first column x, then `name` and optionally `name_se` for
-//   each curve
+//   palpate-draw OUT_DIR                       reads surface.vtp, boundary.vtp, measurements.csv,
+//   trace.csv and summary.json in OUT_DIR, writes picture.png
+//                                              and, if the trace has at least two rows,
+//                                              convergence.png beside them
+//   palpate-draw --curves CURVES.csv OUT.png   draws curves with standard errors: first column x,
+//   then `name` and optionally `name_se` for each curve
 //
-// Exit codes: 0 done; 2 wrong usage; 3 a file is missing or malformed; 4 nothing can be drawn or written here.
+// Exit codes: 0 done; 2 wrong usage; 3 a file is missing or malformed; 4 nothing can be drawn or
+// written here.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -55,7 +57,9 @@ void draw_curves(const Wish& wish) {
   if (!wish.x_label.empty()) chart.x_label = wish.x_label;
   chart.y_label = wish.y_label;
   chart.logarithmic_y = wish.logarithmic_y;
-  chart.spread = wish.spread == "band" ? Spread::Band : wish.spread == "none" ? Spread::None : Spread::Bars;
+  chart.spread = wish.spread == "band"   ? Spread::Band
+                 : wish.spread == "none" ? Spread::None
+                                         : Spread::Bars;
   chart.width_px = wish.width_px;
   chart.height_px = wish.height_px;
   write_atomically(fs::path(wish.paths[1]), picture_of(chart));
@@ -64,7 +68,9 @@ void draw_curves(const Wish& wish) {
 int fulfil(const Wish& wish) {
   const std::size_t paths_wanted = wish.curves ? 2 : 1;
   if (wish.paths.size() != paths_wanted) {
-    std::fprintf(stderr, "palpate-draw: %s\n", wish.curves ? "--curves takes a table and the picture to write" : "give one output folder");
+    std::fprintf(
+        stderr, "palpate-draw: %s\n",
+        wish.curves ? "--curves takes a table and the picture to write" : "give one output folder");
     return kWrongUsage;
   }
   silence_graphics_libraries();
@@ -97,19 +103,26 @@ int fulfil_or_explain(const Wish& wish) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws picture.png and convergence.png from the files in an output folder of palpate; or curves from a table.",
-               "palpate-draw");
+  CLI::App app(
+      "Draws picture.png and convergence.png from the files in an output folder of palpate; or "
+      "curves from a table.",
+      "palpate-draw");
   Wish wish;
   app.add_option("paths", wish.paths, "OUT_DIR; with --curves: CURVES.csv OUT.png")->required();
   app.add_flag("--curves", wish.curves,
-               "Draw a table: first column x, then `name` and optionally `name_se` (standard error) for each curve");
+               "Draw a table: first column x, then `name` and optionally `name_se` (standard "
+               "error) for each curve");
   app.add_option("--title", wish.title, "Title of the chart");
-  app.add_option("--x-label", wish.x_label, "Label of the x axis (default: the first column's name)");
+  app.add_option("--x-label", wish.x_label,
+                 "Label of the x axis (default: the first column's name)");
   app.add_option("--y-label", wish.y_label, "Label of the y axis");
   app.add_flag("--log-y", wish.logarithmic_y, "Logarithmic y axis");
-  app.add_option("--spread", wish.spread, "How standard errors are shown")->check(CLI::IsMember({"bars", "band", "none"}));
-  app.add_option("--width", wish.width_px, "Width of the chart in pixels")->check(CLI::Range(300, 8000));
-  app.add_option("--height", wish.height_px, "Height of the chart in pixels")->check(CLI::Range(200, 8000));
+  app.add_option("--spread", wish.spread, "How standard errors are shown")
+      ->check(CLI::IsMember({"bars", "band", "none"}));
+  app.add_option("--width", wish.width_px, "Width of the chart in pixels")
+      ->check(CLI::Range(300, 8000));
+  app.add_option("--height", wish.height_px, "Height of the chart in pixels")
+      ->check(CLI::Range(200, 8000));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -35,7 +35,8 @@ class EglContext {
   }
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
-  // The display stays open: closing it unloads the driver, and a leak checker could then no longer say whose the driver's leaks are.
+  // The display stays open: closing it unloads the driver, and a leak checker could then no longer
+  // say whose the driver's leaks are.
   ~EglContext() {
     if (context_ == EGL_NO_CONTEXT) return;
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -43,24 +44,35 @@ class EglContext {
   }
 
   bool works() const { return works_; }
-  bool make_current() const { return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE; }
+  bool make_current() const {
+    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  }
   bool is_current() const { return eglGetCurrentContext() == context_; }
 
  private:
   bool open_display() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (extensions == nullptr || std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos) return false;
+    if (extensions == nullptr ||
+        std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos)
+      return false;
     display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    return display_ != EGL_NO_DISPLAY && eglInitialize(display_, nullptr, nullptr) == EGL_TRUE && eglBindAPI(EGL_OPENGL_API) == EGL_TRUE;
+    return display_ != EGL_NO_DISPLAY && eglInitialize(display_, nullptr, nullptr) == EGL_TRUE &&
+           eglBindAPI(EGL_OPENGL_API) == EGL_TRUE;
   }
 
   bool create() {
     const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
-    if (eglChooseConfig(display_, wanted, &config, 1, &found) != EGL_TRUE || found < 1) return false;
-    const EGLint core_3_2[] = {EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    if (eglChooseConfig(display_, wanted, &config, 1, &found) != EGL_TRUE || found < 1)
+      return false;
+    const EGLint core_3_2[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               3,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               2,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, core_3_2);
     return context_ != EGL_NO_CONTEXT;
   }
@@ -77,9 +89,12 @@ const EglContext& egl_context() {
 
 void make_current(vtkObject*, unsigned long, void*, void*) { egl_context().make_current(); }
 
-void tell_whether_current(vtkObject*, unsigned long, void*, void* answer) { *static_cast<bool*>(answer) = egl_context().is_current(); }
+void tell_whether_current(vtkObject*, unsigned long, void*, void* answer) {
+  *static_cast<bool*>(answer) = egl_context().is_current();
+}
 
-void observe(vtkRenderWindow& window, unsigned long event, void (*callback)(vtkObject*, unsigned long, void*, void*)) {
+void observe(vtkRenderWindow& window, unsigned long event,
+             void (*callback)(vtkObject*, unsigned long, void*, void*)) {
   vtkNew<vtkCallbackCommand> command;
   command->SetCallback(callback);
   window.AddObserver(event, command);
@@ -123,7 +138,8 @@ vtkSmartPointer<vtkRenderWindow> window_of_display(int width_px, int height_px) 
 unsigned char mean_of_block(const unsigned char* corner, vtkIdType row_stride) {
   int sum = 0;
   for (int row = 0; row < kSupersampling; ++row) {
-    for (int column = 0; column < kSupersampling; ++column) sum += corner[row * row_stride + column * 3];
+    for (int column = 0; column < kSupersampling; ++column)
+      sum += corner[row * row_stride + column * 3];
   }
   constexpr int kSamples = kSupersampling * kSupersampling;
   return static_cast<unsigned char>((sum + kSamples / 2) / kSamples);
@@ -142,7 +158,8 @@ vtkSmartPointer<vtkImageData> averaged_down(vtkImageData& large) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const unsigned char* corner = from + y * kSupersampling * row_stride + x * kSupersampling * 3;
-      for (int channel = 0; channel < 3; ++channel) *to++ = mean_of_block(corner + channel, row_stride);
+      for (int channel = 0; channel < 3; ++channel)
+        *to++ = mean_of_block(corner + channel, row_stride);
     }
   }
   return small;
@@ -154,8 +171,10 @@ std::string png_bytes(vtkImageData& image) {
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (bytes == nullptr || bytes->GetNumberOfValues() == 0) throw NoGraphics("the picture could not be encoded");
-  return {reinterpret_cast<const char*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
+  if (bytes == nullptr || bytes->GetNumberOfValues() == 0)
+    throw NoGraphics("the picture could not be encoded");
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
 
 }  // namespace
@@ -167,14 +186,17 @@ void silence_graphics_libraries() {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   setenv("EGL_LOG_LEVEL", "fatal", 0);
   setenv("MESA_DEBUG", "silent", 0);
-  // A picture is a second's work for a processor and the same on every machine; graphics cards differ, and their drivers fail in more ways.
+  // A picture is a second's work for a processor and the same on every machine; graphics cards
+  // differ, and their drivers fail in more ways.
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
 }
 
 vtkSmartPointer<vtkRenderWindow> offscreen_window(int width_px, int height_px) {
   if (auto window = window_without_display(width_px, height_px)) return window;
   if (auto window = window_of_display(width_px, height_px)) return window;
-  throw NoGraphics("no picture can be drawn here: Mesa's EGL offers no OpenGL 3.2 context without a display, and no display answers");
+  throw NoGraphics(
+      "no picture can be drawn here: Mesa's EGL offers no OpenGL 3.2 context without a display, "
+      "and no display answers");
 }
 
 std::string png_of(vtkRenderWindow& window) {
@@ -186,7 +208,8 @@ std::string png_of(vtkRenderWindow& window) {
   capture->ShouldRerenderOff();
   capture->Update();
   vtkImageData* large = capture->GetOutput();
-  if (large == nullptr || large->GetNumberOfPoints() == 0 || large->GetNumberOfScalarComponents() != 3) {
+  if (large == nullptr || large->GetNumberOfPoints() == 0 ||
+      large->GetNumberOfScalarComponents() != 3) {
     throw NoGraphics("the graphics library drew nothing");
   }
   return png_bytes(*averaged_down(*large));

@@ -24,7 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) { throw IoError(path.string() + ": " + reason); }
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw IoError(path.string() + ": " + reason);
+}
 
 vtkSmartPointer<vtkPolyData> read_polydata(const fs::path& path) {
   if (!fs::is_regular_file(path)) fail(path, "no such file");
@@ -44,17 +46,20 @@ vtkSmartPointer<vtkPolyData> read_surface(const fs::path& path) {
   const vtkIdType* corners = nullptr;
   for (vtkIdType cell = 0; cell < triangles->GetNumberOfCells(); ++cell) {
     triangles->GetCellAtId(cell, size, corners);
-    const bool sound = size == 3 && std::all_of(corners, corners + size,
-                                                [&](vtkIdType corner) { return corner >= 0 && corner < surface->GetNumberOfPoints(); });
+    const bool sound = size == 3 && std::all_of(corners, corners + size, [&](vtkIdType corner) {
+                         return corner >= 0 && corner < surface->GetNumberOfPoints();
+                       });
     if (!sound) fail(path, "cell " + std::to_string(cell) + " is no triangle of the file's points");
   }
   return surface;
 }
 
-std::vector<Vec3> points_of(vtkPolyData& lines, vtkIdType size, const vtkIdType* corners, const fs::path& path) {
+std::vector<Vec3> points_of(vtkPolyData& lines, vtkIdType size, const vtkIdType* corners,
+                            const fs::path& path) {
   std::vector<Vec3> points;
   for (vtkIdType i = 0; i < size; ++i) {
-    if (corners[i] < 0 || corners[i] >= lines.GetNumberOfPoints()) fail(path, "a line names a point that does not exist");
+    if (corners[i] < 0 || corners[i] >= lines.GetNumberOfPoints())
+      fail(path, "a line names a point that does not exist");
     points.emplace_back(Vec3::Zero());
     lines.GetPoint(corners[i], points.back().data());
   }
@@ -65,7 +70,8 @@ std::vector<Curve> read_curves(const fs::path& path) {
   if (!fs::exists(path)) return {};
   const vtkSmartPointer<vtkPolyData> lines = read_polydata(path);
   auto* kinds = vtkStringArray::SafeDownCast(lines->GetCellData()->GetAbstractArray("kind_name"));
-  if (lines->GetNumberOfLines() > 0 && kinds == nullptr) fail(path, "no cell array of strings named kind_name");
+  if (lines->GetNumberOfLines() > 0 && kinds == nullptr)
+    fail(path, "no cell array of strings named kind_name");
   std::vector<Curve> curves;
   vtkIdType size = 0;
   const vtkIdType* corners = nullptr;
@@ -89,7 +95,10 @@ std::vector<Touch> read_touches(const fs::path& path) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Vec3 position(x[i], y[i], z[i]);
     if (!position.allFinite()) continue;
-    touches.push_back({.position = position, .initial = batch[i] == 0.0, .on_the_way = kind[i] == "way", .set_aside = !reason[i].empty()});
+    touches.push_back({.position = position,
+                       .initial = batch[i] == 0.0,
+                       .on_the_way = kind[i] == "way",
+                       .set_aside = !reason[i].empty()});
   }
   return touches;
 }
@@ -123,7 +132,9 @@ std::optional<BandNumbers> band_in(const Json& summary) {
 /// Simulated tissue has a truth; of recorded tissue there is a map.
 std::string truth_line_in(const Json& summary) {
   const auto found = summary.find("truth_is");
-  return found != summary.end() && found->is_string() && *found != "the truth" ? found->get<std::string>() : "true boundary";
+  return found != summary.end() && found->is_string() && *found != "the truth"
+             ? found->get<std::string>()
+             : "true boundary";
 }
 
 std::optional<double> cut_risk_in(const Json& summary) {
@@ -155,7 +166,8 @@ std::optional<Table> read_trace(const fs::path& path) {
   return Table(path);
 }
 
-std::vector<Vec3> places_along(const std::vector<Curve>& curves, const std::string& kind, std::size_t wanted) {
+std::vector<Vec3> places_along(const std::vector<Curve>& curves, const std::string& kind,
+                               std::size_t wanted) {
   std::vector<Vec3> all;
   for (const Curve& curve : curves) {
     if (curve.kind == kind) all.insert(all.end(), curve.points.begin(), curve.points.end());
@@ -170,15 +182,19 @@ std::vector<Vec3> places_along(const std::vector<Curve>& curves, const std::stri
 
 vtkDataArray* Outcome::field(const std::string& name) const {
   vtkDataArray* array = surface->GetPointData()->GetArray(name.c_str());
-  const bool usable = array != nullptr && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() == surface->GetNumberOfPoints();
+  const bool usable = array != nullptr && array->GetNumberOfComponents() == 1 &&
+                      array->GetNumberOfTuples() == surface->GetNumberOfPoints();
   return usable ? array : nullptr;
 }
 
 bool Outcome::has_curve(const std::string& kind) const {
-  return std::any_of(curves.begin(), curves.end(), [&](const Curve& curve) { return curve.kind == kind; });
+  return std::any_of(curves.begin(), curves.end(),
+                     [&](const Curve& curve) { return curve.kind == kind; });
 }
 
-bool Outcome::shows_band() const { return summary.band && summary.band->score && field("score") != nullptr; }
+bool Outcome::shows_band() const {
+  return summary.band && summary.band->score && field("score") != nullptr;
+}
 
 std::optional<double> Outcome::level_along(const std::string& kind, const std::string& name) const {
   constexpr std::size_t kSamples = 40;

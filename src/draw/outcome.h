@@ -27,7 +27,8 @@ struct Curve {
 };
 
 struct ErrorNumbers {
-  std::optional<double> symmetric_difference_mm2, missed_mm2, extra_mm2, percent_of_search_area, dice;
+  std::optional<double> symmetric_difference_mm2, missed_mm2, extra_mm2, percent_of_search_area,
+      dice;
 };
 
 struct BandNumbers {
@@ -57,12 +58,14 @@ struct Outcome {
   bool has_curve(const std::string& kind) const;
   /// Whether it is known where the band lies: its score, and the field of it.
   bool shows_band() const;
-  /// The level whose contours the curves of a kind are. Where a curve follows the border of the tissue the field lies above the level, so
-  /// this is a low quantile of the field along the curves.
+  /// The level whose contours the curves of a kind are. Where a curve follows the border of the
+  /// tissue the field lies above the level, so this is a low quantile of the field along the
+  /// curves.
   std::optional<double> level_along(const std::string& kind, const std::string& field) const;
 };
 
-/// Reads surface.vtp, and boundary.vtp, measurements.csv, trace.csv and summary.json where they exist. Throws IoError with path and reason.
+/// Reads surface.vtp, and boundary.vtp, measurements.csv, trace.csv and summary.json where they
+/// exist. Throws IoError with path and reason.
 Outcome read_outcome(const std::filesystem::path& folder);
 
 }  // namespace palpation::draw

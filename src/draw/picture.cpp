@@ -60,8 +60,10 @@ Range range_of(vtkDataArray& field) {
     range.highest = std::max(range.highest, value);
   }
   if (range.lowest > range.highest) return {};
-  const double least_width = std::max(1e-9 * std::max(std::abs(range.lowest), std::abs(range.highest)), 1e-12);
-  if (range.highest - range.lowest < least_width) return {range.lowest - least_width, range.highest + least_width};
+  const double least_width =
+      std::max(1e-9 * std::max(std::abs(range.lowest), std::abs(range.highest)), 1e-12);
+  if (range.highest - range.lowest < least_width)
+    return {range.lowest - least_width, range.highest + least_width};
   return range;
 }
 
@@ -75,12 +77,14 @@ ColourScale scale_of_mean(vtkDataArray& mean, std::optional<double> level) {
 
 ColourScale scale_of_uncertainty(vtkDataArray& field, bool starts_at_zero) {
   const Range range = range_of(field);
-  return {Palette::Viridis, starts_at_zero ? std::min(0.0, range.lowest) : range.lowest, range.highest};
+  return {Palette::Viridis, starts_at_zero ? std::min(0.0, range.lowest) : range.lowest,
+          range.highest};
 }
 
 Plan plan_of(const Outcome& outcome) {
   Plan plan;
-  plan.level = outcome.summary.level ? outcome.summary.level : outcome.level_along("estimate", "mean");
+  plan.level =
+      outcome.summary.level ? outcome.summary.level : outcome.level_along("estimate", "mean");
   plan.truth_level = outcome.level_along("truth", "truth");
   plan.third = third_panel(outcome, plan);
   plan.view = view_of(outcome, plan.level);
@@ -102,19 +106,27 @@ int tick_count(double length_px) { return std::clamp(static_cast<int>(length_px 
 void draw_axes(Sheet& sheet, const View& view, const Box& map) {
   const double px_per_mm = map.width / view.width_mm;
   const bool own_axes = !view.in_chart && view.turn.isIdentity(1e-12);
-  for (const Tick& tick : ticks(view.left_mm, view.left_mm + view.width_mm, tick_count(map.width))) {
+  for (const Tick& tick :
+       ticks(view.left_mm, view.left_mm + view.width_mm, tick_count(map.width))) {
     const Pixel foot(map.left + (tick.value - view.left_mm) * px_per_mm, map.bottom);
     sheet.line(foot, foot - Pixel(0.0, 6.0), kFrame);
-    sheet.text(foot - Pixel(0.0, 10.0), tick.label, {.size_px = 17.0, .horizontal = Horizontal::Centre, .vertical = Vertical::Top});
+    sheet.text(foot - Pixel(0.0, 10.0), tick.label,
+               {.size_px = 17.0, .horizontal = Horizontal::Centre, .vertical = Vertical::Top});
   }
-  for (const Tick& tick : ticks(view.bottom_mm, view.bottom_mm + view.height_mm, tick_count(map.height))) {
+  for (const Tick& tick :
+       ticks(view.bottom_mm, view.bottom_mm + view.height_mm, tick_count(map.height))) {
     const Pixel foot(map.left, map.bottom + (tick.value - view.bottom_mm) * px_per_mm);
     sheet.line(foot, foot - Pixel(6.0, 0.0), kFrame);
-    sheet.text(foot - Pixel(10.0, 0.0), tick.label, {.size_px = 17.0, .horizontal = Horizontal::Right});
+    sheet.text(foot - Pixel(10.0, 0.0), tick.label,
+               {.size_px = 17.0, .horizontal = Horizontal::Right});
   }
-  sheet.text({map.centre().x(), map.bottom - 48.0}, own_axes ? "x [mm]" : "u [mm]", {.size_px = 17.0, .horizontal = Horizontal::Centre});
+  sheet.text({map.centre().x(), map.bottom - 48.0}, own_axes ? "x [mm]" : "u [mm]",
+             {.size_px = 17.0, .horizontal = Horizontal::Centre});
   sheet.text({map.left - 52.0, map.centre().y()}, own_axes ? "y [mm]" : "v [mm]",
-             {.size_px = 17.0, .horizontal = Horizontal::Centre, .vertical = Vertical::Centre, .turned_deg = 90.0});
+             {.size_px = 17.0,
+              .horizontal = Horizontal::Centre,
+              .vertical = Vertical::Centre,
+              .turned_deg = 90.0});
 }
 
 // The largest of 1, 2, 5 times a power of ten that takes at most 30 % of the map.
@@ -132,7 +144,8 @@ void draw_scale_bar(Sheet& sheet, const View& view, const Box& map) {
   const double length_px = length_mm * map.width / view.width_mm;
   const Pixel left(map.left, map.bottom - 22.0);
   sheet.line(left, left + Pixel(length_px, 0.0), {.width_px = 4.0});
-  sheet.text(left + Pixel(length_px + 10.0, 0.0), short_number(length_mm, 3) + " mm", {.size_px = 17.0});
+  sheet.text(left + Pixel(length_px + 10.0, 0.0), short_number(length_mm, 3) + " mm",
+             {.size_px = 17.0});
 }
 
 /// Less than a thousandth of a square micrometre is rounding.
@@ -146,14 +159,18 @@ void draw_ruler(Sheet& sheet, const View& view, const Box& map) {
   }
 }
 
-void draw_bar(Sheet& sheet, const Box& map, const ColourScale& scale, const std::string& unit, std::optional<double> mark) {
+void draw_bar(Sheet& sheet, const Box& map, const ColourScale& scale, const std::string& unit,
+              std::optional<double> mark) {
   const double height = std::min(map.height, 460.0);
   const Box bar{map.right() + 18.0, map.bottom + (map.height - height) / 2.0, 20.0, height};
   const int steps = static_cast<int>(bar.height);
-  const auto place = [&](double value) { return bar.bottom + bar.height * (value - scale.lowest) / (scale.highest - scale.lowest); };
+  const auto place = [&](double value) {
+    return bar.bottom + bar.height * (value - scale.lowest) / (scale.highest - scale.lowest);
+  };
   for (int i = 0; i < steps; ++i) {
     const double value = scale.lowest + (scale.highest - scale.lowest) * (i + 0.5) / steps;
-    sheet.fill(Box{bar.left, bar.bottom + i, bar.width, std::min(1.5, bar.height - i)}, scale.at(value));
+    sheet.fill(Box{bar.left, bar.bottom + i, bar.width, std::min(1.5, bar.height - i)},
+               scale.at(value));
   }
   sheet.frame(bar, kFrame);
   for (const Tick& tick : ticks(scale.lowest, scale.highest, tick_count(bar.height))) {
@@ -162,11 +179,16 @@ void draw_bar(Sheet& sheet, const Box& map, const ColourScale& scale, const std:
     sheet.text(foot + Pixel(9.0, 0.0), tick.label, {.size_px = 16.0});
   }
   if (mark && *mark > scale.lowest && *mark < scale.highest) {
-    sheet.line({bar.left, place(*mark)}, {bar.right(), place(*mark)}, {.width_px = 3.0, .colour = {0, 0, 0}});
+    sheet.line({bar.left, place(*mark)}, {bar.right(), place(*mark)},
+               {.width_px = 3.0, .colour = {0, 0, 0}});
   }
   if (!unit.empty()) {
     sheet.text({map.right() + kRightOfMap_px - 14.0, bar.centre().y()}, unit,
-               {.size_px = 16.0, .colour = kGrey, .horizontal = Horizontal::Centre, .vertical = Vertical::Centre, .turned_deg = 90.0});
+               {.size_px = 16.0,
+                .colour = kGrey,
+                .horizontal = Horizontal::Centre,
+                .vertical = Vertical::Centre,
+                .turned_deg = 90.0});
   }
 }
 
@@ -184,11 +206,14 @@ void draw_boundaries(TissueScene& scene, const Outcome& outcome, bool with_truth
 }
 
 std::string unit_of(const Outcome& outcome) {
-  return outcome.summary.reading_unit.empty() ? "unit of the readings" : outcome.summary.reading_unit;
+  return outcome.summary.reading_unit.empty() ? "unit of the readings"
+                                              : outcome.summary.reading_unit;
 }
 
-void draw_mean(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map, const std::string& letter, bool with_touches) {
-  vtkDataArray* detrended = outcome.field("mean_detrended");  // what the level cuts, where there is a trend
+void draw_mean(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map,
+               const std::string& letter, bool with_touches) {
+  vtkDataArray* detrended =
+      outcome.field("mean_detrended");  // what the level cuts, where there is a trend
   vtkDataArray& mean = detrended != nullptr ? *detrended : *outcome.field("mean");
   const ColourScale scale = scale_of_mean(mean, plan.level);
   TissueScene scene(sheet.scene(map), plan.view, map);
@@ -196,7 +221,10 @@ void draw_mean(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box
   if (with_touches) scene.draw_touches(outcome.touches, plan.touch_radius_px);
   draw_boundaries(scene, outcome, /*with_truth=*/true);
   scene.finish();
-  draw_title(sheet, map, letter, with_touches ? "Believed stiffness" : plan.level ? "Boundary" : "Nothing found");
+  draw_title(sheet, map, letter,
+             with_touches ? "Believed stiffness"
+             : plan.level ? "Boundary"
+                          : "Nothing found");
   draw_ruler(sheet, plan.view, map);
   draw_bar(sheet, map, scale, unit_of(outcome), plan.level);
 }
@@ -219,12 +247,15 @@ void draw_uncertainty(Sheet& sheet, const Outcome& outcome, const Plan& plan, co
   draw_bar(sheet, map, scale, has_stddev ? unit_of(outcome) : "", std::nullopt);
 }
 
-void draw_patch_key(Sheet& sheet, const Pixel& place, Colour colour, const std::string& name, const std::optional<double>& area_mm2) {
+void draw_patch_key(Sheet& sheet, const Pixel& place, Colour colour, const std::string& name,
+                    const std::optional<double>& area_mm2) {
   const Box patch{place.x(), place.y() - 9.0, 24.0, 18.0};
   sheet.fill(patch, colour);
   sheet.frame(patch, kFrame);
   sheet.text(place + Pixel(32.0, 0.0), name, {.size_px = 16.0});
-  if (area_mm2) sheet.text(place + Pixel(0.0, -22.0), short_number(*area_mm2, 3) + kSquareMm, {.size_px = 16.0, .colour = kGrey});
+  if (area_mm2)
+    sheet.text(place + Pixel(0.0, -22.0), short_number(*area_mm2, 3) + kSquareMm,
+               {.size_px = 16.0, .colour = kGrey});
 }
 
 void draw_margin_keys(Sheet& sheet, const Outcome& outcome, const Box& map) {
@@ -254,12 +285,14 @@ void draw_zone_keys(Sheet& sheet, const BandNumbers& band, const Box& map) {
   draw_patch_key(sheet, first, kSurelyTumour, "sure", band.inner_area_mm2);
   draw_patch_key(sheet, first + down, kUnsure, "unsure", std::nullopt);
   if (band.half_width_mm)
-    sheet.text(first + down + Pixel(0.0, -22.0), kPlusMinus + short_number(*band.half_width_mm, 2) + " mm",
+    sheet.text(first + down + Pixel(0.0, -22.0),
+               kPlusMinus + short_number(*band.half_width_mm, 2) + " mm",
                {.size_px = 16.0, .colour = kGrey});
   draw_patch_key(sheet, first + 2.0 * down, kHealthy, "healthy", std::nullopt);
 }
 
-/// Where to cut: what is tumour as good as surely, what is healthy as good as surely, and the band between.
+/// Where to cut: what is tumour as good as surely, what is healthy as good as surely, and the band
+/// between.
 void draw_band(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map) {
   const BandNumbers& band = *outcome.summary.band;
   TissueScene scene(sheet.scene(map), plan.close_up, map);
@@ -271,7 +304,9 @@ void draw_band(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box
   scene.draw_curves(outcome, "truth", kTruthLine);
   scene.finish();
   draw_title(sheet, map, "c",
-             band.probability ? "Where it ends, " + short_number(100.0 * *band.probability, 3) + " % sure" : "Where it ends");
+             band.probability
+                 ? "Where it ends, " + short_number(100.0 * *band.probability, 3) + " % sure"
+                 : "Where it ends");
   draw_ruler(sheet, plan.close_up, map);
   if (plan.close_up.width_mm < plan.view.width_mm) sheet.frame(map, kFrame);
   draw_zone_keys(sheet, band, map);
@@ -302,15 +337,18 @@ void draw_third(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Bo
 }
 
 std::string touches_text(const Outcome& outcome) {
-  const double count = outcome.summary.measurements.value_or(static_cast<double>(outcome.touches.size()));
+  const double count =
+      outcome.summary.measurements.value_or(static_cast<double>(outcome.touches.size()));
   return short_number(count, 7) + (count == 1.0 ? " touch" : " touches");
 }
 
 std::string error_text(const ErrorNumbers& error) {
   std::string text;
-  if (error.symmetric_difference_mm2) text += "Error " + short_number(*error.symmetric_difference_mm2, 3) + kSquareMm;
+  if (error.symmetric_difference_mm2)
+    text += "Error " + short_number(*error.symmetric_difference_mm2, 3) + kSquareMm;
   if (error.missed_mm2 && error.extra_mm2 && !text.empty())
-    text += ", " + short_area(*error.missed_mm2) + " missed and " + short_area(*error.extra_mm2) + " extra";
+    text += ", " + short_area(*error.missed_mm2) + " missed and " + short_area(*error.extra_mm2) +
+            " extra";
   if (error.percent_of_search_area && !text.empty())
     text += " (" + short_number(*error.percent_of_search_area, 2) + " % of the search area)";
   if (error.dice && text.empty()) text += "Dice " + short_number(*error.dice, 3);
@@ -322,17 +360,20 @@ std::string caption_of(const Outcome& outcome) {
   const Summary& summary = outcome.summary;
   std::string caption = touches_text(outcome);
   if (summary.nothing_wider_than_mm)
-    return caption + kBetween + "nothing found" + kBetween + "no tumour wider than " + short_number(*summary.nothing_wider_than_mm, 3) +
-           " mm";
+    return caption + kBetween + "nothing found" + kBetween + "no tumour wider than " +
+           short_number(*summary.nothing_wider_than_mm, 3) + " mm";
   if (summary.error) {
     const std::string error = error_text(*summary.error);
     if (!error.empty()) caption += kBetween + error;
   } else if (summary.expected_error_mm2) {
-    caption += std::string(kBetween) + "expected error " + short_number(*summary.expected_error_mm2, 3) + kSquareMm;
+    caption += std::string(kBetween) + "expected error " +
+               short_number(*summary.expected_error_mm2, 3) + kSquareMm;
   }
   if (summary.error && summary.expected_error_mm2)
-    caption += std::string(kBetween) + "expected " + short_number(*summary.expected_error_mm2, 3) + kSquareMm;
-  if (summary.area_mm2) caption += std::string(kBetween) + "tumour " + short_number(*summary.area_mm2, 4) + kSquareMm;
+    caption += std::string(kBetween) + "expected " + short_number(*summary.expected_error_mm2, 3) +
+               kSquareMm;
+  if (summary.area_mm2)
+    caption += std::string(kBetween) + "tumour " + short_number(*summary.area_mm2, 4) + kSquareMm;
   if (summary.level) caption += std::string(kBetween) + "level " + short_number(*summary.level, 4);
   return caption;
 }
@@ -340,7 +381,8 @@ std::string caption_of(const Outcome& outcome) {
 }  // namespace
 
 std::string picture_of(const Outcome& outcome) {
-  if (outcome.field("mean") == nullptr) throw IoError("surface.vtp: no field named mean at the points");
+  if (outcome.field("mean") == nullptr)
+    throw IoError("surface.vtp: no field named mean at the points");
   const Plan plan = plan_of(outcome);
   const Layout& layout = plan.layout;
   Sheet sheet(layout.width_px, layout.height_px);

@@ -19,10 +19,12 @@ Eigen::AlignedBox3d box_of(const Corners& corners) {
   return {box.min() - slack, box.max() + slack};
 }
 
-// Areas of the triangles that a place makes with the sides opposite to the corners: barycentric weights once divided by their sum.
+// Areas of the triangles that a place makes with the sides opposite to the corners: barycentric
+// weights once divided by their sum.
 Vec3 opposite_areas(const Corners& corners, const Vec3& place) {
   const auto& [a, b, c] = corners.places;
-  return {(b - place).cross(c - place).norm(), (c - place).cross(a - place).norm(), (a - place).cross(b - place).norm()};
+  return {(b - place).cross(c - place).norm(), (c - place).cross(a - place).norm(),
+          (a - place).cross(b - place).norm()};
 }
 
 }  // namespace
@@ -42,7 +44,8 @@ Corners corners_of(vtkPolyData& surface, vtkIdType triangle) {
 TriangleTree::TriangleTree(vtkPolyData& surface) : surface_(surface) {
   for (vtkIdType triangle = 0; triangle < surface.GetNumberOfPolys(); ++triangle) {
     const Corners corners = corners_of(surface, triangle);
-    const bool finite = std::all_of(corners.places.begin(), corners.places.end(), [](const Vec3& place) { return place.allFinite(); });
+    const bool finite = std::all_of(corners.places.begin(), corners.places.end(),
+                                    [](const Vec3& place) { return place.allFinite(); });
     if (finite) leaves_.push_back({triangle, box_of(corners)});
   }
   build(0, 0, leaves_.size());
@@ -59,13 +62,15 @@ void TriangleTree::build(std::size_t node, std::size_t first, std::size_t last) 
   const std::size_t middle = first + (last - first) / 2;
   const auto at = [&](std::size_t i) { return leaves_.begin() + static_cast<std::ptrdiff_t>(i); };
   const auto centre = [&](const Leaf& leaf) { return leaf.box.min()[axis] + leaf.box.max()[axis]; };
-  std::nth_element(at(first), at(middle), at(last), [&](const Leaf& a, const Leaf& b) { return centre(a) < centre(b); });
+  std::nth_element(at(first), at(middle), at(last),
+                   [&](const Leaf& a, const Leaf& b) { return centre(a) < centre(b); });
   build(2 * node + 1, first, middle);
   build(2 * node + 2, middle, last);
 }
 
 template <typename Visit>
-void TriangleTree::visit(const Vec3& place, const Visit& each, std::size_t node, std::size_t first, std::size_t last) const {
+void TriangleTree::visit(const Vec3& place, const Visit& each, std::size_t node, std::size_t first,
+                         std::size_t last) const {
   if (!boxes_[node].contains(place)) return;
   if (last - first <= kFew) {
     for (std::size_t i = first; i < last; ++i) {
@@ -79,7 +84,8 @@ void TriangleTree::visit(const Vec3& place, const Visit& each, std::size_t node,
 }
 
 double TriangleTree::value_at(vtkDataArray& field, const Vec3& place) const {
-  std::pair least(std::numeric_limits<double>::infinity(), std::numeric_limits<vtkIdType>::max());  // excess of area, triangle
+  std::pair least(std::numeric_limits<double>::infinity(),
+                  std::numeric_limits<vtkIdType>::max());  // excess of area, triangle
   double value = std::nan("");
   const auto look_at = [&](vtkIdType triangle) {
     const Corners corners = corners_of(surface_, triangle);

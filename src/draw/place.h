@@ -19,13 +19,15 @@ struct Corners {
 
 Corners corners_of(vtkPolyData& surface, vtkIdType triangle);
 
-/// Finds the triangle that holds a place of a surface, which must stay as it is meanwhile. A tree of boxes over its triangles: memory is
-/// that of two boxes a triangle, however flat the surface (VTK's static cell locator takes gigabytes there).
+/// Finds the triangle that holds a place of a surface, which must stay as it is meanwhile. A tree
+/// of boxes over its triangles: memory is that of two boxes a triangle, however flat the surface
+/// (VTK's static cell locator takes gigabytes there).
 class TriangleTree {
  public:
   explicit TriangleTree(vtkPolyData& surface);
 
-  /// The field, linear in the triangle that holds the place, the first of those that hold it alike; NaN off the surface.
+  /// The field, linear in the triangle that holds the place, the first of those that hold it alike;
+  /// NaN off the surface.
   double value_at(vtkDataArray& field, const Vec3& place) const;
 
  private:
@@ -36,7 +38,8 @@ class TriangleTree {
   };
   void build(std::size_t node, std::size_t first, std::size_t last);
   template <typename Visit>
-  void visit(const Vec3& place, const Visit& each, std::size_t node, std::size_t first, std::size_t last) const;
+  void visit(const Vec3& place, const Visit& each, std::size_t node, std::size_t first,
+             std::size_t last) const;
 
   vtkPolyData& surface_;
   std::vector<Leaf> leaves_;

@@ -57,7 +57,10 @@ std::vector<float> scaled(const std::vector<Pixel>& points) {
 }
 
 std::vector<Pixel> corners_of(const Box& box) {
-  return {{box.left, box.bottom}, {box.right(), box.bottom}, {box.right(), box.top()}, {box.left, box.top()}};
+  return {{box.left, box.bottom},
+          {box.right(), box.bottom},
+          {box.right(), box.top()},
+          {box.left, box.top()}};
 }
 
 void set_justification(vtkTextProperty& property, const TextStyle& style) {
@@ -73,7 +76,8 @@ void set_up(vtkTextProperty& property, const TextStyle& style) {
   property.SetFontFamilyToArial();
   property.SetFontSize(static_cast<int>(std::lround(style.size_px * kScale)));
   property.SetBold(style.bold);
-  property.SetColor(style.colour.red / 255.0, style.colour.green / 255.0, style.colour.blue / 255.0);
+  property.SetColor(style.colour.red / 255.0, style.colour.green / 255.0,
+                    style.colour.blue / 255.0);
   property.SetOrientation(style.turned_deg);
   set_justification(property, style);
 }
@@ -118,7 +122,9 @@ int Sheet::width_px() const { return state_->width_px; }
 
 int Sheet::height_px() const { return state_->height_px; }
 
-void Sheet::line(const Pixel& from, const Pixel& to, const LineStyle& style) { polyline({from, to}, style); }
+void Sheet::line(const Pixel& from, const Pixel& to, const LineStyle& style) {
+  polyline({from, to}, style);
+}
 
 void Sheet::polyline(const std::vector<Pixel>& points, const LineStyle& style) {
   std::vector<Eigen::Vector3d> whole;
@@ -143,21 +149,27 @@ void Sheet::frame(const Box& box, const LineStyle& style) {
 
 void Sheet::fill(const std::vector<Pixel>& convex_polygon, Colour colour) {
   state_->strokes->strokes.push_back(
-      [corners = scaled(convex_polygon), colour](vtkContext2D& painter) { paint_polygon(painter, corners, colour); });
+      [corners = scaled(convex_polygon), colour](vtkContext2D& painter) {
+        paint_polygon(painter, corners, colour);
+      });
 }
 
-void Sheet::disc(const Pixel& centre, double radius_px, Colour colour) { fill(circle(centre, radius_px), colour); }
+void Sheet::disc(const Pixel& centre, double radius_px, Colour colour) {
+  fill(circle(centre, radius_px), colour);
+}
 
 void Sheet::text(const Pixel& place, const std::string& words, const TextStyle& style) {
   state_->strokes->strokes.push_back([place, words, style](vtkContext2D& painter) {
     set_up(*painter.GetTextProp(), style);
-    painter.DrawString(static_cast<float>(place.x() * kScale), static_cast<float>(place.y() * kScale), words);
+    painter.DrawString(static_cast<float>(place.x() * kScale),
+                       static_cast<float>(place.y() * kScale), words);
   });
 }
 
 vtkRenderer& Sheet::scene(const Box& box) {
   auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->SetViewport(box.left / width_px(), box.bottom / height_px(), box.right() / width_px(), box.top() / height_px());
+  renderer->SetViewport(box.left / width_px(), box.bottom / height_px(), box.right() / width_px(),
+                        box.top() / height_px());
   renderer->SetLayer(1);
   state_->window->AddRenderer(renderer);
   return *renderer;
@@ -171,11 +183,13 @@ double text_width_px(const std::string& words, const TextStyle& style) {
   property->SetOrientation(0.0);
   int bounds[4] = {0, 0, 0, 0};
   vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
-  if (renderer == nullptr || !renderer->GetBoundingBox(property, words, bounds, /*dpi=*/72)) return 0.0;
+  if (renderer == nullptr || !renderer->GetBoundingBox(property, words, bounds, /*dpi=*/72))
+    return 0.0;
   return (bounds[1] - bounds[0] + 1) / kScale;
 }
 
-std::vector<std::vector<Eigen::Vector3d>> dashes(const std::vector<Eigen::Vector3d>& line, double dash) {
+std::vector<std::vector<Eigen::Vector3d>> dashes(const std::vector<Eigen::Vector3d>& line,
+                                                 double dash) {
   if (dash <= 0.0 || line.size() < 2) return {line};
   std::vector<std::vector<Eigen::Vector3d>> result;
   bool drawing = true;
@@ -206,7 +220,8 @@ std::vector<Pixel> circle(const Pixel& centre, double radius_px) {
   corners.reserve(kCircleCorners);
   for (int i = 0; i < kCircleCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kCircleCorners;
-    corners.emplace_back(centre.x() + radius_px * std::cos(angle), centre.y() + radius_px * std::sin(angle));
+    corners.emplace_back(centre.x() + radius_px * std::cos(angle),
+                         centre.y() + radius_px * std::sin(angle));
   }
   return corners;
 }

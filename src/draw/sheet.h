@@ -1,4 +1,5 @@
-/// A sheet of paper: lines, shapes and text in pixels, y upwards from the lower left corner, and windows through which a scene is seen.
+/// A sheet of paper: lines, shapes and text in pixels, y upwards from the lower left corner, and
+/// windows through which a scene is seen.
 ///
 /// What is drawn later lies above what was drawn earlier; everything drawn lies above the scenes.
 #pragma once
@@ -64,7 +65,8 @@ class Sheet {
   void disc(const Pixel& centre, double radius_px, Colour colour);
   void text(const Pixel& place, const std::string& words, const TextStyle& style);
 
-  /// A window in the sheet onto a scene of its own; the caller sets its camera. White where the scene has nothing.
+  /// A window in the sheet onto a scene of its own; the caller sets its camera. White where the
+  /// scene has nothing.
   vtkRenderer& scene(const Box& box);
 
   /// The bytes of a PNG file. Throws NoGraphics.
@@ -78,8 +80,10 @@ class Sheet {
 /// How wide a text will be.
 double text_width_px(const std::string& words, const TextStyle& style);
 
-/// Cuts a line into dashes of equal length with gaps of the same length; the whole line if dash <= 0.
-std::vector<std::vector<Eigen::Vector3d>> dashes(const std::vector<Eigen::Vector3d>& line, double dash);
+/// Cuts a line into dashes of equal length with gaps of the same length; the whole line if dash <=
+/// 0.
+std::vector<std::vector<Eigen::Vector3d>> dashes(const std::vector<Eigen::Vector3d>& line,
+                                                 double dash);
 
 /// The corners of a regular polygon that looks like a circle of this radius.
 std::vector<Pixel> circle(const Pixel& centre, double radius_px);

@@ -56,7 +56,9 @@ Table::Table(const std::filesystem::path& path) : path_(path) {
       continue;
     }
     if (cells.size() != names_.size()) {
-      fail(path, number, std::to_string(cells.size()) + " cells, but the header names " + std::to_string(names_.size()));
+      fail(path, number,
+           std::to_string(cells.size()) + " cells, but the header names " +
+               std::to_string(names_.size()));
     }
     rows_.push_back(std::move(cells));
     lines_.push_back(number);
@@ -68,7 +70,8 @@ std::vector<std::string> Table::texts(const std::string& name) const {
   std::vector<std::string> result(rows_.size());
   const auto column = index_of(name);
   if (!column) return result;
-  std::transform(rows_.begin(), rows_.end(), result.begin(), [&](const auto& row) { return row[*column]; });
+  std::transform(rows_.begin(), rows_.end(), result.begin(),
+                 [&](const auto& row) { return row[*column]; });
   return result;
 }
 
@@ -80,7 +83,8 @@ std::vector<double> Table::numbers(const std::string& name) const {
     const char* end = cells[row].data() + cells[row].size();
     const auto [stopped, error] = std::from_chars(cells[row].data(), end, value);
     if (!cells[row].empty() && (error != std::errc() || stopped != end)) {
-      fail(path_, lines_[row], "column " + name + ": '" + cells[row].substr(0, 40) + "' is no number");
+      fail(path_, lines_[row],
+           "column " + name + ": '" + cells[row].substr(0, 40) + "' is no number");
     }
     result.push_back(value);
   }

@@ -10,8 +10,9 @@ namespace palpation::draw {
 
 class Table {
  public:
-  /// Cells are separated by commas; one that holds commas stands in double quotes, "" within it means ". Empty lines are skipped.
-  /// Throws IoError with path and line if the file cannot be read, has no header, or a row has another number of cells than the header.
+  /// Cells are separated by commas; one that holds commas stands in double quotes, "" within it
+  /// means ". Empty lines are skipped. Throws IoError with path and line if the file cannot be
+  /// read, has no header, or a row has another number of cells than the header.
   explicit Table(const std::filesystem::path& path);
 
   const std::vector<std::string>& names() const { return names_; }
@@ -20,7 +21,8 @@ class Table {
 
   /// Cells as they are; all empty if there is no such column.
   std::vector<std::string> texts(const std::string& name) const;
-  /// Cells as numbers, NaN where empty; all NaN if there is no such column. Throws IoError with path, line and column for any other text.
+  /// Cells as numbers, NaN where empty; all NaN if there is no such column. Throws IoError with
+  /// path, line and column for any other text.
   std::vector<double> numbers(const std::string& name) const;
 
  private:

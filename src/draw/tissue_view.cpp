@@ -23,8 +23,8 @@
 namespace palpation::draw {
 namespace {
 
-constexpr double kMarginShare = 0.008;       // of the longer visible side
-constexpr double kLayerStep_px = 2.5;        // towards the viewer, from one layer of ink to the next
+constexpr double kMarginShare = 0.008;  // of the longer visible side
+constexpr double kLayerStep_px = 2.5;   // towards the viewer, from one layer of ink to the next
 constexpr double kFlatnessTolerance = 1e-6;  // of the diameter
 constexpr double kAlikeCosine = 0.985;       // 10 degrees
 
@@ -65,7 +65,8 @@ struct Facing {
 Facing facing_of_tissue(vtkPolyData& mesh, vtkDataArray* field, double level) {
   Facing facing;
   for (const Corner& corner : triangles_of(mesh)) {
-    const bool inside = field == nullptr || (field->GetComponent(corner.a, 0) >= level && field->GetComponent(corner.b, 0) >= level &&
+    const bool inside = field == nullptr || (field->GetComponent(corner.a, 0) >= level &&
+                                             field->GetComponent(corner.b, 0) >= level &&
                                              field->GetComponent(corner.c, 0) >= level);
     if (!inside) continue;
     const Vec3 area = area_vector(mesh, corner);
@@ -100,7 +101,8 @@ Vec3 vertex_nearest_to_centroid(vtkPolyData& mesh) {
   double total = 0.0;
   for (const Corner& corner : triangles_of(mesh)) {
     const double area = area_vector(mesh, corner).norm();
-    sum += area * (point_of(mesh, corner.a) + point_of(mesh, corner.b) + point_of(mesh, corner.c)) / 3.0;
+    sum += area * (point_of(mesh, corner.a) + point_of(mesh, corner.b) + point_of(mesh, corner.c)) /
+           3.0;
     total += area;
   }
   Vec3 nearest = Vec3::Zero();
@@ -118,7 +120,8 @@ vtkSmartPointer<vtkPolyData> turned(vtkPolyData& mesh, const View& view) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(mesh.GetNumberOfPoints());
-  for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i) points->SetPoint(i, view.to_view_mm(point_of(mesh, i)).data());
+  for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i)
+    points->SetPoint(i, view.to_view_mm(point_of(mesh, i)).data());
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(points);
   result->SetPolys(mesh.GetPolys());
@@ -138,11 +141,13 @@ void add_field(vtkPolyData& mesh, const char* name, vtkDataArray& field, double 
   vtkNew<vtkDoubleArray> values;
   values->SetName(name);
   values->SetNumberOfTuples(field.GetNumberOfTuples());
-  for (vtkIdType i = 0; i < field.GetNumberOfTuples(); ++i) values->SetValue(i, field.GetComponent(i, 0) - minus);
+  for (vtkIdType i = 0; i < field.GetNumberOfTuples(); ++i)
+    values->SetValue(i, field.GetComponent(i, 0) - minus);
   mesh.GetPointData()->AddArray(values);
 }
 
-// Sides that belong to one triangle only. VTK's filter for this asks for more memory than there is on a mesh of a million vertices.
+// Sides that belong to one triangle only. VTK's filter for this asks for more memory than there is
+// on a mesh of a million vertices.
 std::vector<std::array<vtkIdType, 2>> rim_of(vtkPolyData& mesh) {
   std::vector<std::array<vtkIdType, 2>> sides;
   sides.reserve(static_cast<std::size_t>(mesh.GetNumberOfPolys()) * 3);
@@ -184,7 +189,9 @@ void set_light(vtkProperty& property, bool lit) {
   property.SetInterpolationToPhong();
 }
 
-void set_colour(vtkProperty& property, Colour colour) { property.SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0); }
+void set_colour(vtkProperty& property, Colour colour) {
+  property.SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+}
 
 // Polygons that face the viewer.
 class Shapes {
@@ -202,7 +209,8 @@ class Shapes {
     const Vec3 across = Vec3(-along.y(), along.x(), 0.0);
     if (across.norm() == 0.0) return;
     const Vec3 half = across.normalized() * (width / 2.0);
-    for (const Vec3& corner : {Vec3(from - half), Vec3(to - half), Vec3(to + half), Vec3(from + half)}) {
+    for (const Vec3& corner :
+         {Vec3(from - half), Vec3(to - half), Vec3(to + half), Vec3(from + half)}) {
       corners_.push_back(points_->InsertNextPoint(corner.data()));
     }
     close();
@@ -260,7 +268,8 @@ View view_of(const Outcome& outcome, std::optional<double> level) {
   view.back_mm = lowest.z();
   view.front_mm = highest.z();
   for (const auto& [from, to] : rim_of(*outcome.surface)) {
-    view.rim_mm.push_back({view.to_view_mm(point_of(*outcome.surface, from)), view.to_view_mm(point_of(*outcome.surface, to))});
+    view.rim_mm.push_back({view.to_view_mm(point_of(*outcome.surface, from)),
+                           view.to_view_mm(point_of(*outcome.surface, to))});
   }
   return view;
 }
@@ -291,7 +300,8 @@ View zoomed_to(const View& whole, const Outcome& outcome, const std::vector<std:
 TissueScene::TissueScene(vtkRenderer& renderer, const View& view, const Box& box)
     : renderer_(renderer), view_(view), mm_per_px_(view.width_mm / box.width) {}
 
-void TissueScene::paint_field(const Outcome& outcome, vtkDataArray& field, const ColourScale& scale) {
+void TissueScene::paint_field(const Outcome& outcome, vtkDataArray& field,
+                              const ColourScale& scale) {
   vtkSmartPointer<vtkPolyData> mesh = turned(*outcome.surface, view_);
   if (!view_.flat) mesh = with_normals(*mesh);
   add_field(*mesh, "field", field, 0.0);
@@ -344,14 +354,17 @@ void TissueScene::paint_zones(const Outcome& outcome, double band_score) {
   paint(*outer.below, kHealthy);
 }
 
-void TissueScene::draw_curves(const Outcome& outcome, const std::string& kind, const LineStyle& style) {
+void TissueScene::draw_curves(const Outcome& outcome, const std::string& kind,
+                              const LineStyle& style) {
   const double lift = lift_next_layer();
   Shapes shapes;
   for (const Curve& curve : outcome.curves) {
     if (curve.kind != kind) continue;
     std::vector<Vec3> line;
-    for (const Vec3& point : curve.points) line.push_back(view_.to_view_mm(point) + Vec3(0.0, 0.0, lift));
-    for (const auto& piece : dashes(line, style.dash_px * mm_per_px_)) shapes.line(piece, style.width_px * mm_per_px_);
+    for (const Vec3& point : curve.points)
+      line.push_back(view_.to_view_mm(point) + Vec3(0.0, 0.0, lift));
+    for (const auto& piece : dashes(line, style.dash_px * mm_per_px_))
+      shapes.line(piece, style.width_px * mm_per_px_);
   }
   add_unlit(*shapes.polygons(), style.colour);
 }
@@ -359,13 +372,17 @@ void TissueScene::draw_curves(const Outcome& outcome, const std::string& kind, c
 void TissueScene::draw_border(const LineStyle& style) {
   const Vec3 lift(0.0, 0.0, lift_next_layer());
   Shapes shapes;
-  for (const auto& [from, to] : view_.rim_mm) shapes.strip(from + lift, to + lift, style.width_px * mm_per_px_);
+  for (const auto& [from, to] : view_.rim_mm)
+    shapes.strip(from + lift, to + lift, style.width_px * mm_per_px_);
   add_unlit(*shapes.polygons(), style.colour);
 }
 
 void TissueScene::draw_touches(const std::vector<Touch>& touches, double radius_px) {
-  const std::array<Touch, 4> examples = {Touch{.on_the_way = true}, Touch{}, Touch{.initial = true}, Touch{.set_aside = true}};
-  const auto group_of = [](const Touch& touch) { return touch.set_aside ? 3u : touch.on_the_way ? 0u : touch.initial ? 2u : 1u; };
+  const std::array<Touch, 4> examples = {Touch{.on_the_way = true}, Touch{}, Touch{.initial = true},
+                                         Touch{.set_aside = true}};
+  const auto group_of = [](const Touch& touch) {
+    return touch.set_aside ? 3u : touch.on_the_way ? 0u : touch.initial ? 2u : 1u;
+  };
   for (const Touch& example : examples) {
     const TouchLook look = look_of(example, radius_px);
     const double rim_lift = lift_next_layer();
@@ -385,7 +402,8 @@ void TissueScene::draw_touches(const std::vector<Touch>& touches, double radius_
 
 void TissueScene::finish() {
   const double depth = view_.front_mm - view_.back_mm + (layers_ + 4) * kLayerStep_px * mm_per_px_;
-  const Vec3 middle(view_.left_mm + view_.width_mm / 2.0, view_.bottom_mm + view_.height_mm / 2.0, view_.front_mm);
+  const Vec3 middle(view_.left_mm + view_.width_mm / 2.0, view_.bottom_mm + view_.height_mm / 2.0,
+                    view_.front_mm);
   vtkCamera* camera = renderer_.GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(middle.data());

@@ -37,7 +37,9 @@ Outcome unrolled_where_folded(Outcome outcome) {
   vtkDataArray* v = outcome.field("chart_v");
   if (u == nullptr || v == nullptr || !is_folded(*outcome.surface)) return outcome;
   const TriangleTree tree(*outcome.surface);
-  const auto moved = [&](const Vec3& place) { return Vec3(tree.value_at(*u, place), tree.value_at(*v, place), 0.0); };
+  const auto moved = [&](const Vec3& place) {
+    return Vec3(tree.value_at(*u, place), tree.value_at(*v, place), 0.0);
+  };
   for (Curve& curve : outcome.curves) {
     for (Vec3& point : curve.points) point = moved(point);
     std::erase_if(curve.points, [](const Vec3& point) { return !point.allFinite(); });

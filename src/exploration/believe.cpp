@@ -18,7 +18,8 @@ namespace {
 /// The fourth changes weights by less than a part in ten.
 constexpr int kRoundsOfWeighing = 4;
 constexpr std::size_t kFewReadings = 10;
-/// What lies farther from others than so many times their span is no plateau of which they felt the edge.
+/// What lies farther from others than so many times their span is no plateau of which they felt the
+/// edge.
 constexpr double kFarAlone = 10.0;
 
 /// Of the palpations that are not set aside.
@@ -42,28 +43,35 @@ bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpatio
 }  // namespace
 
 /// A level that is given is believed, and so is a field that is given with it.
-bool Exploration::needs_contrast() const { return plan_.safe_start && (field_.learns() || !level_rule_.known); }
+bool Exploration::needs_contrast() const {
+  return plan_.safe_start && (field_.learns() || !level_rule_.known);
+}
 
-/// The field by all readings, of which the last ones are `fresh`; returns the evidence for it, where it is learned. While a reading stands
-/// alone, what is used of the others may change: then nothing grows.
+/// The field by all readings, of which the last ones are `fresh`; returns the evidence for it,
+/// where it is learned. While a reading stands alone, what is used of the others may change: then
+/// nothing grows.
 double Exploration::believe(std::span<const Palpation> all, std::span<const Palpation> fresh) {
   const bool grows = !lone_reading_;
   if (field_.learns() || field_.lag.is_modelled() || field_.screening || field_.heavy_tails) {
-    LagFit fit = may_grow(field_) && grows ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
-                                           : fit_lagged(surface_, field_, all, learned_, lag_);
+    LagFit fit = may_grow(field_) && grows
+                     ? LagFit{grow_field(surface_, field_, all, belief_, learned_), {}}
+                     : fit_lagged(surface_, field_, all, learned_, lag_);
     belief_ = std::move(fit.field.belief);
     learned_ = fit.field.learned;
     if (field_.lag.is_modelled()) lag_ = fit.lag;
     if (field_.heavy_tails) weigh_for_heavy_tails(all);
     return fit.field.signal_evidence;
   }
-  belief_ = trend_is_missing() || !grows ? fixed_field(surface_, field_, all) : belief_.condition_on(fresh);
+  belief_ = trend_is_missing() || !grows ? fixed_field(surface_, field_, all)
+                                         : belief_.condition_on(fresh);
   return 0.0;
 }
 
 /// `evidence`: for the field, where it is learned.
 bool Exploration::shows_contrast(std::span<const Palpation> all, double evidence) const {
-  std::vector<Palpation> flat = field_.linear_trend ? belief_.detrended_palpations() : std::vector<Palpation>(all.begin(), all.end());
+  std::vector<Palpation> flat = field_.linear_trend
+                                    ? belief_.detrended_palpations()
+                                    : std::vector<Palpation>(all.begin(), all.end());
   if (field_.heavy_tails) flat = drawn_in(std::move(flat));
   if (!field_.learns()) {
     evidence = evidence_of_fixed(belief_, flat);
@@ -71,14 +79,18 @@ bool Exploration::shows_contrast(std::span<const Palpation> all, double evidence
     evidence = fit_field(surface_, field_, flat, learned_).signal_evidence;
   }
   if (a_disk_stands_out(Layout(belief_.prior()), flat)) return true;
-  // Values alone are no contrast where noise may have heavy tails: what is drawn in gathers at both ends.
-  return field_.heavy_tails ? shows_field(evidence) : palpation::shows_contrast(used_readings(flat), evidence);
+  // Values alone are no contrast where noise may have heavy tails: what is drawn in gathers at both
+  // ends.
+  return field_.heavy_tails ? shows_field(evidence)
+                            : palpation::shows_contrast(used_readings(flat), evidence);
 }
 
-/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings there take back. Nor is it contrast what
-/// one of many readings shows alone: where the others show it, and that one is nothing like them, it is set aside.
+/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings
+/// there take back. Nor is it contrast what one of many readings shows alone: where the others show
+/// it, and that one is nothing like them, it is set aside.
 void Exploration::judge_contrast(std::vector<Palpation>& all, double evidence) {
-  const std::optional<LoneReading> lone = lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : all);
+  const std::optional<LoneReading> lone =
+      lone_palpation(field_.linear_trend ? belief_.detrended_palpations() : all);
   if (lone && needs_contrast()) {
     const auto with_it = std::tuple(belief_, learned_, lag_);
     all[lone->number].set_aside = kStandsAlone;
@@ -104,8 +116,8 @@ void Exploration::weigh_for_heavy_tails(std::span<const Palpation> palpations) {
     const WeighedReadings weighed = weighed_for_heavy_tails(belief_, placed, noise_sd);
     noise_sd = field_.learn_noise ? weighed.noise_sd : noise_sd;
     model.belief.noise_sd = noise_sd;
-    belief_ =
-        model.learns() ? fit_field(surface_, model, weighed.palpations, learned_).belief : fixed_field(surface_, model, weighed.palpations);
+    belief_ = model.learns() ? fit_field(surface_, model, weighed.palpations, learned_).belief
+                             : fixed_field(surface_, model, weighed.palpations);
   }
 }
 

@@ -20,24 +20,28 @@
 namespace palpation {
 namespace {
 
-/// While no contrast is seen: the part of a batch that looks again where readings were high, and how noisy they are taken to be then, as a
-/// part of their standard deviation. Half of the variance noise is what tells a tumour's few readings from a fluke least hastily.
+/// While no contrast is seen: the part of a batch that looks again where readings were high, and
+/// how noisy they are taken to be then, as a part of their standard deviation. Half of the variance
+/// noise is what tells a tumour's few readings from a fluke least hastily.
 constexpr double kSecondLooks = 0.3;
 constexpr double kDoubt = 0.7;
 /// Less than any two vertices of tissue are apart: keeps a batch from touching one of them twice.
 constexpr double kDistinct_m = 1e-12;
 constexpr double kRounding = 1e-13;
 
-/// Whether the mean has a range: that of rounding is none, and to cut it would make tumours of noise.
+/// Whether the mean has a range: that of rounding is none, and to cut it would make tumours of
+/// noise.
 bool has_range(const Marginals& marginals) {
   const double least = marginals.mean.minCoeff(), greatest = marginals.mean.maxCoeff();
-  const double scale = std::max({std::abs(least), std::abs(greatest), std::sqrt(marginals.variance.maxCoeff())});
+  const double scale =
+      std::max({std::abs(least), std::abs(greatest), std::sqrt(marginals.variance.maxCoeff())});
   return greatest - least > kRounding * scale;
 }
 
 }  // namespace
 
-Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed, Reach reach)
+Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan,
+                         std::uint64_t seed, Reach reach)
     : surface_(std::move(surface)),
       field_(std::move(field)),
       level_rule_(level),
@@ -48,14 +52,18 @@ Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Pla
       belief_(unlearned(surface_, field_)),
       marginals_(belief_.at_vertices()),
       component_(marginals_) {
-  require(plan_.initial_count >= 0, "Plan", "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
-  require(plan_.edge_share >= 0.0 && plan_.edge_share <= 1.0, "Plan", "edge_share = " + text_of(plan_.edge_share), "must lie in [0, 1]");
-  require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches), "must not be negative");
+  require(plan_.initial_count >= 0, "Plan",
+          "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
+  require(plan_.edge_share >= 0.0 && plan_.edge_share <= 1.0, "Plan",
+          "edge_share = " + text_of(plan_.edge_share), "must lie in [0, 1]");
+  require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches),
+          "must not be negative");
   check(plan_.stop);
-  require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule", "fraction = " + text_of(level_rule_.fraction),
-          "must lie in (0, 1)");
+  require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule",
+          "fraction = " + text_of(level_rule_.fraction), "must lie in (0, 1)");
   for (int vertex : reach.vertices) {
-    require(vertex >= 0 && vertex < surface_.vertex_count(), "Reach", "vertex " + std::to_string(vertex), "is not on the surface");
+    require(vertex >= 0 && vertex < surface_.vertex_count(), "Reach",
+            "vertex " + std::to_string(vertex), "is not on the surface");
     reachable_[vertex] = true;
   }
   if (level_rule_.known) level_ = Level{*level_rule_.known, 0.0};
@@ -69,7 +77,8 @@ std::vector<int> Exploration::next() const { return next_; }
 void Exploration::record(std::span<const Palpation> palpations) {
   std::vector<bool> answered(static_cast<std::size_t>(surface_.vertex_count()), false);
   for (const Palpation& palpation : palpations) {
-    if (const int vertex = surface_.vertex_at(palpation.where); vertex >= 0) answered[vertex] = true;
+    if (const int vertex = surface_.vertex_at(palpation.where); vertex >= 0)
+      answered[vertex] = true;
   }
   for (int stop : next_) {
     if (!answered[stop]) reachable_[stop] = false;
@@ -78,7 +87,8 @@ void Exploration::record(std::span<const Palpation> palpations) {
 }
 
 void Exploration::foresee() {
-  const bool is_built_anew = restates_known_readings(field_) || (field_.learns() && !may_grow(field_));
+  const bool is_built_anew =
+      restates_known_readings(field_) || (field_.learns() && !may_grow(field_));
   if (next_.empty() || is_built_anew) return;
   std::vector<SurfacePoint> places;
   for (const int stop : next_) places.push_back(surface_.at_vertex(stop));
@@ -113,14 +123,17 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   certainty_.reset();
   untouched_m2_ = 0.0;
   if (level_ && belief_.site_count() > 0) {
-    certainty_ = edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
-                       : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
+    certainty_ =
+        edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
+              : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
     if (field_.screening) doubt_where_contact_fades();
-    if (field_.indenter_radius_m > 0.0) take_back_tip(*certainty_, surface_, field_.indenter_radius_m);
+    if (field_.indenter_radius_m > 0.0)
+      take_back_tip(*certainty_, surface_, field_.indenter_radius_m);
     if (edge_) untouched_m2_ = doubt_untouched(*certainty_, belief_, component_, *level_);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
   }
-  if (field_.indenter_radius_m > 0.0 && level_) component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
+  if (field_.indenter_radius_m > 0.0 && level_)
+    component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
 }
@@ -131,17 +144,21 @@ void Exploration::estimate_boundary() {
     return;
   }
   level_ = level_from_edge(surface_, belief_, component_, level_rule_.fraction);
-  // The profile may have settled on noise: the middle of the readings' own two plateaus is a second start.
+  // The profile may have settled on noise: the middle of the readings' own two plateaus is a second
+  // start.
   std::vector<double> first_levels = {level_->value};
   if (const auto plateaus = two_plateaus(used_readings(belief_.detrended_palpations()))) {
     first_levels.push_back(plateaus->low + level_rule_.fraction * (plateaus->high - plateaus->low));
   }
   const double noise_log_sd = field_.learn_noise ? learned_noise_log_sd(belief_.site_count()) : 0.0;
-  edge_ = EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction, {}, noise_log_sd);
+  edge_ =
+      EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction, {}, noise_log_sd);
   if (edge_) level_ = edge_->level();
-  // Where contact fades no profile fits: its plateau may run away, and with it the level. The mean's range is left: its least is felt
-  // all over healthy tissue, its greatest is as unsure a plateau as it was for the profile.
-  const double least = component_.mean.minCoeff(), greatest = component_.mean.maxCoeff(), fraction = level_rule_.fraction;
+  // Where contact fades no profile fits: its plateau may run away, and with it the level. The
+  // mean's range is left: its least is felt all over healthy tissue, its greatest is as unsure a
+  // plateau as it was for the profile.
+  const double least = component_.mean.minCoeff(), greatest = component_.mean.maxCoeff(),
+               fraction = level_rule_.fraction;
   if (level_->value > least && level_->value < greatest) return;
   edge_.reset();
   level_ = level_from_range(component_, fraction);
@@ -153,10 +170,12 @@ void Exploration::doubt_where_contact_fades() {
   const std::optional<FadingContact> fading = fading_contact(surface_, palpations_);
   if (!fading) return;
   if (edge_) {
-    doubt_fading_contact(*certainty_, surface_, *fading, edge_->offset_sd(), 4.0 * level_rule_.fraction / edge_->profile().slope_per_m);
+    doubt_fading_contact(*certainty_, surface_, *fading, edge_->offset_sd(),
+                         4.0 * level_rule_.fraction / edge_->profile().slope_per_m);
     return;
   }
-  const double level_sd = level_->stddev.value_or(0.0), contrast = component_.mean.maxCoeff() - component_.mean.minCoeff();
+  const double level_sd = level_->stddev.value_or(0.0),
+               contrast = component_.mean.maxCoeff() - component_.mean.minCoeff();
   const Field sd = (component_.variance.array() + level_sd * level_sd).sqrt();
   doubt_fading_contact(*certainty_, surface_, *fading, sd, level_rule_.fraction * contrast);
 }
@@ -172,21 +191,25 @@ Contour Exploration::contour() const {
   return {component_.mean, level_->value};
 }
 
-bool Exploration::trend_is_missing() const { return field_.linear_trend && !belief_.prior().has_slope(); }
+bool Exploration::trend_is_missing() const {
+  return field_.linear_trend && !belief_.prior().has_slope();
+}
 
-/// Until contrast is seen, a learned field is not to be believed: spread the touches by the variance of a field of the prior's length
-/// instead.
+/// Until contrast is seen, a learned field is not to be believed: spread the touches by the
+/// variance of a field of the prior's length instead.
 Acquisition Exploration::acquisition_in_force() const {
   return contrast_seen_ && level_ && !trend_is_missing() ? plan_.acquisition : Acquisition(evr());
 }
 
 /// What will be felt at these stops, and on the way to them, if all is as it is believed to be.
-std::vector<Palpation> Exploration::suppositions(const Belief& belief, std::span<const int> stops, const BatchOptions& options) const {
+std::vector<Palpation> Exploration::suppositions(const Belief& belief, std::span<const int> stops,
+                                                 const BatchOptions& options) const {
   std::vector<Palpation> supposed;
   std::vector<Vec3> places;
   if (options.from) places.push_back(surface_.position(*options.from));
   for (int stop : stops) {
-    for (const Supposed& reading : supposed_on_the_way(belief, places, stop, options.way_reading_m)) {
+    for (const Supposed& reading :
+         supposed_on_the_way(belief, places, stop, options.way_reading_m)) {
       supposed.push_back({.where = surface_.at_vertex(reading.vertex),
                           .reading = marginals_.mean[reading.vertex],
                           .noise_variance = reading.noise_variance});
@@ -205,11 +228,14 @@ std::vector<int> Exploration::candidates() const {
   return vertices;
 }
 
-Field Exploration::acquisition_field() const { return score(acquisition_in_force(), belief_, level_.value_or(Level{})); }
+Field Exploration::acquisition_field() const {
+  return score(acquisition_in_force(), belief_, level_.value_or(Level{}));
+}
 
 std::vector<int> Exploration::in_tour_order(std::vector<int> stops) const {
   if (stops.empty()) return stops;
-  std::vector<SurfacePoint> places = {probe_ ? *probe_ : surface_.at_vertex(*std::min_element(stops.begin(), stops.end()))};
+  std::vector<SurfacePoint> places = {
+      probe_ ? *probe_ : surface_.at_vertex(*std::min_element(stops.begin(), stops.end()))};
   for (const int stop : stops) places.push_back(surface_.at_vertex(stop));
   Eigen::MatrixXd distance = distances_between(surface_, places);
   // Between components the probe flies: those ways come last.
@@ -224,7 +250,8 @@ void Exploration::plan_next() {
   next_.clear();
   stop_reason_.clear();
   if (batch_ == 0 && plan_.initial_count > 0) {
-    next_ = in_tour_order(initial_design(surface_, plan_.initial, plan_.initial_count, candidates(), random_));
+    next_ = in_tour_order(
+        initial_design(surface_, plan_.initial, plan_.initial_count, candidates(), random_));
     if (next_.empty()) stop_reason_ = "nothing left to touch";
     return;
   }
@@ -237,7 +264,9 @@ void Exploration::plan_next() {
   if (!stop_reason_.empty()) return;
   next_ = in_tour_order(chosen_stops());
   if (next_.empty()) stop_reason_ = "nothing left to touch";
-  if (contrast_seen_ && certainty_ && gains_too_little(plan_.stop, expected_errors_m2_, *certainty_, surface_, belief_, *level_, next_)) {
+  if (contrast_seen_ && certainty_ &&
+      gains_too_little(plan_.stop, expected_errors_m2_, *certainty_, surface_, belief_, *level_,
+                       next_)) {
     next_.clear();
     stop_reason_ = "nothing to gain";
   }
@@ -253,15 +282,20 @@ std::vector<int> Exploration::searching_stops() const {
     Kernel kernel = field_.kernel;
     if (field_.learn_length) kernel.length_m = field_.length_median_m;
     kernel.signal_sd = spread_of(readings).sd;
-    const Belief doubting(unlearned(surface_, field_).prior().with(kernel), {.noise_sd = kDoubt * kernel.signal_sd});
+    const Belief doubting(unlearned(surface_, field_).prior().with(kernel),
+                          {.noise_sd = kDoubt * kernel.signal_sd});
     options.size = static_cast<int>(std::floor(kSecondLooks * plan_.batch.size));
-    stops = choose_batch(doubting.condition_on(belief_.palpations()), ucb(0.5), Level{}, candidates(), options).vertices;
+    stops = choose_batch(doubting.condition_on(belief_.palpations()), ucb(0.5), Level{},
+                         candidates(), options)
+                .vertices;
     options.size = plan_.batch.size;
   }
-  return with_others(std::move(stops), unlearned(surface_, field_).condition_on(belief_.palpations()), options);
+  return with_others(std::move(stops),
+                     unlearned(surface_, field_).condition_on(belief_.palpations()), options);
 }
 
-/// First what tells the most about the boundary, then what the acquisition finds best once those are touched.
+/// First what tells the most about the boundary, then what the acquisition finds best once those
+/// are touched.
 std::vector<int> Exploration::chosen_stops() const {
   BatchOptions options = plan_.batch;
   options.from = probe_;
@@ -270,14 +304,16 @@ std::vector<int> Exploration::chosen_stops() const {
   if (edge_) {
     // Search first, then refine: from half the share to half as much again over the plan's batches.
     const double progress = static_cast<double>(batch_) / std::max(plan_.batches, 1);
-    const int count = static_cast<int>(std::lround(std::min(plan_.edge_share * (0.5 + progress), 1.0) * options.size));
+    const int count = static_cast<int>(
+        std::lround(std::min(plan_.edge_share * (0.5 + progress), 1.0) * options.size));
     stops = edge_->most_telling(candidates(), count, options.least_spacing_m, marginals_.variance);
   }
   return with_others(std::move(stops), edge_ ? searching_belief() : belief_, options);
 }
 
-/// The field of one large tumour is smooth; a second, small one would hide between touches that are spread by its length. Look for it with
-/// the length that was likely beforehand, where that is shorter.
+/// The field of one large tumour is smooth; a second, small one would hide between touches that are
+/// spread by its length. Look for it with the length that was likely beforehand, where that is
+/// shorter.
 Belief Exploration::searching_belief() const {
   Kernel kernel = belief_.prior().kernel();
   if (!field_.learn_length || kernel.length_m <= field_.length_median_m) return belief_;
@@ -285,8 +321,10 @@ Belief Exploration::searching_belief() const {
   return Belief(belief_.prior().with(kernel), belief_.options()).condition_on(belief_.palpations());
 }
 
-/// These stops, and as many others as the batch still takes by the acquisition, of a belief that supposes the stops touched.
-std::vector<int> Exploration::with_others(std::vector<int> stops, Belief believed, BatchOptions options) const {
+/// These stops, and as many others as the batch still takes by the acquisition, of a belief that
+/// supposes the stops touched.
+std::vector<int> Exploration::with_others(std::vector<int> stops, Belief believed,
+                                          BatchOptions options) const {
   if (!stops.empty()) {
     believed = believed.condition_on(suppositions(believed, stops, options));
     options.size -= static_cast<int>(stops.size());
@@ -298,17 +336,23 @@ std::vector<int> Exploration::with_others(std::vector<int> stops, Belief believe
     taken.insert(taken.end(), near.begin(), near.end());
   }
   std::sort(taken.begin(), taken.end());
-  std::erase_if(others, [&](int vertex) { return std::binary_search(taken.begin(), taken.end(), vertex); });
-  const std::vector<int> rest = choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), others, options).vertices;
+  std::erase_if(others,
+                [&](int vertex) { return std::binary_search(taken.begin(), taken.end(), vertex); });
+  const std::vector<int> rest =
+      choose_batch(believed, acquisition_in_force(), level_.value_or(Level{}), others, options)
+          .vertices;
   stops.insert(stops.end(), rest.begin(), rest.end());
   return stops;
 }
 
 /// By how sure the boundary is; the rest of the reasons show when the next batch is planned.
 std::string Exploration::reason_to_stop() const {
-  // Without a boundary nothing is known of how wrong it is: a level that no reading crosses is no reason to stop.
+  // Without a boundary nothing is known of how wrong it is: a level that no reading crosses is no
+  // reason to stop.
   if (!contrast_seen_ || !certainty_ || certainty_->half_width_m == 0.0) return "";
-  if (certainty_->expected.symmetric_difference_m2() <= plan_.stop.error_m2 && plan_.stop.error_m2 > 0.0) return "expected error";
+  if (certainty_->expected.symmetric_difference_m2() <= plan_.stop.error_m2 &&
+      plan_.stop.error_m2 > 0.0)
+    return "expected error";
   if (certainty_->half_width_m <= plan_.stop.band_m) return "band";
   return "";
 }

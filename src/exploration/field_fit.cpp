@@ -10,25 +10,31 @@
 namespace palpation {
 namespace {
 
-/// With fewer places touched, a tumour and a tilt are told apart by chance: of simulated runs one in ten went wrong.
+/// With fewer places touched, a tumour and a tilt are told apart by chance: of simulated runs one
+/// in ten went wrong.
 constexpr std::size_t kPlacesForSlope = 15;
-/// Standard deviation of what the slope adds from the middle of the tissue to its sides, over half the contrast: 1.5, so that a tilt as
-/// large as the contrast from end to end is likely, and a plane that explains the tumour away is not.
+/// Standard deviation of what the slope adds from the middle of the tissue to its sides, over half
+/// the contrast: 1.5, so that a tilt as large as the contrast from end to end is likely, and a
+/// plane that explains the tumour away is not.
 constexpr double kSlopeToHalfContrast = 1.5;
 /// What half the contrast is taken for where it is not known: half of the readings' range.
 constexpr double kHalf = 0.5;
 
-/// Readings on the way this close together, over the length of the field, are one: two of a field of 3.5 mm read once per mm. A sigmoid
-/// of 1,400 per metre, the steepest edge there is, is flattened by it by 4 %.
+/// Readings on the way this close together, over the length of the field, are one: two of a field
+/// of 3.5 mm read once per mm. A sigmoid of 1,400 per metre, the steepest edge there is, is
+/// flattened by it by 4 %.
 constexpr double kMergeWithin = 0.3;
 
 constexpr std::size_t kMostForEvidence = 300;
 
 bool is_on_the_way(const Palpation& palpation) { return palpation.kind == TouchKind::Way; }
 
-/// All stops, and every so many of the readings on the way, so that there are no more than `most` in all if the stops allow.
+/// All stops, and every so many of the readings on the way, so that there are no more than `most`
+/// in all if the stops allow.
 std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
-  const auto on_the_way = [](const Palpation& palpation) { return palpation.kind == TouchKind::Way && palpation.set_aside.empty(); };
+  const auto on_the_way = [](const Palpation& palpation) {
+    return palpation.kind == TouchKind::Way && palpation.set_aside.empty();
+  };
   const auto ways = static_cast<std::size_t>(std::ranges::count_if(palpations, on_the_way));
   const std::size_t stops = palpations.size() - ways;
   if (ways == 0 || palpations.size() <= most) return {palpations.begin(), palpations.end()};
@@ -45,13 +51,17 @@ std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std:
   return chosen;
 }
 
-/// The slope where it is modelled and enough places are touched, else none. `half_contrast` in the units of the prior's signal.
-Slope slope_of(const Surface& surface, const FieldModel& field, std::size_t places, double half_contrast) {
+/// The slope where it is modelled and enough places are touched, else none. `half_contrast` in the
+/// units of the prior's signal.
+Slope slope_of(const Surface& surface, const FieldModel& field, std::size_t places,
+               double half_contrast) {
   if (!field.linear_trend || places < kPlacesForSlope) return {};
   return slope_across(surface, field.metric, kSlopeToHalfContrast * half_contrast);
 }
 
-Prior with_slope(const Prior& prior, const Slope& slope) { return prior.with(prior.kernel(), prior.constant(), slope); }
+Prior with_slope(const Prior& prior, const Slope& slope) {
+  return prior.with(prior.kernel(), prior.constant(), slope);
+}
 
 /// Learned noise this low is kept in double, so that rounding refuses none.
 constexpr double kSurelyEnoughForSingle = (1.0 + 1e-9) * kLeastNoiseForSingle;
@@ -65,12 +75,14 @@ Belief unlearned(const Surface& surface, const FieldModel& field) {
   BeliefOptions options = field.belief;
   if (field.learn_noise) options.noise_sd = 0.1 * kernel.signal_sd;
   if (field.learns()) options.standardize = options.noise_is_relative = false;
-  const LengthRange lengths = field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
+  const LengthRange lengths =
+      field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
   return Belief(Prior(surface, field.metric, kernel, field.constant, {}, lengths), options);
 }
 
 /// Half the contrast is what the signal's standard deviation stands for.
-Belief fixed_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations) {
+Belief fixed_field(const Surface& surface, const FieldModel& field,
+                   std::span<const Palpation> palpations) {
   const Belief fresh = unlearned(surface, field);
   const std::size_t places = gather_sites(fresh.prior(), palpations).size();
   const Slope slope = slope_of(surface, field, places, fresh.prior().kernel().signal_sd);
@@ -83,9 +95,13 @@ double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpat
   for (std::size_t i = 0; i < palpations.size(); i += step) some.push_back(palpations[i]);
   const Prior prior = belief.prior().with(belief.prior().kernel(), {}, belief.prior().slope());
   if (gather_sites(prior, some).size() < 2) return 0.0;
-  const Hyperparameters given{prior.kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())};
+  const Hyperparameters given{prior.kernel().length_m, belief.signal_sd(),
+                              std::sqrt(belief.noise_variance())};
   try {
-    return learn(prior, some, given, {.length_m = given.length_m, .signal_sd = given.signal_sd, .noise_sd = given.noise_sd})
+    return learn(prior, some, given,
+                 {.length_m = given.length_m,
+                  .signal_sd = given.signal_sd,
+                  .noise_sd = given.noise_sd})
         .signal_evidence;
   } catch (const NumericalError&) {
     return 0.0;
@@ -94,11 +110,13 @@ double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpat
 
 Hyperparameters LearnedField::in_force() const {
   if (taught) return learned;
-  return {blank.prior().kernel().length_m, blank.prior().kernel().signal_sd, blank.options().noise_sd};
+  return {blank.prior().kernel().length_m, blank.prior().kernel().signal_sd,
+          blank.options().noise_sd};
 }
 
-LearnedField learn_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations,
-                         const Hyperparameters& start, std::size_t most_places) {
+LearnedField learn_field(const Surface& surface, const FieldModel& field,
+                         std::span<const Palpation> palpations, const Hyperparameters& start,
+                         std::size_t most_places) {
   const Belief fresh = unlearned(surface, field);
   const std::vector<double> readings = used_readings(palpations);
   const std::size_t places = gather_sites(fresh.prior(), palpations).size();
@@ -108,7 +126,8 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
   if (!field.learn_length) options.length_m = field.kernel.length_m;
   if (!field.learn_signal) options.signal_sd = field.kernel.signal_sd;
   if (!field.learn_noise) options.noise_sd = field.belief.noise_sd;
-  // A field of zero mean around the readings' mean, if they are standardized: what is learned is in reading units all the same.
+  // A field of zero mean around the readings' mean, if they are standardized: what is learned is in
+  // reading units all the same.
   const bool centred = field.belief.standardize && field.constant.sd == 0.0;
   const Spread spread = centred ? spread_of(readings) : Spread{0.0, 1.0};
   std::vector<Palpation> shifted = to_learn_from(palpations, most_places);
@@ -127,10 +146,16 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field, std::s
   believed.standardize = centred;
   const double ratio = learned.values.noise_sd / learned.values.signal_sd;
   if (ratio * ratio < kSurelyEnoughForSingle) believed.single_precision = false;
-  return {Belief(prior, believed), learned.values, learned.signal_evidence, true, shifted.size() < palpations.size(), learned.gain};
+  return {Belief(prior, believed),
+          learned.values,
+          learned.signal_evidence,
+          true,
+          shifted.size() < palpations.size(),
+          learned.gain};
 }
 
-FieldFit fit_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start) {
+FieldFit fit_field(const Surface& surface, const FieldModel& field,
+                   std::span<const Palpation> palpations, const Hyperparameters& start) {
   return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
 }
 
@@ -139,31 +164,39 @@ bool restates_known_readings(const FieldModel& field) {
 }
 
 bool may_grow(const FieldModel& field) {
-  return field.learns() && field.rebuild_gain > 0.0 && field.constant.sd > 0.0 && !restates_known_readings(field);
+  return field.learns() && field.rebuild_gain > 0.0 && field.constant.sd > 0.0 &&
+         !restates_known_readings(field);
 }
 
-FieldFit grow_field(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Belief& in_force,
+FieldFit grow_field(const Surface& surface, const FieldModel& field,
+                    std::span<const Palpation> palpations, const Belief& in_force,
                     const Hyperparameters& learned) {
   const LearnedField taught = learn_field(surface, field, palpations, learned);
   const bool was_taught = learned.signal_sd > 0.0;
-  if (!was_taught || taught.gain >= field.rebuild_gain || std::ranges::any_of(palpations, is_on_the_way))
+  if (!was_taught || taught.gain >= field.rebuild_gain ||
+      std::ranges::any_of(palpations, is_on_the_way))
     return believe(surface, field, palpations, taught);
-  return {in_force.condition_on(palpations.subspan(in_force.palpations().size())), learned, taught.signal_evidence};
+  return {in_force.condition_on(palpations.subspan(in_force.palpations().size())), learned,
+          taught.signal_evidence};
 }
 
-FieldFit believe(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const LearnedField& taught) {
+FieldFit believe(const Surface& surface, const FieldModel& field,
+                 std::span<const Palpation> palpations, const LearnedField& taught) {
   const auto belief_of = [&](const LearnedField& by) {
-    if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way)) return by.blank.condition_on(palpations);
+    if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way))
+      return by.blank.condition_on(palpations);
     const double length_m = field.learn_length ? field.length_median_m : field.kernel.length_m;
     const double noise_sd = by.in_force().noise_sd;
-    return by.blank.condition_on(merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));
+    return by.blank.condition_on(
+        merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));
   };
   try {
     return {belief_of(taught), taught.learned, taught.signal_evidence};
   } catch (const NumericalError&) {
     // Less noise than parts the readings that were left out: all of them together say so.
     if (!taught.from_some) throw;
-    const LearnedField by_all = learn_field(surface, field, palpations, taught.learned, palpations.size());
+    const LearnedField by_all =
+        learn_field(surface, field, palpations, taught.learned, palpations.size());
     return {belief_of(by_all), by_all.learned, by_all.signal_evidence};
   }
 }

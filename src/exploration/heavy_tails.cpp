@@ -8,14 +8,19 @@
 namespace palpation {
 namespace {
 
-/// Four degrees of freedom: one reading in fifty lies beyond three and a half scales, where a normal has one in two thousand.
+/// Four degrees of freedom: one reading in fifty lies beyond three and a half scales, where a
+/// normal has one in two thousand.
 constexpr double kFreedom = 4.0;
 
 constexpr int kRounds = 100;
 
-bool is_weighed(const Palpation& palpation) { return palpation.set_aside.empty() && std::isnan(palpation.noise_variance); }
+bool is_weighed(const Palpation& palpation) {
+  return palpation.set_aside.empty() && std::isnan(palpation.noise_variance);
+}
 
-double weight_of(double square, double noise_sd) { return (kFreedom + 1.0) / (kFreedom + square / (noise_sd * noise_sd)); }
+double weight_of(double square, double noise_sd) {
+  return (kFreedom + 1.0) / (kFreedom + square / (noise_sd * noise_sd));
+}
 
 }  // namespace
 
@@ -43,7 +48,8 @@ std::vector<Palpation> drawn_in(std::vector<Palpation> palpations) {
   return palpations;
 }
 
-WeighedReadings weighed_for_heavy_tails(const Belief& belief, std::span<const Palpation> palpations, double noise_sd) {
+WeighedReadings weighed_for_heavy_tails(const Belief& belief, std::span<const Palpation> palpations,
+                                        double noise_sd) {
   WeighedReadings result{{palpations.begin(), palpations.end()}, noise_sd};
   if (!(noise_sd > 0.0)) return result;
   std::vector<SurfacePoint> places;
@@ -62,7 +68,8 @@ WeighedReadings weighed_for_heavy_tails(const Belief& belief, std::span<const Pa
   }
   if (count > 0.0 && sum > 0.0) result.noise_sd = std::sqrt(sum / count);
   for (std::size_t i = 0; i < palpations.size(); ++i) {
-    if (is_weighed(palpations[i])) result.palpations[i].noise_variance = result.noise_sd * result.noise_sd / weights[i];
+    if (is_weighed(palpations[i]))
+      result.palpations[i].noise_variance = result.noise_sd * result.noise_sd / weights[i];
   }
   return result;
 }

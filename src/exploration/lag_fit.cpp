@@ -9,30 +9,36 @@ namespace {
 constexpr int kMostRounds = 5;
 constexpr double kAtRest_m = 0.00002;  // a fifth of what two lags can be told apart by
 
-/// The field's prior about a constant that is not known: where readings belong does not depend on what they have in common.
+/// The field's prior about a constant that is not known: where readings belong does not depend on
+/// what they have in common.
 Prior for_lag(const Prior& prior) {
   if (std::isinf(prior.constant().sd)) return prior;
   return prior.with(prior.kernel(), {}, prior.slope());
 }
 
 /// The field of fixed hyperparameters; those in force are in reading units.
-LearnedField as_given(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations) {
+LearnedField as_given(const Surface& surface, const FieldModel& field,
+                      std::span<const Palpation> palpations) {
   const Belief belief = fixed_field(surface, field, palpations);
-  return {Belief(belief.prior(), belief.options()),
-          {belief.prior().kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())},
-          0.0,
-          true};
+  return {
+      Belief(belief.prior(), belief.options()),
+      {belief.prior().kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())},
+      0.0,
+      true};
 }
 
-LearnedField learned_at(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations,
-                        const Hyperparameters& start, double lag_m) {
+LearnedField learned_at(const Surface& surface, const FieldModel& field,
+                        std::span<const Palpation> palpations, const Hyperparameters& start,
+                        double lag_m) {
   const std::vector<Palpation> moved = displaced(surface, palpations, lag_m);
-  return field.learns() ? learn_field(surface, field, moved, start) : as_given(surface, field, moved);
+  return field.learns() ? learn_field(surface, field, moved, start)
+                        : as_given(surface, field, moved);
 }
 
 }  // namespace
 
-LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
+LagFit fit_lagged(const Surface& surface, const FieldModel& field,
+                  std::span<const Palpation> palpations, const Hyperparameters& start,
                   const std::optional<Lag>& before) {
   std::optional<Lag> lag = Lag{.value_m = field.lag.known_m};
   double lag_m = field.lag.known_m;

@@ -13,9 +13,11 @@ struct LagFit {
   std::optional<Lag> lag{};  ///< nothing where it was to be learned and no reading tells
 };
 
-/// `palpations` as they were made. A lag to be learned is profiled with the field's hyperparameters held, then these are learned anew, and
-/// again until it rests; `before` is the lag to start from. Without a lag the same as fit_field.
-LagFit fit_lagged(const Surface& surface, const FieldModel& field, std::span<const Palpation> palpations, const Hyperparameters& start,
+/// `palpations` as they were made. A lag to be learned is profiled with the field's hyperparameters
+/// held, then these are learned anew, and again until it rests; `before` is the lag to start from.
+/// Without a lag the same as fit_field.
+LagFit fit_lagged(const Surface& surface, const FieldModel& field,
+                  std::span<const Palpation> palpations, const Hyperparameters& start,
                   const std::optional<Lag>& before);
 
 }  // namespace palpation

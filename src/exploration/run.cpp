@@ -6,7 +6,8 @@
 namespace palpation {
 namespace {
 
-constexpr double kPathStep_m = 0.001;  // the robot's readings: one per mm (Garg et al. 2016, section VII)
+constexpr double kPathStep_m =
+    0.001;  // the robot's readings: one per mm (Garg et al. 2016, section VII)
 
 Vec3 direction(const Vec3& from, const Vec3& to) {
   const Vec3 difference = to - from;
@@ -16,8 +17,8 @@ Vec3 direction(const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe,
-            double way_step_m) {
+Tour travel(const Surface& surface, std::span<const int> stops,
+            const std::optional<SurfacePoint>& from, const Probe& probe, double way_step_m) {
   Tour tour;
   std::optional<SurfacePoint> here = from;
   const auto touch = [&](const SurfacePoint& where, const Vec3& heading, TouchKind kind) {
@@ -55,7 +56,8 @@ Tour travel(const Surface& surface, std::span<const int> stops, const std::optio
   return tour;
 }
 
-void run(Exploration& exploration, const Probe& probe, const std::function<void(const Tour&)>& after_batch, double way_step_m) {
+void run(Exploration& exploration, const Probe& probe,
+         const std::function<void(const Tour&)>& after_batch, double way_step_m) {
   std::optional<SurfacePoint> here;
   for (std::vector<int> stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
     if (way_step_m == 0.0) exploration.foresee();

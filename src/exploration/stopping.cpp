@@ -11,7 +11,8 @@
 namespace palpation {
 namespace {
 
-/// Batches over which the expected error must have stood still: one alone may have gone to the plateaus.
+/// Batches over which the expected error must have stood still: one alone may have gone to the
+/// plateaus.
 constexpr std::size_t kStill = 3;
 
 double upper_tail(double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); }
@@ -19,17 +20,21 @@ double upper_tail(double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); }
 }  // namespace
 
 void check(const StopRule& rule) {
-  require(rule.error_m2 >= 0.0, "StopRule", "error_m2 = " + text_of(rule.error_m2), "must not be negative or NaN");
-  require(rule.band_m >= 0.0, "StopRule", "band_m = " + text_of(rule.band_m), "must not be negative or NaN");
-  require(rule.least_gain >= 0.0 && rule.least_gain <= 1.0, "StopRule", "least_gain = " + text_of(rule.least_gain), "must lie in [0, 1]");
-  require(rule.band_probability > 0.0 && rule.band_probability < 1.0, "StopRule", "band_probability = " + text_of(rule.band_probability),
-          "must lie in (0, 1)");
+  require(rule.error_m2 >= 0.0, "StopRule", "error_m2 = " + text_of(rule.error_m2),
+          "must not be negative or NaN");
+  require(rule.band_m >= 0.0, "StopRule", "band_m = " + text_of(rule.band_m),
+          "must not be negative or NaN");
+  require(rule.least_gain >= 0.0 && rule.least_gain <= 1.0, "StopRule",
+          "least_gain = " + text_of(rule.least_gain), "must lie in [0, 1]");
+  require(rule.band_probability > 0.0 && rule.band_probability < 1.0, "StopRule",
+          "band_probability = " + text_of(rule.band_probability), "must lie in (0, 1)");
 }
 
-double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now, const Level& level,
-                            std::span<const int> vertices) {
+double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now,
+                            const Level& level, std::span<const int> vertices) {
   std::vector<Palpation> touches;
-  for (const int vertex : vertices) touches.push_back({.where = surface.at_vertex(vertex), .reading = level.value});
+  for (const int vertex : vertices)
+    touches.push_back({.where = surface.at_vertex(vertex), .reading = level.value});
   const Field before = belief.at_vertices().variance;
   const Field after = belief.condition_on(touches).at_vertices().variance;
   const double level_variance = level.stddev.value_or(0.0) * level.stddev.value_or(0.0);
@@ -38,14 +43,16 @@ double expected_error_after(const Surface& surface, const Belief& belief, const 
     const double whole = before[vertex] + level_variance;
     const double left = std::min(after[vertex] + level_variance, whole);
     const double known = whole - left;
-    const double ratio = known > 0.0 ? std::sqrt(left / known) : std::numeric_limits<double>::infinity();
+    const double ratio =
+        known > 0.0 ? std::sqrt(left / known) : std::numeric_limits<double>::infinity();
     error_m2 += surface.vertex_areas()[vertex] * 2.0 * owens_t(now.score[vertex], ratio);
   }
   return error_m2;
 }
 
-bool gains_too_little(const StopRule& rule, std::span<const double> errors_m2, const Certainty& now, const Surface& surface,
-                      const Belief& belief, const Level& level, std::span<const int> next) {
+bool gains_too_little(const StopRule& rule, std::span<const double> errors_m2, const Certainty& now,
+                      const Surface& surface, const Belief& belief, const Level& level,
+                      std::span<const int> next) {
   if (rule.least_gain == 0.0 || errors_m2.size() <= kStill || next.empty()) return false;
   const double here = errors_m2.back(), least = (1.0 - rule.least_gain);
   if (here < least * errors_m2[errors_m2.size() - 1 - kStill]) return false;

@@ -30,7 +30,9 @@ struct Below {
   const double* values[W];
   int count;
 
-  Below(const Columns& l, int first) : rows(l.rows + l.starts[first + W - 1]), count(l.starts[first + W] - l.starts[first + W - 1]) {
+  Below(const Columns& l, int first)
+      : rows(l.rows + l.starts[first + W - 1]),
+        count(l.starts[first + W] - l.starts[first + W - 1]) {
     for (int j = 0; j < W; ++j) values[j] = l.values + l.starts[first + j] + (W - 1 - j);
   }
 };
@@ -118,7 +120,8 @@ PALPATION_TARGETS void solve_strip(const Columns& l, int panel_count, double* x)
   for (int panel = panel_count - 1; panel >= 0; --panel) solve_panel<false>(l, panel, x);
 }
 
-PALPATION_TARGETS void multiply_strip(const int* starts, const int* rows, const double* values, int n, const double* in, double* out) {
+PALPATION_TARGETS void multiply_strip(const int* starts, const int* rows, const double* values,
+                                      int n, const double* in, double* out) {
   for (int column = 0; column < n; ++column) {
     Row sum{};
     for (int k = starts[column]; k < starts[column + 1]; ++k) {
@@ -147,7 +150,8 @@ PALPATION_TARGETS void gram_rows(const double* a, const double* b, long count, d
   }
 }
 
-PALPATION_TARGETS void combine_all(double x, double* a, double y, const double* b, double z, const double* c, long count) {
+PALPATION_TARGETS void combine_all(double x, double* a, double y, const double* b, double z,
+                                   const double* c, long count) {
   for (long i = 0; i < count; ++i) a[i] = x * a[i] + y * b[i] + z * c[i];
 }
 
@@ -156,10 +160,12 @@ PALPATION_TARGETS void combine_all(double x, double* a, double y, const double* 
 std::vector<int> panels_of(const BlockFactor& factor) {
   const std::vector<int>& starts = factor.column_starts;
   const int n = static_cast<int>(starts.size()) - 1;
-  // A column's rows but the first are all in the column of that first one (the elimination tree), which has no others if it has no more.
+  // A column's rows but the first are all in the column of that first one (the elimination tree),
+  // which has no others if it has no more.
   const auto goes_on = [&](int column) {
     const int count = starts[column + 1] - starts[column];
-    return count > 0 && factor.rows[starts[column]] == column + 1 && starts[column + 2] - starts[column + 1] == count - 1;
+    return count > 0 && factor.rows[starts[column]] == column + 1 &&
+           starts[column + 2] - starts[column + 1] == count - 1;
   };
   std::vector<int> panel_starts;
   for (int column = 0; column < n;) {
@@ -173,16 +179,20 @@ std::vector<int> panels_of(const BlockFactor& factor) {
 }
 
 void BlockFactor::solve(Strip& strip) const {
-  const Columns columns{panel_starts.data(), column_starts.data(), rows.data(), values.data(), inverse_diagonal.data()};
+  const Columns columns{panel_starts.data(), column_starts.data(), rows.data(), values.data(),
+                        inverse_diagonal.data()};
   solve_strip(columns, static_cast<int>(panel_starts.size()) - 1, strip.data());
 }
 
 void multiply(const Eigen::SparseMatrix<double>& a, const Strip& in, Strip& out) {
   out.resize(in.size());
-  multiply_strip(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), static_cast<int>(a.cols()), in.data(), out.data());
+  multiply_strip(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), static_cast<int>(a.cols()),
+                 in.data(), out.data());
 }
 
-void add_gram(const double* a, const double* b, long count, double* sums) { gram_rows(a, b, count, sums); }
+void add_gram(const double* a, const double* b, long count, double* sums) {
+  gram_rows(a, b, count, sums);
+}
 
 void combine(double x, Strip& a, double y, const Strip& b, double z, const Strip& c) {
   combine_all(x, a.data(), y, b.data(), z, c.data(), static_cast<long>(a.size()));

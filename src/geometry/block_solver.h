@@ -1,4 +1,5 @@
-/// Many right-hand sides at once: strips of sixteen vectors, value by value side by side, go through a sparse factor together.
+/// Many right-hand sides at once: strips of sixteen vectors, value by value side by side, go
+/// through a sparse factor together.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,7 +13,8 @@ inline constexpr int kStrip = 16;
 /// n rows of kStrip values.
 using Strip = std::vector<double>;
 
-/// A symmetric positive definite matrix A = P' L D L' P (unit lower L) with the ordering's vectors: everything below is in that order.
+/// A symmetric positive definite matrix A = P' L D L' P (unit lower L) with the ordering's vectors:
+/// everything below is in that order.
 struct BlockFactor {
   std::vector<int> column_starts, rows;  // of L below its diagonal, by columns
   std::vector<double> values;
@@ -23,14 +25,16 @@ struct BlockFactor {
   void solve(Strip& strip) const;
 };
 
-/// Neighbouring columns, four at most, that have the same rows below the last of them: a solve then meets each of those rows once for all.
-/// Such are most of the columns where a factor has filled in.
+/// Neighbouring columns, four at most, that have the same rows below the last of them: a solve then
+/// meets each of those rows once for all. Such are most of the columns where a factor has filled
+/// in.
 std::vector<int> panels_of(const BlockFactor& factor);
 
 /// out = A in, A symmetric and compressed.
 void multiply(const Eigen::SparseMatrix<double>& a, const Strip& in, Strip& out);
 
-/// 16 x 16 products a' b over `count` rows of two strips, row by row, added to `sums` in the order of the rows.
+/// 16 x 16 products a' b over `count` rows of two strips, row by row, added to `sums` in the order
+/// of the rows.
 void add_gram(const double* a, const double* b, long count, double* sums);
 
 /// a = x a + y b + z c.

@@ -12,11 +12,12 @@ namespace {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 constexpr double kLeastSine = 1e-9;  // of an angle: slivers get weights that are large, and numbers
 
-/// What the map needs of the mesh: angles, and the cotangent Laplacian G in parts, inner vertices (I) and the border (B).
+/// What the map needs of the mesh: angles, and the cotangent Laplacian G in parts, inner vertices
+/// (I) and the border (B).
 struct Operators {
-  Eigen::VectorXd angles;            // summed around each vertex
-  std::vector<bool> is_border;       // of a vertex
-  std::vector<int> row;              // of an inner vertex among these, of a border vertex along the border
+  Eigen::VectorXd angles;       // summed around each vertex
+  std::vector<bool> is_border;  // of a vertex
+  std::vector<int> row;  // of an inner vertex among these, of a border vertex along the border
   SparseMatrix inner, inner_border;  // G_II, G_IB
   Eigen::Index inner_count = 0;
 };
@@ -40,7 +41,8 @@ Operators operators_of(const TriangleMesh& mesh, const std::vector<int>& border)
     for (int i = 0; i < 3; ++i) {
       const int a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
       const Vec3 here = mesh.vertices.row(c);
-      const Vec3 to_a = mesh.vertices.row(a).transpose() - here, to_b = mesh.vertices.row(b).transpose() - here;
+      const Vec3 to_a = mesh.vertices.row(a).transpose() - here,
+                 to_b = mesh.vertices.row(b).transpose() - here;
       const double dot = to_a.dot(to_b), cross = to_a.cross(to_b).norm();
       made.angles[c] += std::atan2(cross, dot);
       const double weight = 0.5 * dot / std::max(cross, kLeastSine * (std::abs(dot) + cross));
@@ -58,8 +60,9 @@ Operators operators_of(const TriangleMesh& mesh, const std::vector<int>& border)
   return made;
 }
 
-/// A curve of these edge lengths that turns by these angles, its lengths changed as little as closes it: l_i (1 - T_i . m), T the edges'
-/// directions (Sawhney and Crane 2017, section 4.3). None if that would turn an edge round.
+/// A curve of these edge lengths that turns by these angles, its lengths changed as little as
+/// closes it: l_i (1 - T_i . m), T the edges' directions (Sawhney and Crane 2017, section 4.3).
+/// None if that would turn an edge round.
 std::optional<Points2> closed_curve(const Eigen::VectorXd& lengths, const Eigen::VectorXd& turns) {
   const Eigen::Index count = lengths.size();
   Points2 directions(count, 2);
@@ -73,24 +76,29 @@ std::optional<Points2> closed_curve(const Eigen::VectorXd& lengths, const Eigen:
   const Eigen::VectorXd share = 1.0 - (directions * spread.inverse() * gap).array();
   if (!(share.minCoeff() > 0.0)) return std::nullopt;
   Points2 curve = Points2::Zero(count, 2);
-  for (Eigen::Index k = 0; k + 1 < count; ++k) curve.row(k + 1) = curve.row(k) + lengths[k] * share[k] * directions.row(k);
+  for (Eigen::Index k = 0; k + 1 < count; ++k)
+    curve.row(k + 1) = curve.row(k) + lengths[k] * share[k] * directions.row(k);
   return curve;
 }
 
 }  // namespace
 
-std::optional<Points2> boundary_first_map(const TriangleMesh& mesh, const std::vector<int>& border) {
+std::optional<Points2> boundary_first_map(const TriangleMesh& mesh,
+                                          const std::vector<int>& border) {
   constexpr double kPi = std::numbers::pi;
   const Operators operators = operators_of(mesh, border);
   const auto count = static_cast<Eigen::Index>(border.size());
   Eigen::VectorXd lengths(count), turns(count), defects(operators.inner_count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const int vertex = border[static_cast<std::size_t>(k)], next = border[static_cast<std::size_t>((k + 1) % count)];
+    const int vertex = border[static_cast<std::size_t>(k)],
+              next = border[static_cast<std::size_t>((k + 1) % count)];
     lengths[k] = (mesh.vertices.row(next) - mesh.vertices.row(vertex)).norm();
     turns[k] = kPi - operators.angles[vertex];
   }
   for (std::size_t vertex = 0; vertex < operators.row.size(); ++vertex) {
-    if (!operators.is_border[vertex]) defects[operators.row[vertex]] = 2.0 * kPi - operators.angles[static_cast<Eigen::Index>(vertex)];
+    if (!operators.is_border[vertex])
+      defects[operators.row[vertex]] =
+          2.0 * kPi - operators.angles[static_cast<Eigen::Index>(vertex)];
   }
   Eigen::SimplicialLDLT<SparseMatrix> factor;
   if (operators.inner_count > 0) {

@@ -12,10 +12,15 @@ namespace {
 constexpr double kEqual = 1e-9;  // of the mesh's size
 
 Eigen::Index origin_of(const TriangleMesh& mesh) {
-  const Eigen::VectorXd distance = (mesh.vertices.rowwise() - centroid(mesh).transpose()).rowwise().norm();
-  const double near = distance.minCoeff() + kEqual * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+  const Eigen::VectorXd distance =
+      (mesh.vertices.rowwise() - centroid(mesh).transpose()).rowwise().norm();
+  const double near =
+      distance.minCoeff() +
+      kEqual * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
   Eigen::Index origin = -1;
-  const auto place = [&](Eigen::Index v) { return std::tuple(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2)); };
+  const auto place = [&](Eigen::Index v) {
+    return std::tuple(mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
+  };
   for (Eigen::Index v = 0; v < distance.size(); ++v) {
     if (distance[v] <= near && (origin < 0 || place(v) < place(origin))) origin = v;
   }

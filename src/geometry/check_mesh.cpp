@@ -17,12 +17,18 @@ constexpr Eigen::Index kMostElements = std::numeric_limits<int>::max() / 6;
 // Squares of areas must be numbers: 1e-60 leaves room for faces of a millionth of the diameter.
 constexpr double kLeastDiameter = 1e-60;
 constexpr double kLargestDiameter = 1e60;
-// Rounding of the cross product of two edges, relative to the longest edge's square: what is below has no normal.
+// Rounding of the cross product of two edges, relative to the longest edge's square: what is below
+// has no normal.
 constexpr double kNoArea = 4.0 * std::numeric_limits<double>::epsilon();
 
 std::string text_of_place(const Vec3& place) {
   std::string text = "(";
-  return text.append(text_of(place.x())).append(", ").append(text_of(place.y())).append(", ").append(text_of(place.z())).append(")");
+  return text.append(text_of(place.x()))
+      .append(", ")
+      .append(text_of(place.y()))
+      .append(", ")
+      .append(text_of(place.z()))
+      .append(")");
 }
 
 std::string name_of_vertex(const TriangleMesh& mesh, Eigen::Index vertex) {
@@ -31,35 +37,41 @@ std::string name_of_vertex(const TriangleMesh& mesh, Eigen::Index vertex) {
 
 std::string name_of_triangle(const TriangleMesh& mesh, Eigen::Index face) {
   const auto t = mesh.triangles.row(face);
-  return "triangle " + std::to_string(face) + " of vertices " + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
-         std::to_string(t[2]);
+  return "triangle " + std::to_string(face) + " of vertices " + std::to_string(t[0]) + ", " +
+         std::to_string(t[1]) + ", " + std::to_string(t[2]);
 }
 
 std::string name_of_placed_triangle(const TriangleMesh& mesh, Eigen::Index face) {
   Vec3 centre = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) centre += mesh.vertices.row(mesh.triangles(face, i)).transpose() / 3.0;
+  for (int i = 0; i < 3; ++i)
+    centre += mesh.vertices.row(mesh.triangles(face, i)).transpose() / 3.0;
   return name_of_triangle(mesh, face) + " at " + text_of_place(centre);
 }
 
 std::string name_of_edge(const TriangleMesh& mesh, int a, int b) {
   const Vec3 middle = 0.5 * (mesh.vertices.row(a) + mesh.vertices.row(b));
-  return "edge between vertices " + std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b)) + " at " +
-         text_of_place(middle);
+  return "edge between vertices " + std::to_string(std::min(a, b)) + " and " +
+         std::to_string(std::max(a, b)) + " at " + text_of_place(middle);
 }
 
-[[noreturn]] void refuse(const std::string& element, const std::string& rule) { throw InvalidMesh("Surface: " + element + " " + rule); }
+[[noreturn]] void refuse(const std::string& element, const std::string& rule) {
+  throw InvalidMesh("Surface: " + element + " " + rule);
+}
 
 void check_size(const TriangleMesh& mesh) {
   if (mesh.triangles.rows() == 0)
-    refuse("a mesh of " + std::to_string(mesh.vertices.rows()) + " vertices", "must have at least one triangle");
+    refuse("a mesh of " + std::to_string(mesh.vertices.rows()) + " vertices",
+           "must have at least one triangle");
   if (mesh.triangles.rows() > kMostElements || mesh.vertices.rows() > kMostElements) {
-    refuse("a mesh of " + std::to_string(mesh.triangles.rows()) + " triangles", "must have at most " + std::to_string(kMostElements));
+    refuse("a mesh of " + std::to_string(mesh.triangles.rows()) + " triangles",
+           "must have at most " + std::to_string(kMostElements));
   }
 }
 
 void check_vertices(const TriangleMesh& mesh) {
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    if (!mesh.vertices.row(v).allFinite()) refuse(name_of_vertex(mesh, v), "must have finite coordinates");
+    if (!mesh.vertices.row(v).allFinite())
+      refuse(name_of_vertex(mesh, v), "must have finite coordinates");
   }
 }
 
@@ -69,7 +81,8 @@ void check_indices(const TriangleMesh& mesh) {
     for (int i = 0; i < 3; ++i) {
       const int vertex = mesh.triangles(f, i);
       if (vertex >= 0 && vertex < count) continue;
-      refuse(name_of_triangle(mesh, f), "must only use vertices that exist, 0 to " + std::to_string(count - 1));
+      refuse(name_of_triangle(mesh, f),
+             "must only use vertices that exist, 0 to " + std::to_string(count - 1));
     }
   }
 }
@@ -78,18 +91,22 @@ void check_scale(const TriangleMesh& mesh) {
   const Vec3 sides = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
   const double diameter = sides.stableNorm();
   if (diameter != 0.0 && !(diameter >= kLeastDiameter && diameter <= kLargestDiameter)) {
-    refuse("a mesh of diameter " + text_of(diameter) + " m", "must be between 1e-60 and 1e60 m across, or its areas are no numbers");
+    refuse("a mesh of diameter " + text_of(diameter) + " m",
+           "must be between 1e-60 and 1e60 m across, or its areas are no numbers");
   }
 }
 
 void check_shape(const TriangleMesh& mesh, Eigen::Index face) {
   const Eigen::Vector3i t = mesh.triangles.row(face);
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) refuse(name_of_placed_triangle(mesh, face), "must have three different vertices");
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+    refuse(name_of_placed_triangle(mesh, face), "must have three different vertices");
   const Vec3 a = mesh.vertices.row(t[0]), b = mesh.vertices.row(t[1]), c = mesh.vertices.row(t[2]);
   if (a == b || b == c || c == a) {
-    refuse(name_of_placed_triangle(mesh, face), "must have no edge of zero length: two of its vertices are in one place");
+    refuse(name_of_placed_triangle(mesh, face),
+           "must have no edge of zero length: two of its vertices are in one place");
   }
-  if (!has_area(mesh, face)) refuse(name_of_placed_triangle(mesh, face), "must have an area: its vertices are on one line");
+  if (!has_area(mesh, face))
+    refuse(name_of_placed_triangle(mesh, face), "must have an area: its vertices are on one line");
 }
 
 std::vector<int> lowest_faces(const TriangleMesh& mesh) {
@@ -98,7 +115,8 @@ std::vector<int> lowest_faces(const TriangleMesh& mesh) {
     for (int i = 0; i < 3; ++i) face_of_vertex[mesh.triangles(f, i)] = static_cast<int>(f);
   }
   for (std::size_t v = 0; v < face_of_vertex.size(); ++v) {
-    if (face_of_vertex[v] < 0) refuse(name_of_vertex(mesh, static_cast<Eigen::Index>(v)), "must be used by a triangle");
+    if (face_of_vertex[v] < 0)
+      refuse(name_of_vertex(mesh, static_cast<Eigen::Index>(v)), "must be used by a triangle");
   }
   return face_of_vertex;
 }
@@ -121,12 +139,15 @@ Triangles pair_up_edges(const TriangleMesh& mesh) {
     if (pair.size() == 1) continue;
     const int start = half_edge_start(triangles, pair[0]), end = half_edge_end(triangles, pair[0]);
     if (pair.size() > 2) {
-      refuse(name_of_edge(mesh, start, end),
-             "must be in one or two triangles, and is in " + std::to_string(pair.size()) + ": " + list_of_faces(pair));
+      refuse(name_of_edge(mesh, start, end), "must be in one or two triangles, and is in " +
+                                                 std::to_string(pair.size()) + ": " +
+                                                 list_of_faces(pair));
     }
     if (half_edge_start(triangles, pair[1]) == start) {
-      refuse(name_of_edge(mesh, start, end), "must be run through in opposite directions by its two triangles, " + list_of_faces(pair) +
-                                                 ": one of them is turned round, or the surface has one side only");
+      refuse(name_of_edge(mesh, start, end),
+             "must be run through in opposite directions by its two triangles, " +
+                 list_of_faces(pair) +
+                 ": one of them is turned round, or the surface has one side only");
     }
     neighbours(pair[0] / 3, pair[0] % 3) = pair[1] / 3;
     neighbours(pair[1] / 3, pair[1] % 3) = pair[0] / 3;
@@ -139,9 +160,11 @@ int corner_of(const Triangles& triangles, int face, int vertex) {
   return triangles(face, 1) == vertex ? 1 : 2;
 }
 
-/// How many triangles a walk around the vertex meets that starts in a face and crosses edges that end there. `edge_offset` 2 turns
-/// counter-clockwise (over the edge that comes in at the vertex), 0 clockwise.
-int walk_around(const Triangles& triangles, const Triangles& neighbours, int vertex, int start, int edge_offset, bool& closed) {
+/// How many triangles a walk around the vertex meets that starts in a face and crosses edges that
+/// end there. `edge_offset` 2 turns counter-clockwise (over the edge that comes in at the vertex),
+/// 0 clockwise.
+int walk_around(const Triangles& triangles, const Triangles& neighbours, int vertex, int start,
+                int edge_offset, bool& closed) {
   int met = 0;
   int face = start;
   do {
@@ -165,9 +188,11 @@ void check_fans(const TriangleMesh& mesh, const Connectivity& connectivity) {
     for (int i = 0; i < 3; ++i) ++degree[mesh.triangles(f, i)];
   }
   for (int v = 0; v < mesh.vertices.rows(); ++v) {
-    const int fan = fan_size(mesh.triangles, connectivity.neighbours, v, connectivity.face_of_vertex[v]);
+    const int fan =
+        fan_size(mesh.triangles, connectivity.neighbours, v, connectivity.face_of_vertex[v]);
     if (fan == degree[v]) continue;
-    refuse(name_of_vertex(mesh, v), "must have its triangles in one fan: of " + std::to_string(degree[v]) + ", only " +
+    refuse(name_of_vertex(mesh, v), "must have its triangles in one fan: of " +
+                                        std::to_string(degree[v]) + ", only " +
                                         std::to_string(fan) + " hang together with triangle " +
                                         std::to_string(connectivity.face_of_vertex[v]));
   }
@@ -178,7 +203,8 @@ void check_fans(const TriangleMesh& mesh, const Connectivity& connectivity) {
 bool has_area(const TriangleMesh& mesh, Eigen::Index face) {
   const Eigen::Vector3i t = mesh.triangles.row(face);
   const Vec3 a = mesh.vertices.row(t[0]), b = mesh.vertices.row(t[1]), c = mesh.vertices.row(t[2]);
-  const double longest_squared = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  const double longest_squared =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return (b - a).cross(c - a).norm() > kNoArea * longest_squared;
 }
 

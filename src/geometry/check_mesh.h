@@ -16,7 +16,8 @@ struct Connectivity {
 /// Whether a triangle has an area that is more than rounding: see surface.h.
 bool has_area(const TriangleMesh& mesh, Eigen::Index face);
 
-/// Throws InvalidMesh, naming the first element at fault, its position and the rule of surface.h that it breaks.
+/// Throws InvalidMesh, naming the first element at fault, its position and the rule of surface.h
+/// that it breaks.
 Connectivity check_mesh(const TriangleMesh& mesh);
 
 }  // namespace palpation

@@ -12,7 +12,9 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 Points2 on_circle(const TriangleMesh& mesh, const std::vector<int>& border) {
   std::vector<double> so_far = {0.0};
   for (std::size_t k = 0; k < border.size(); ++k) {
-    so_far.push_back(so_far.back() + (mesh.vertices.row(border[(k + 1) % border.size()]) - mesh.vertices.row(border[k])).norm());
+    so_far.push_back(
+        so_far.back() +
+        (mesh.vertices.row(border[(k + 1) % border.size()]) - mesh.vertices.row(border[k])).norm());
   }
   Points2 places = Points2::Zero(mesh.vertices.rows(), 2);
   for (std::size_t k = 0; k < border.size(); ++k) {
@@ -31,7 +33,8 @@ Points2 circle_map(const TriangleMesh& mesh, const std::vector<int>& border) {
   int count = 0;
   for (int& number : row) number = number < 0 ? -1 : count++;
   if (count == 0) return places;
-  // Every inner edge is in two triangles, which run through it in opposite directions: each adds its half of the pair.
+  // Every inner edge is in two triangles, which run through it in opposite directions: each adds
+  // its half of the pair.
   std::vector<Eigen::Triplet<double>> entries;
   Points2 pull = Points2::Zero(count, 2);
   for (const auto& t : mesh.triangles.rowwise()) {

@@ -15,7 +15,8 @@ namespace {
 // CGAL divides space; all distances are computed below, so that ties are seen alike in every face.
 using Kernel = CGAL::Simple_cartesian<double>;
 
-constexpr double kTie = 1e-12;  // of the diameter: well above the rounding of a distance, well below anything that is measured
+constexpr double kTie = 1e-12;  // of the diameter: well above the rounding of a distance, well
+                                // below anything that is measured
 
 Kernel::Point_3 cgal_vertex(const TriangleMesh& mesh, int vertex) {
   return {mesh.vertices(vertex, 0), mesh.vertices(vertex, 1), mesh.vertices(vertex, 2)};
@@ -34,7 +35,8 @@ class FacePrimitive {
   Point reference_point() const { return cgal_vertex(*mesh_, mesh_->triangles(face_, 0)); }
   Datum datum() const {
     const auto corner = mesh_->triangles.row(face_);
-    return {cgal_vertex(*mesh_, corner[0]), cgal_vertex(*mesh_, corner[1]), cgal_vertex(*mesh_, corner[2])};
+    return {cgal_vertex(*mesh_, corner[0]), cgal_vertex(*mesh_, corner[1]),
+            cgal_vertex(*mesh_, corner[2])};
   }
 
  private:
@@ -58,7 +60,8 @@ Corners corners_of(const TriangleMesh& mesh, int face) {
   return corners;
 }
 
-/// Weights of the foot of the perpendicular on the triangle's plane: areas of the three parts over the whole.
+/// Weights of the foot of the perpendicular on the triangle's plane: areas of the three parts over
+/// the whole.
 Vec3 weights_of_foot(const Corners& x, const Vec3& place) {
   const Vec3 normal = (x.col(1) - x.col(0)).cross(x.col(2) - x.col(0));
   Vec3 weights;
@@ -94,7 +97,8 @@ Candidate closest_in_face(const TriangleMesh& mesh, int face, const Vec3& place)
 
 double distance_to_box(const CGAL::Bbox_3& box, const Vec3& place) {
   Vec3 outside;
-  for (int i = 0; i < 3; ++i) outside[i] = std::max({box.min(i) - place[i], place[i] - box.max(i), 0.0});
+  for (int i = 0; i < 3; ++i)
+    outside[i] = std::max({box.min(i) - place[i], place[i] - box.max(i), 0.0});
   return outside.norm();
 }
 
@@ -103,10 +107,13 @@ class Search {
  public:
   using Node = CGAL::AABB_node<CGAL::AABB_traits<Kernel, FacePrimitive>>;
 
-  Search(const TriangleMesh& mesh, double tie, double known_distance) : mesh_(mesh), tie_(tie), least_(known_distance) {}
+  Search(const TriangleMesh& mesh, double tie, double known_distance)
+      : mesh_(mesh), tie_(tie), least_(known_distance) {}
 
   bool go_further() const { return true; }
-  bool do_intersect(const Vec3& place, const Node& node) const { return distance_to_box(node.bbox(), place) <= least_ + tie_; }
+  bool do_intersect(const Vec3& place, const Node& node) const {
+    return distance_to_box(node.bbox(), place) <= least_ + tie_;
+  }
   void intersection(const Vec3& place, const FacePrimitive& primitive) {
     const Candidate candidate = closest_in_face(mesh_, primitive.id(), place);
     if (candidate.distance > least_ + tie_) return;
@@ -137,12 +144,15 @@ struct ClosestPoint::Tree {
   AabbTree boxes;
 };
 
-ClosestPoint::ClosestPoint(const TriangleMesh& mesh, const std::vector<int>& face_of_vertex, double diameter) {
+ClosestPoint::ClosestPoint(const TriangleMesh& mesh, const std::vector<int>& face_of_vertex,
+                           double diameter) {
   std::unique_ptr<Tree> tree(new Tree{mesh, diameter, {}});
-  for (int face = 0; face < mesh.triangles.rows(); ++face) tree->boxes.insert(FacePrimitive(&mesh, face));
+  for (int face = 0; face < mesh.triangles.rows(); ++face)
+    tree->boxes.insert(FacePrimitive(&mesh, face));
   tree->boxes.build();
   std::vector<std::pair<Kernel::Point_3, int>> hints;
-  for (int v = 0; v < mesh.vertices.rows(); ++v) hints.emplace_back(cgal_vertex(mesh, v), face_of_vertex[v]);
+  for (int v = 0; v < mesh.vertices.rows(); ++v)
+    hints.emplace_back(cgal_vertex(mesh, v), face_of_vertex[v]);
   tree->boxes.accelerate_distance_queries(hints.begin(), hints.end());
   tree_ = std::move(tree);
 }

@@ -7,8 +7,9 @@
 
 namespace palpation {
 
-/// Angles kept as well as can be, borders free (Levy et al. 2002, CGAL's LSCM), counter-clockwise as a whole; of any size and place. None
-/// where CGAL finds none. Single triangles may be turned over. The mesh is a disk.
+/// Angles kept as well as can be, borders free (Levy et al. 2002, CGAL's LSCM), counter-clockwise
+/// as a whole; of any size and place. None where CGAL finds none. Single triangles may be turned
+/// over. The mesh is a disk.
 std::optional<Points2> conformal_map(const TriangleMesh& mesh);
 
 }  // namespace palpation

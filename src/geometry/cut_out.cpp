@@ -32,7 +32,9 @@ int corner_of(const Surface& surface, int face, int vertex) {
 class Fans {
  public:
   Fans(const Surface& surface, const std::vector<bool>& inside)
-      : surface_(surface), inside_(inside), fan_of_corner_(Triangles::Constant(surface.face_count(), 3, -1)) {
+      : surface_(surface),
+        inside_(inside),
+        fan_of_corner_(Triangles::Constant(surface.face_count(), 3, -1)) {
     for (int f = 0; f < surface.face_count(); ++f) {
       for (int i = 0; inside[f] && i < 3; ++i) {
         if (fan_of_corner_(f, i) >= 0) continue;
@@ -48,7 +50,8 @@ class Fans {
   const std::vector<int>& vertices() const { return vertex_of_fan_; }
 
  private:
-  /// Walks around the corner's vertex, over the edge that comes in (offset 2) or goes out (offset 0), as far as the part reaches.
+  /// Walks around the corner's vertex, over the edge that comes in (offset 2) or goes out (offset
+  /// 0), as far as the part reaches.
   void spread(int face, int corner, int edge_offset) {
     const int fan = static_cast<int>(vertex_of_fan_.size()) - 1;
     const int start = face;
@@ -62,7 +65,8 @@ class Fans {
   void number_by_vertex() {
     std::vector<int> order(vertex_of_fan_.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [this](int a, int b) { return vertex_of_fan_[a] < vertex_of_fan_[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [this](int a, int b) { return vertex_of_fan_[a] < vertex_of_fan_[b]; });
     std::vector<int> new_number(order.size()), vertices(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
       new_number[order[k]] = static_cast<int>(k);
@@ -93,7 +97,8 @@ CutOut cut_out(const Surface& surface, const std::vector<bool>& keep, int seed) 
     part.mesh.vertices.row(static_cast<Eigen::Index>(v)) = surface.vertex(part.vertices[v]);
   part.mesh.triangles.resize(static_cast<Eigen::Index>(part.faces.size()), 3);
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
-    for (int i = 0; i < 3; ++i) part.mesh.triangles(static_cast<Eigen::Index>(f), i) = fans(part.faces[f], i);
+    for (int i = 0; i < 3; ++i)
+      part.mesh.triangles(static_cast<Eigen::Index>(f), i) = fans(part.faces[f], i);
   }
   return part;
 }

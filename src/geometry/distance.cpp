@@ -19,7 +19,8 @@ double turn(const Vec2& before, const Vec2& after) {
   return std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
 }
 
-/// A flat disk whose border turns left everywhere, once around: any two of its points see each other.
+/// A flat disk whose border turns left everywhere, once around: any two of its points see each
+/// other.
 bool is_flat_and_convex(const Surface& surface) {
   if (!surface.is_planar() || !surface.topology().is_disk()) return false;
   const Points2& uv = surface.chart().uv;
@@ -41,20 +42,24 @@ Field straight_distances(const Surface& surface, std::span<const SurfacePoint> s
   Field least = Field::Constant(surface.vertex_count(), std::numeric_limits<double>::infinity());
   for (const SurfacePoint& source : sources) {
     const Vec3 place = surface.position(source);
-    least = least.cwiseMin((surface.mesh().vertices.rowwise() - place.transpose()).rowwise().norm());
+    least =
+        least.cwiseMin((surface.mesh().vertices.rowwise() - place.transpose()).rowwise().norm());
   }
   return least;
 }
 
 }  // namespace
 
-Field distance_from(const Surface& surface, std::span<const SurfacePoint> sources, double radius_m) {
+Field distance_from(const Surface& surface, std::span<const SurfacePoint> sources,
+                    double radius_m) {
   require(!sources.empty(), "distance_from", "0 sources", "must be at least one");
   require(radius_m > 0.0, "distance_from", "radius_m = " + text_of(radius_m), "must be positive");
-  for (const SurfacePoint& source : sources) surface.position(source);  // throws where it is no point of the surface
+  for (const SurfacePoint& source : sources)
+    surface.position(source);  // throws where it is no point of the surface
   if (is_flat_and_convex(surface)) {
     const Field distances = straight_distances(surface, sources);
-    return (distances.array() <= radius_m).select(distances, std::numeric_limits<double>::infinity());
+    return (distances.array() <= radius_m)
+        .select(distances, std::numeric_limits<double>::infinity());
   }
   surface.note_computed("geodesics");
   return unfolded_distances(surface, sources, {.radius_m = radius_m});
@@ -65,15 +70,17 @@ Eigen::MatrixXd distances_between(const Surface& surface, std::span<const Surfac
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < count; ++j)
-      distances(i, j) =
-          (surface.position(places[static_cast<std::size_t>(i)]) - surface.position(places[static_cast<std::size_t>(j)])).norm();
+      distances(i, j) = (surface.position(places[static_cast<std::size_t>(i)]) -
+                         surface.position(places[static_cast<std::size_t>(j)]))
+                            .norm();
   }
   if (surface.is_planar()) return distances;
   surface.note_computed("surface distances");
   const Marching marching(surface);
   for_ranges(static_cast<int>(count), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
-      const std::vector<double> marched = marching.distances(places[static_cast<std::size_t>(i)], places.subspan(i + 1));
+      const std::vector<double> marched =
+          marching.distances(places[static_cast<std::size_t>(i)], places.subspan(i + 1));
       for (Eigen::Index j = i + 1; j < count; ++j)
         distances(i, j) = std::max(distances(i, j), marched[static_cast<std::size_t>(j - i - 1)]);
     }
@@ -83,8 +90,8 @@ Eigen::MatrixXd distances_between(const Surface& surface, std::span<const Surfac
 }
 
 std::vector<int> vertices_near(const Surface& surface, int vertex, double radius_m) {
-  require(std::isfinite(radius_m) && radius_m >= 0.0, "vertices_near", "radius_m = " + text_of(radius_m),
-          "must be finite and not negative");
+  require(std::isfinite(radius_m) && radius_m >= 0.0, "vertices_near",
+          "radius_m = " + text_of(radius_m), "must be finite and not negative");
   const Vec3 centre = surface.vertex(vertex);
   std::vector<int> near;
   for (int other = 0; other < surface.vertex_count(); ++other) {

@@ -16,8 +16,10 @@ constexpr double kRounding = 1e-14;    // of the energy's scale
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Twice the cotangent Laplacian, the second derivative of the rigid energy for fixed rotations, without the first vertex, which stays.
-SparseMatrix laplacian(const std::vector<FlatTriangle>& flat, const Triangles& triangles, Eigen::Index vertices) {
+/// Twice the cotangent Laplacian, the second derivative of the rigid energy for fixed rotations,
+/// without the first vertex, which stays.
+SparseMatrix laplacian(const std::vector<FlatTriangle>& flat, const Triangles& triangles,
+                       Eigen::Index vertices) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(9 * flat.size());
   for (Eigen::Index face = 0; face < triangles.rows(); ++face) {
@@ -38,15 +40,19 @@ SparseMatrix laplacian(const std::vector<FlatTriangle>& flat, const Triangles& t
 }
 
 /// In the order of memory.
-double dot(const Points2& a, const Points2& b) { return a.reshaped<Eigen::RowMajor>().dot(b.reshaped<Eigen::RowMajor>()); }
+double dot(const Points2& a, const Points2& b) {
+  return a.reshaped<Eigen::RowMajor>().dot(b.reshaped<Eigen::RowMajor>());
+}
 
 /// A symmetric positive definite matrix, and its inverse for u and v in one go.
 class Factored {
  public:
-  explicit Factored(const SparseMatrix& matrix) : ldlt_(matrix), over_diagonal_(ldlt_.vectorD().cwiseInverse()) {}
+  explicit Factored(const SparseMatrix& matrix)
+      : ldlt_(matrix), over_diagonal_(ldlt_.vectorD().cwiseInverse()) {}
 
   Points2 solve(const Eigen::Ref<const Points2>& right) const {
-    const SparseMatrix& lower = ldlt_.matrixL().nestedExpression();  // unit diagonal, which may be stored
+    const SparseMatrix& lower =
+        ldlt_.matrixL().nestedExpression();  // unit diagonal, which may be stored
     Points2 x = ldlt_.permutationP() * right;
     for (Eigen::Index column = 0; column < x.rows(); ++column) {
       const double u = x(column, 0), v = x(column, 1);
@@ -94,7 +100,8 @@ class Memory {
       q -= share[i] * pairs_[i].change;
     }
     Points2 r = solve(q);
-    for (std::size_t i = 0; i < pairs_.size(); ++i) r += (share[i] - pairs_[i].over_curvature * dot(pairs_[i].change, r)) * pairs_[i].step;
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      r += (share[i] - pairs_[i].over_curvature * dot(pairs_[i].change, r)) * pairs_[i].step;
     return r;
   }
 
@@ -132,8 +139,10 @@ Points2 descended(FlatEnergy energy, const TriangleMesh& mesh, Points2 start) {
     }
     if (way.cwiseAbs().maxCoeff() <= kStandstill) break;
     double length = 1.0;
-    if (energy == FlatEnergy::Barrier) length = std::min(1.0, 0.8 * way_to_first_turn(mesh.triangles, start, way));
-    // Armijo's rule; close to the end the energy's change drowns in rounding, and full steps are right.
+    if (energy == FlatEnergy::Barrier)
+      length = std::min(1.0, 0.8 * way_to_first_turn(mesh.triangles, start, way));
+    // Armijo's rule; close to the end the energy's change drowns in rounding, and full steps are
+    // right.
     Points2 next, next_gradient;
     double next_value = 0.0;
     for (int halvings = 0; halvings < 40; ++halvings, length *= 0.5) {

@@ -22,9 +22,12 @@ Eigen::Matrix2d edges_in(const Triangles& triangles, Eigen::Index face, const Po
 FlatTriangle flat_triangle(const std::array<Vec3, 3>& corners) {
   int longest = 0;
   for (int i = 1; i < 3; ++i) {
-    if ((corners[(i + 1) % 3] - corners[i]).squaredNorm() > (corners[(longest + 1) % 3] - corners[longest]).squaredNorm()) longest = i;
+    if ((corners[(i + 1) % 3] - corners[i]).squaredNorm() >
+        (corners[(longest + 1) % 3] - corners[longest]).squaredNorm())
+      longest = i;
   }
-  const Vec3 along = corners[(longest + 1) % 3] - corners[longest], arm = corners[(longest + 2) % 3] - corners[longest];
+  const Vec3 along = corners[(longest + 1) % 3] - corners[longest],
+             arm = corners[(longest + 2) % 3] - corners[longest];
   const double base = along.norm();
   const double height = std::max(along.cross(arm).norm() / base, kThinnest * base);
   std::array<Vec2, 3> flat;
@@ -52,7 +55,8 @@ double barrier(const Eigen::Matrix2d& j, Eigen::Matrix2d& derivative) {
   Eigen::Matrix2d cofactors;
   cofactors << j(1, 1), -j(1, 0), -j(0, 1), j(0, 0);
   derivative = 2.0 * (1.0 + 1.0 / (det * det)) * j - (2.0 * square / (det * det * det)) * cofactors;
-  return det > 0.0 ? square * (1.0 + 1.0 / (det * det)) - 4.0 : std::numeric_limits<double>::infinity();
+  return det > 0.0 ? square * (1.0 + 1.0 / (det * det)) - 4.0
+                   : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -61,23 +65,26 @@ std::vector<FlatTriangle> flat_triangles(const TriangleMesh& mesh) {
   std::vector<FlatTriangle> flat;
   flat.reserve(mesh.triangles.rows());
   for (const auto& t : mesh.triangles.rowwise())
-    flat.push_back(flat_triangle({mesh.vertices.row(t[0]), mesh.vertices.row(t[1]), mesh.vertices.row(t[2])}));
+    flat.push_back(
+        flat_triangle({mesh.vertices.row(t[0]), mesh.vertices.row(t[1]), mesh.vertices.row(t[2])}));
   return flat;
 }
 
-Eigen::Matrix2d jacobian(const FlatTriangle& flat, const Triangles& triangles, Eigen::Index face, const Points2& uv) {
+Eigen::Matrix2d jacobian(const FlatTriangle& flat, const Triangles& triangles, Eigen::Index face,
+                         const Points2& uv) {
   return edges_in(triangles, face, uv) * flat.to_plane;
 }
 
-double energy_at(FlatEnergy energy, const std::vector<FlatTriangle>& flat, const Triangles& triangles, const Points2& uv,
-                 Points2& gradient) {
+double energy_at(FlatEnergy energy, const std::vector<FlatTriangle>& flat,
+                 const Triangles& triangles, const Points2& uv, Points2& gradient) {
   gradient.setZero(uv.rows(), 2);
   double sum = 0.0;
   for (Eigen::Index face = 0; face < triangles.rows(); ++face) {
     const FlatTriangle& triangle = flat[face];
     const Eigen::Matrix2d j = jacobian(triangle, triangles, face, uv);
     Eigen::Matrix2d derivative;
-    sum += triangle.area * (energy == FlatEnergy::Rigid ? rigid(j, derivative) : barrier(j, derivative));
+    sum += triangle.area *
+           (energy == FlatEnergy::Rigid ? rigid(j, derivative) : barrier(j, derivative));
     // The chain rule through the two edges from the first corner.
     const Eigen::Matrix2d pull = triangle.area * derivative * triangle.to_plane.transpose();
     gradient.row(triangles(face, 1)) += pull.col(0).transpose();

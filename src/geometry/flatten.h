@@ -17,7 +17,7 @@ struct Flattened {
 };
 
 /// Lays a disk flat as chart.h says. `area` and `diameter` are the mesh's.
-Flattened flatten(const TriangleMesh& mesh, const Connectivity& connectivity, const std::vector<std::vector<int>>& border_loops,
-                  double area, double diameter);
+Flattened flatten(const TriangleMesh& mesh, const Connectivity& connectivity,
+                  const std::vector<std::vector<int>>& border_loops, double area, double diameter);
 
 }  // namespace palpation

@@ -18,9 +18,9 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
-/// Vertices and faces keep their numbers; edges are numbered by the lowest face and corner. For meshes that check_mesh has let pass, with
-/// the neighbours it found: links are set directly, since OpenMesh's own add_face searches for what is known here, and repairs bad meshes
-/// silently.
+/// Vertices and faces keep their numbers; edges are numbered by the lowest face and corner. For
+/// meshes that check_mesh has let pass, with the neighbours it found: links are set directly, since
+/// OpenMesh's own add_face searches for what is known here, and repairs bad meshes silently.
 HalfEdgeMesh make_half_edge_mesh(const TriangleMesh& mesh, const Triangles& neighbours);
 
 }  // namespace palpation

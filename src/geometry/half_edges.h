@@ -1,4 +1,5 @@
-/// The edges of a triangle list, found by sorting: the way to see what the edges are before any mesh structure trusts them.
+/// The edges of a triangle list, found by sorting: the way to see what the edges are before any
+/// mesh structure trusts them.
 #pragma once
 
 #include <array>
@@ -10,8 +11,12 @@
 namespace palpation {
 
 /// Half-edge 3 f + i runs from corner i to corner i+1 (mod 3) of triangle f.
-inline int half_edge_start(const Triangles& triangles, int half_edge) { return triangles(half_edge / 3, half_edge % 3); }
-inline int half_edge_end(const Triangles& triangles, int half_edge) { return triangles(half_edge / 3, (half_edge % 3 + 1) % 3); }
+inline int half_edge_start(const Triangles& triangles, int half_edge) {
+  return triangles(half_edge / 3, half_edge % 3);
+}
+inline int half_edge_end(const Triangles& triangles, int half_edge) {
+  return triangles(half_edge / 3, (half_edge % 3 + 1) % 3);
+}
 
 /// Edges by increasing lower end, then higher end, each with its half-edges in increasing order.
 class EdgeTable {
@@ -20,7 +25,9 @@ class EdgeTable {
   EdgeTable(const Triangles& triangles, int vertex_count);
 
   int size() const { return static_cast<int>(first_.size()) - 1; }
-  std::span<const int> half_edges(int edge) const { return std::span(half_edges_).subspan(first_[edge], first_[edge + 1] - first_[edge]); }
+  std::span<const int> half_edges(int edge) const {
+    return std::span(half_edges_).subspan(first_[edge], first_[edge + 1] - first_[edge]);
+  }
 
  private:
   std::vector<int> half_edges_;

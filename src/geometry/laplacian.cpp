@@ -16,14 +16,17 @@ constexpr double kLumped = 3.0 / 8.0;  // of the mass; the rest is consistent
 
 /// Heron's formula as Kahan (1986) arranged it, which keeps its digits in slivers.
 double triangle_area(double x, double y, double z) {
-  const double a = std::max({x, y, z}), c = std::min({x, y, z}), b = std::max(std::min(x, y), std::min(std::max(x, y), z));
+  const double a = std::max({x, y, z}), c = std::min({x, y, z}),
+               b = std::max(std::min(x, y), std::min(std::max(x, y), z));
   const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
   return std::max(0.25 * std::sqrt(std::max(product, 0.0)), kLeastArea * a * a);
 }
 
-/// Cotangent of the angle at the corner opposite of the edge from `corner` on, times four times the area.
+/// Cotangent of the angle at the corner opposite of the edge from `corner` on, times four times the
+/// area.
 double opposite_dot(const MetricMesh& mesh, int face, int corner) {
-  const double a = mesh.lengths(face, corner), b = mesh.lengths(face, (corner + 1) % 3), c = mesh.lengths(face, (corner + 2) % 3);
+  const double a = mesh.lengths(face, corner), b = mesh.lengths(face, (corner + 1) % 3),
+               c = mesh.lengths(face, (corner + 2) % 3);
   return (b - a) * (b + a) + c * c;
 }
 
@@ -33,17 +36,20 @@ double opposite_cotangent(const MetricMesh& mesh, int face, int corner) {
 
 /// Where a corner lies if the edge starts at 0 and runs along x: beside it on the left.
 Vec2 laid_out(double edge, double from_start, double from_end, double area) {
-  return {(edge * edge + (from_start - from_end) * (from_start + from_end)) / (2.0 * edge), 2.0 * area / edge};
+  return {(edge * edge + (from_start - from_end) * (from_start + from_end)) / (2.0 * edge),
+          2.0 * area / edge};
 }
 
-/// The edge from corner i of face f becomes the other diagonal of its two triangles; false where that is none.
+/// The edge from corner i of face f becomes the other diagonal of its two triangles; false where
+/// that is none.
 bool flip(MetricMesh& mesh, int half_edge) {
   const int f = half_edge / 3, i = half_edge % 3;
   const int other = mesh.across(f, i), k = other / 3, j = other % 3;
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-  const int a = mesh.triangles(f, i), b = mesh.triangles(f, i1), c = mesh.triangles(f, i2), d = mesh.triangles(k, j2);
-  const double ab = mesh.lengths(f, i), bc = mesh.lengths(f, i1), ca = mesh.lengths(f, i2), ad = mesh.lengths(k, j1),
-               db = mesh.lengths(k, j2);
+  const int a = mesh.triangles(f, i), b = mesh.triangles(f, i1), c = mesh.triangles(f, i2),
+            d = mesh.triangles(k, j2);
+  const double ab = mesh.lengths(f, i), bc = mesh.lengths(f, i1), ca = mesh.lengths(f, i2),
+               ad = mesh.lengths(k, j1), db = mesh.lengths(k, j2);
   const Vec2 above = laid_out(ab, ca, bc, area_of(mesh, f));
   Vec2 below = laid_out(ab, ad, db, area_of(mesh, k));
   below.y() = -below.y();
@@ -51,9 +57,11 @@ bool flip(MetricMesh& mesh, int half_edge) {
   if (!(crossing > 0.0 && crossing < ab)) return false;
   const double cd = (above - below).norm();
 
-  const int across_bc = mesh.across(f, i1), across_ca = mesh.across(f, i2), across_ad = mesh.across(k, j1), across_db = mesh.across(k, j2);
+  const int across_bc = mesh.across(f, i1), across_ca = mesh.across(f, i2),
+            across_ad = mesh.across(k, j1), across_db = mesh.across(k, j2);
   for (const int beyond : {across_bc, across_ca, across_ad, across_db}) {
-    if (beyond >= 0 && (beyond / 3 == f || beyond / 3 == k)) return false;  // a cone of two triangles
+    if (beyond >= 0 && (beyond / 3 == f || beyond / 3 == k))
+      return false;  // a cone of two triangles
   }
   mesh.triangles.row(f) << a, d, c;
   mesh.lengths.row(f) << ad, cd, ca;
@@ -72,7 +80,8 @@ bool is_not_delaunay(const MetricMesh& mesh, int half_edge) {
   constexpr double kRounding = 1e-9;  // of cotangents: cocircular corners stay as they are
   const int beyond = mesh.across(half_edge / 3, half_edge % 3);
   if (beyond < 0 || beyond / 3 == half_edge / 3) return false;
-  const double one = opposite_cotangent(mesh, half_edge / 3, half_edge % 3), other = opposite_cotangent(mesh, beyond / 3, beyond % 3);
+  const double one = opposite_cotangent(mesh, half_edge / 3, half_edge % 3),
+               other = opposite_cotangent(mesh, beyond / 3, beyond % 3);
   return one + other < -kRounding * (1.0 + std::abs(one));
 }
 
@@ -88,7 +97,8 @@ double angle_of(const MetricMesh& mesh, int face, int corner) {
 
 MetricMesh metric_of(const Surface& surface) {
   const TriangleMesh& mesh = surface.mesh();
-  MetricMesh metric{surface.vertex_count(), mesh.triangles, MetricMesh::Lengths(mesh.triangles.rows(), 3),
+  MetricMesh metric{surface.vertex_count(), mesh.triangles,
+                    MetricMesh::Lengths(mesh.triangles.rows(), 3),
                     Triangles(mesh.triangles.rows(), 3)};
   for (int face = 0; face < surface.face_count(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
@@ -106,12 +116,14 @@ MetricMesh metric_of(const Surface& surface) {
 }
 
 MetricMesh glued(int vertex_count, const Triangles& triangles, const MetricMesh::Lengths& lengths) {
-  require((lengths.array() > 0.0).all() && lengths.allFinite(), "glued", "a length", "must be positive and finite");
+  require((lengths.array() > 0.0).all() && lengths.allFinite(), "glued", "a length",
+          "must be positive and finite");
   MetricMesh metric{vertex_count, triangles, lengths, Triangles::Constant(triangles.rows(), 3, -1)};
   const EdgeTable edges(triangles, vertex_count);
   for (int edge = 0; edge < edges.size(); ++edge) {
     const auto sides = edges.half_edges(edge);
-    require(sides.size() <= 2, "glued", "an edge in " + std::to_string(sides.size()) + " triangles", "must be in one or two");
+    require(sides.size() <= 2, "glued", "an edge in " + std::to_string(sides.size()) + " triangles",
+            "must be in one or two");
     if (sides.size() < 2) continue;
     metric.across(sides[0] / 3, sides[0] % 3) = sides[1];
     metric.across(sides[1] / 3, sides[1] % 3) = sides[0];
@@ -123,7 +135,8 @@ void flip_to_delaunay(MetricMesh& mesh) {
   flip_to_delaunay(mesh, [](int, int) { return true; });
 }
 
-void flip_to_delaunay(MetricMesh& mesh, const std::function<bool(int face, int beyond)>& may_trade) {
+void flip_to_delaunay(MetricMesh& mesh,
+                      const std::function<bool(int face, int beyond)>& may_trade) {
   const int count = static_cast<int>(3 * mesh.triangles.rows());
   std::vector<int> waiting;
   std::vector<bool> waits(static_cast<std::size_t>(count), false);

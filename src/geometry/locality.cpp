@@ -12,8 +12,11 @@ constexpr int kBits = 21;  // of a coordinate: three make a number of 63
 
 /// Every third bit of the result is one of the value's.
 std::uint64_t spread(std::uint64_t value) {
-  constexpr std::pair<int, std::uint64_t> kSteps[] = {
-      {32, 0x1f00000000ffff}, {16, 0x1f0000ff0000ff}, {8, 0x100f00f00f00f00f}, {4, 0x10c30c30c30c30c3}, {2, 0x1249249249249249}};
+  constexpr std::pair<int, std::uint64_t> kSteps[] = {{32, 0x1f00000000ffff},
+                                                      {16, 0x1f0000ff0000ff},
+                                                      {8, 0x100f00f00f00f00f},
+                                                      {4, 0x10c30c30c30c30c3},
+                                                      {2, 0x1249249249249249}};
   for (const auto& [shift, mask] : kSteps) value = (value | value << shift) & mask;
   return value;
 }
@@ -27,7 +30,9 @@ std::vector<int> along_mortons_curve(const Points& points) {
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double cell = (points(static_cast<Eigen::Index>(i), axis) - corner[axis]) * cells;
-      code |= spread(static_cast<std::uint64_t>(std::clamp(cell, 0.0, static_cast<double>((1 << kBits) - 1)))) << axis;
+      code |= spread(static_cast<std::uint64_t>(
+                  std::clamp(cell, 0.0, static_cast<double>((1 << kBits) - 1))))
+              << axis;
     }
     codes[i] = {code, static_cast<int>(i)};
   }
@@ -41,7 +46,8 @@ std::vector<int> along_mortons_curve(const Points& points) {
 }  // namespace
 
 const std::vector<int>& Surface::locality_order() const {
-  std::call_once(state_->order_once, [&] { state_->locality_order = along_mortons_curve(state_->mesh.vertices); });
+  std::call_once(state_->order_once,
+                 [&] { state_->locality_order = along_mortons_curve(state_->mesh.vertices); });
   return state_->locality_order;
 }
 

@@ -11,7 +11,8 @@ namespace palpation {
 namespace {
 
 /// Where the border loops but the longest are: the holes, as one takes them.
-std::string where_holes_are(const std::vector<std::vector<int>>& border_loops, const Points& vertices) {
+std::string where_holes_are(const std::vector<std::vector<int>>& border_loops,
+                            const Points& vertices) {
   constexpr std::size_t kMostNamed = 3;
   std::vector<std::pair<double, Vec3>> loops;  // length, middle
   for (const std::vector<int>& loop : border_loops) {
@@ -28,8 +29,9 @@ std::string where_holes_are(const std::vector<std::vector<int>>& border_loops, c
   for (std::size_t i = 1; i < std::min(loops.size(), 1 + kMostNamed); ++i) {
     const Vec3 middle_mm = loops[i].second * 1e3;
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%s%.1f mm long around (%.1f, %.1f, %.1f) mm", i == 1 ? ": beside the longest, " : ", ",
-                  loops[i].first * 1e3, middle_mm.x(), middle_mm.y(), middle_mm.z());
+    std::snprintf(text.data(), text.size(), "%s%.1f mm long around (%.1f, %.1f, %.1f) mm",
+                  i == 1 ? ": beside the longest, " : ", ", loops[i].first * 1e3, middle_mm.x(),
+                  middle_mm.y(), middle_mm.z());
     words += text.data();
   }
   return words + (loops.size() > 1 + kMostNamed ? " and more" : "");
@@ -37,14 +39,21 @@ std::string where_holes_are(const std::vector<std::vector<int>>& border_loops, c
 
 }  // namespace
 
-std::string loops_in_the_way(const Topology& topology, const std::vector<std::vector<int>>& border_loops, const Points& vertices) {
-  const auto counted = [](int count, const std::string& one) { return std::to_string(count) + " " + one + (count == 1 ? "" : "s"); };
+std::string loops_in_the_way(const Topology& topology,
+                             const std::vector<std::vector<int>>& border_loops,
+                             const Points& vertices) {
+  const auto counted = [](int count, const std::string& one) {
+    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+  };
   std::string found;
   if (topology.components > 1) found += counted(topology.components, "component") + ", ";
   if (topology.handles > 0) found += counted(topology.handles, "handle") + ", ";
-  found += topology.is_closed() ? "no border (it is closed)"
-                                : counted(topology.borders, "border loop") + where_holes_are(border_loops, vertices);
-  return "only a disk of one component, one border loop and no handles can be laid flat, and it has " + found;
+  found += topology.is_closed()
+               ? "no border (it is closed)"
+               : counted(topology.borders, "border loop") + where_holes_are(border_loops, vertices);
+  return "only a disk of one component, one border loop and no handles can be laid flat, and it "
+         "has " +
+         found;
 }
 
 }  // namespace palpation

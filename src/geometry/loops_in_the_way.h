@@ -8,7 +8,10 @@
 
 namespace palpation {
 
-/// Counts components, handles and border loops, and says where the loops but the longest are: the holes, as one takes them.
-std::string loops_in_the_way(const Topology& topology, const std::vector<std::vector<int>>& border_loops, const Points& vertices);
+/// Counts components, handles and border loops, and says where the loops but the longest are: the
+/// holes, as one takes them.
+std::string loops_in_the_way(const Topology& topology,
+                             const std::vector<std::vector<int>>& border_loops,
+                             const Points& vertices);
 
 }  // namespace palpation

@@ -19,7 +19,8 @@ double shift(double jitter, Random& random) { return jitter * (2.0 * random.unif
 
 class Mesher {
  public:
-  Mesher(const Sheet& sheet, double jitter, Random& random) : sheet_(sheet), jitter_(jitter), random_(random) {}
+  Mesher(const Sheet& sheet, double jitter, Random& random)
+      : sheet_(sheet), jitter_(jitter), random_(random) {}
 
   PhantomMesh rectangle(int columns, int rows) {
     for (int row = 0; row <= rows; ++row) {
@@ -65,7 +66,8 @@ class Mesher {
 
  private:
   double along_side(int step, int steps) {
-    const double moved = shift(jitter_, random_);  // drawn for ends too, so that all vertices draw alike
+    const double moved =
+        shift(jitter_, random_);  // drawn for ends too, so that all vertices draw alike
     return (step > 0 && step < steps ? step + moved : step) / steps;
   }
 
@@ -84,23 +86,28 @@ class Mesher {
     return std::atan2(to_a.cross(to_b).norm(), to_a.dot(to_b));
   }
 
-  /// Delaunay's rule in space, where both diagonals lie inside the cell; a coin where they are equal.
+  /// Delaunay's rule in space, where both diagonals lie inside the cell; a coin where they are
+  /// equal.
   bool rising_is_better(int a, int b, int c, int d) {
     const bool coin = random_.uniform() < 0.5;
     if (!turns_left(a, b, c) || !turns_left(a, c, d)) return false;
     if (!turns_left(a, b, d) || !turns_left(b, c, d)) return true;
-    const double beside_rising = angle_at(b, a, c) + angle_at(d, a, c), beside_falling = angle_at(a, b, d) + angle_at(c, b, d);
+    const double beside_rising = angle_at(b, a, c) + angle_at(d, a, c),
+                 beside_falling = angle_at(a, b, d) + angle_at(c, b, d);
     constexpr double kEqual = 1e-9;  // radians
     if (std::abs(beside_rising - beside_falling) < kEqual) return coin;
     return beside_rising < beside_falling;
   }
 
-  /// Triangles between the two last rings, in the order of their corners' angles. An empty inner ring is the middle.
+  /// Triangles between the two last rings, in the order of their corners' angles. An empty inner
+  /// ring is the middle.
   void join_rings(const std::vector<double>& inner, const std::vector<double>& outer) {
-    const int outer_count = static_cast<int>(outer.size()), inner_count = static_cast<int>(inner.size());
+    const int outer_count = static_cast<int>(outer.size()),
+              inner_count = static_cast<int>(inner.size());
     const int first_outer = static_cast<int>(vertices_.size()) - outer_count;
     if (inner.empty()) {
-      for (int k = 0; k < outer_count; ++k) triangles_.push_back({0, first_outer + k, first_outer + (k + 1) % outer_count});
+      for (int k = 0; k < outer_count; ++k)
+        triangles_.push_back({0, first_outer + k, first_outer + (k + 1) % outer_count});
       return;
     }
     const int first_inner = first_outer - inner_count;
@@ -109,14 +116,16 @@ class Mesher {
       const int count = static_cast<int>(ring.size());
       return ring[k % count] + turn * (k / count);
     };
-    // The triangle that starts the walk: the inner ring's first vertex, and the outer one's last before it in angle.
+    // The triangle that starts the walk: the inner ring's first vertex, and the outer one's last
+    // before it in angle.
     int i = 0, o = 0;
     while (angle(outer, o + 1) <= inner.front() + turn) ++o;
     const auto inner_angle = [&](int k) { return angle(inner, k) + turn; };
     const int last_o = o + outer_count;
     while (i < inner_count || o < last_o) {
       const int at_inner = first_inner + i % inner_count, at_outer = first_outer + o % outer_count;
-      const bool outwards = i == inner_count || (o < last_o && angle(outer, o + 1) <= inner_angle(i + 1));
+      const bool outwards =
+          i == inner_count || (o < last_o && angle(outer, o + 1) <= inner_angle(i + 1));
       if (outwards) {
         ++o;
         triangles_.push_back({at_inner, at_outer, first_outer + o % outer_count});
@@ -153,13 +162,16 @@ class Mesher {
 }  // namespace
 
 PhantomMesh make_phantom(const Sheet& sheet, double edge_m, double jitter, Random& random) {
-  require(std::isfinite(edge_m) && edge_m > 0.0, "make_phantom", "edge_m = " + text_of(edge_m), "must be positive and finite");
-  require(jitter >= 0.0 && jitter <= 0.45, "make_phantom", "jitter = " + text_of(jitter), "must be between 0 and 0.45");
+  require(std::isfinite(edge_m) && edge_m > 0.0, "make_phantom", "edge_m = " + text_of(edge_m),
+          "must be positive and finite");
+  require(jitter >= 0.0 && jitter <= 0.45, "make_phantom", "jitter = " + text_of(jitter),
+          "must be between 0 and 0.45");
   const Vec2 cells = (sheet.size_m / edge_m).array().round().cwiseMax(1.0);
-  require((cells.x() + 1.0) * (cells.y() + 1.0) <= kMostVertices, "make_phantom", "edge_m = " + text_of(edge_m),
-          "must leave at most 2^27 vertices");
+  require((cells.x() + 1.0) * (cells.y() + 1.0) <= kMostVertices, "make_phantom",
+          "edge_m = " + text_of(edge_m), "must leave at most 2^27 vertices");
   Mesher mesher(sheet, jitter, random);
-  if (!sheet.is_round) return mesher.rectangle(static_cast<int>(cells.x()), static_cast<int>(cells.y()));
+  if (!sheet.is_round)
+    return mesher.rectangle(static_cast<int>(cells.x()), static_cast<int>(cells.y()));
   return mesher.disk(static_cast<int>(std::max(1.0, std::round(0.5 * cells.x()))));
 }
 

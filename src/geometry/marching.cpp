@@ -16,21 +16,26 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Of a distance: shorter ways than this do not start a correction.
 constexpr double kNews = 1e-9;
-/// Of the front's distance when it has reached all targets' faces: how much farther it goes for ways that come from behind.
+/// Of the front's distance when it has reached all targets' faces: how much farther it goes for
+/// ways that come from behind.
 constexpr double kSettle = 1.02;
 
-/// From the place of the plane that is from_a and from_b away from the ends of an edge, on its other side, to a place on this side, if that
-/// line crosses the edge; else infinite. Nothing is worked out that cannot be less than a distance that is known.
+/// From the place of the plane that is from_a and from_b away from the ends of an edge, on its
+/// other side, to a place on this side, if that line crosses the edge; else infinite. Nothing is
+/// worked out that cannot be less than a distance that is known.
 template <typename Shape>
 double straight_across(const Shape& shape, double from_a, double from_b, double known) {
-  const double x = ((from_a - from_b) * (from_a + from_b) + shape.length * shape.length) * shape.half_inverse;
+  const double x =
+      ((from_a - from_b) * (from_a + from_b) + shape.length * shape.length) * shape.half_inverse;
   const double depth_squared = from_a * from_a - x * x;
   if (!(depth_squared >= 0.0)) return kInfinite;  // not both are known, or no such place
   const double aside = shape.apex_x - x;
-  if (aside * aside + shape.apex_y * shape.apex_y + depth_squared >= known * known) return kInfinite;
+  if (aside * aside + shape.apex_y * shape.apex_y + depth_squared >= known * known)
+    return kInfinite;
   const double depth = std::sqrt(depth_squared), rise = shape.apex_y + depth;
   const double crossing = x * shape.apex_y + depth * shape.apex_x;  // times the rise
-  return crossing >= 0.0 && crossing <= shape.length * rise ? std::sqrt(aside * aside + rise * rise) : kInfinite;
+  return crossing >= 0.0 && crossing <= shape.length * rise ? std::sqrt(aside * aside + rise * rise)
+                                                            : kInfinite;
 }
 
 }  // namespace
@@ -74,7 +79,8 @@ class Front {
       known_[static_cast<std::size_t>(vertex)].is_settled = true;
       spread_from(vertex);
       if (last < kInfinite) continue;
-      while (!awaited.empty() && known_[static_cast<std::size_t>(awaited.back())].is_settled) awaited.pop_back();
+      while (!awaited.empty() && known_[static_cast<std::size_t>(awaited.back())].is_settled)
+        awaited.pop_back();
       if (awaited.empty()) last = kSettle * key;
     }
   }
@@ -84,13 +90,16 @@ class Front {
     const Vec3 here = surface_.position(target);
     const Eigen::Vector3i corners = surface_.triangle(target.face);
     double least = kInfinite;
-    for (int i = 0; i < 3; ++i) least = std::min(least, distance(corners[i]) + (here - surface_.vertex(corners[i])).norm());
+    for (int i = 0; i < 3; ++i)
+      least = std::min(least, distance(corners[i]) + (here - surface_.vertex(corners[i])).norm());
     for (int i = 0; i < 3; ++i) {
       if (target.barycentric[(i + 2) % 3] == 0.0) continue;  // on this edge
       Marching::Shape shape = marching_.shapes_[static_cast<std::size_t>(3 * target.face + i)];
-      shape.apex_x = target.barycentric[(i + 1) % 3] * shape.length + target.barycentric[(i + 2) % 3] * shape.apex_x;
+      shape.apex_x = target.barycentric[(i + 1) % 3] * shape.length +
+                     target.barycentric[(i + 2) % 3] * shape.apex_x;
       shape.apex_y *= target.barycentric[(i + 2) % 3];
-      least = std::min(least, straight_across(shape, distance(corners[i]), distance(corners[(i + 1) % 3]), least));
+      least = std::min(least, straight_across(shape, distance(corners[i]),
+                                              distance(corners[(i + 1) % 3]), least));
     }
     return least;
   }
@@ -102,7 +111,8 @@ class Front {
   };
 
   void start_face(int face, const Vec3& here) {
-    for (const int vertex : triangles_.row(face)) reach(vertex, (surface_.vertex(vertex) - here).norm());
+    for (const int vertex : triangles_.row(face))
+      reach(vertex, (surface_.vertex(vertex) - here).norm());
   }
 
   void reach(int vertex, double distance) {
@@ -113,11 +123,14 @@ class Front {
     queue_.push({distance, vertex});
   }
 
-  /// In every face around a settled vertex to each of the others along the edge, or between the settled one and the third.
+  /// In every face around a settled vertex to each of the others along the edge, or between the
+  /// settled one and the third.
   void spread_from(int a) {
     const double from_a = distance(a);
-    for (int i = marching_.first_[static_cast<std::size_t>(a)]; i < marching_.first_[static_cast<std::size_t>(a) + 1]; ++i) {
-      const int leaving = marching_.leaving_[static_cast<std::size_t>(i)], face = leaving / 3, corner = leaving % 3;
+    for (int i = marching_.first_[static_cast<std::size_t>(a)];
+         i < marching_.first_[static_cast<std::size_t>(a) + 1]; ++i) {
+      const int leaving = marching_.leaving_[static_cast<std::size_t>(i)], face = leaving / 3,
+                corner = leaving % 3;
       const int arriving = 3 * face + (corner + 2) % 3;
       const int b = triangles_(face, (corner + 1) % 3), c = triangles_(face, (corner + 2) % 3);
       const Marching::Shape &to_b = marching_.shapes_[static_cast<std::size_t>(leaving)],
@@ -151,18 +164,22 @@ Marching::Marching(const Surface& surface)
       const Vec3 along = vertices.row(triangles(face, (corner + 1) % 3)).transpose() - a,
                  up = vertices.row(triangles(face, (corner + 2) % 3)).transpose() - a;
       const double length = along.norm();
-      shapes_[static_cast<std::size_t>(half_edge)] = {length, along.dot(up) / length, along.cross(up).norm() / length, 0.5 / length};
+      shapes_[static_cast<std::size_t>(half_edge)] = {
+          length, along.dot(up) / length, along.cross(up).norm() / length, 0.5 / length};
     }
   });
-  for (const int vertex : triangles.reshaped<Eigen::RowMajor>()) ++first_[static_cast<std::size_t>(vertex) + 1];
+  for (const int vertex : triangles.reshaped<Eigen::RowMajor>())
+    ++first_[static_cast<std::size_t>(vertex) + 1];
   for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
   std::vector<int> next(first_.begin(), first_.end() - 1);
   for (int half_edge = 0; half_edge < 3 * surface.face_count(); ++half_edge) {
-    leaving_[static_cast<std::size_t>(next[static_cast<std::size_t>(triangles(half_edge / 3, half_edge % 3))]++)] = half_edge;
+    leaving_[static_cast<std::size_t>(
+        next[static_cast<std::size_t>(triangles(half_edge / 3, half_edge % 3))]++)] = half_edge;
   }
 }
 
-std::vector<double> Marching::distances(const SurfacePoint& source, std::span<const SurfacePoint> targets) const {
+std::vector<double> Marching::distances(const SurfacePoint& source,
+                                        std::span<const SurfacePoint> targets) const {
   Front front(*this);
   front.start(source);
   std::vector<int> awaited;
@@ -173,7 +190,8 @@ std::vector<double> Marching::distances(const SurfacePoint& source, std::span<co
   const Vec3 here = surface_.position(source);
   std::vector<double> distances;
   for (const SurfacePoint& target : targets)
-    distances.push_back(target.face == source.face ? (surface_.position(target) - here).norm() : front.distance_to(target));
+    distances.push_back(target.face == source.face ? (surface_.position(target) - here).norm()
+                                                   : front.distance_to(target));
   return distances;
 }
 

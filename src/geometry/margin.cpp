@@ -11,12 +11,14 @@ namespace palpation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kStraight = 1e-3;       // rad: less of a notch is none, but a border that is not quite straight
+constexpr double kStraight =
+    1e-3;  // rad: less of a notch is none, but a border that is not quite straight
 constexpr double kLeastNotch = 0.1;      // rad: a notch that has closed, or more than closed
 constexpr double kGrowth = 0.3;          // of a ring's distance from the border is its width
 constexpr double kCoarsest = 1.0 / 6.0;  // of the margin is the first ring's width at most
 constexpr double kFillShare = 1.0 / 16;  // of the margin: edges in what is filled
-constexpr double kHoleLeft = 0.3;        // of its length is left of a border that closes in, where the margin ends
+constexpr double kHoleLeft =
+    0.3;  // of its length is left of a border that closes in, where the margin ends
 
 /// One vertex of a border, with the edge from it to the next, tissue on the left.
 struct Rim {
@@ -49,8 +51,8 @@ double turning_of(const Loop& loop) {
 void fill(Loop& loop, std::size_t i, double target, MetricBuilder& builder) {
   const std::size_t last = before(loop, i), next = after(loop, i);
   const double chord = std::max(loop[i].chord, 1e-6 * std::max(loop[last].length, loop[i].length));
-  const int face =
-      builder.add_face({loop[next].vertex, loop[i].vertex, loop[last].vertex}, {loop[i].length, loop[last].length, chord}, target);
+  const int face = builder.add_face({loop[next].vertex, loop[i].vertex, loop[last].vertex},
+                                    {loop[i].length, loop[last].length, chord}, target);
   builder.glue(3 * face, loop[i].half_edge);
   builder.glue(3 * face + 1, loop[last].half_edge);
   loop[next].interior += builder.angle(face, 0);
@@ -62,8 +64,8 @@ void fill(Loop& loop, std::size_t i, double target, MetricBuilder& builder) {
 
 /// Three edges around what was a hole.
 void close(Loop& loop, double target, MetricBuilder& builder) {
-  const int face =
-      builder.add_face({loop[1].vertex, loop[0].vertex, loop[2].vertex}, {loop[0].length, loop[2].length, loop[1].length}, target);
+  const int face = builder.add_face({loop[1].vertex, loop[0].vertex, loop[2].vertex},
+                                    {loop[0].length, loop[2].length, loop[1].length}, target);
   builder.glue(3 * face, loop[0].half_edge);
   builder.glue(3 * face + 1, loop[2].half_edge);
   builder.glue(3 * face + 2, loop[1].half_edge);
@@ -76,7 +78,8 @@ void fill_notches(Loop& loop, double widest, double target, MetricBuilder& build
   while (loop.size() > 3) {
     std::size_t narrowest = loop.size();
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      if (is_notch(loop[i]) && loop[i].chord <= widest && (narrowest == loop.size() || loop[i].chord < loop[narrowest].chord))
+      if (is_notch(loop[i]) && loop[i].chord <= widest &&
+          (narrowest == loop.size() || loop[i].chord < loop[narrowest].chord))
         narrowest = i;
     }
     if (narrowest == loop.size()) return;
@@ -88,7 +91,8 @@ void fill_notches(Loop& loop, double widest, double target, MetricBuilder& build
   if (turning_of(loop) < -kPi) close(loop, target, builder);
 }
 
-/// A border laid out in the plane, edge after edge, twice around: near each other, places beside it are as far apart as there.
+/// A border laid out in the plane, edge after edge, twice around: near each other, places beside it
+/// are as far apart as there.
 class Development {
  public:
   explicit Development(const Loop& loop) : loop_(loop) {
@@ -104,7 +108,8 @@ class Development {
     }
   }
 
-  /// Piece 2 i is the wedge before the edge from vertex i, piece 2 i + 1 the strip beside that edge.
+  /// Piece 2 i is the wedge before the edge from vertex i, piece 2 i + 1 the strip beside that
+  /// edge.
   std::size_t piece_count() const { return 2 * loop_.size(); }
 
   /// Length of a piece's outer side at a distance from the border.
@@ -134,7 +139,8 @@ class Development {
   /// What the neighbours leave of a strip at a distance, where the border turns inwards.
   std::pair<double, double> kept(std::size_t i, double distance) const {
     const auto lost = [&](const Rim& rim) {
-      return rim.interior > kPi ? distance * std::tan(0.5 * std::min(rim.interior - kPi, 0.9 * kPi)) : 0.0;
+      return rim.interior > kPi ? distance * std::tan(0.5 * std::min(rim.interior - kPi, 0.9 * kPi))
+                                : 0.0;
     };
     const double length = loop_[i].length;
     double from = lost(loop_[i]), to = length - lost(loop_[after(loop_, i)]);
@@ -163,8 +169,8 @@ Ring first_ring(const Loop& loop, const Development& development) {
   Ring ring;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const double around = 2.0 * static_cast<double>(i) + 0.5;
-    ring.points.push_back(
-        {loop[i].vertex, around, development.place(2 * i, 0.5, 0.0), development.place(2 * i + development.piece_count(), 0.5, 0.0)});
+    ring.points.push_back({loop[i].vertex, around, development.place(2 * i, 0.5, 0.0),
+                           development.place(2 * i + development.piece_count(), 0.5, 0.0)});
     ring.half_edges.push_back(loop[i].half_edge);
   }
   return ring;
@@ -172,12 +178,14 @@ Ring first_ring(const Loop& loop, const Development& development) {
 
 double ring_length(const Development& development, double distance) {
   double length = 0.0;
-  for (std::size_t piece = 0; piece < development.piece_count(); ++piece) length += development.length(piece, distance);
+  for (std::size_t piece = 0; piece < development.piece_count(); ++piece)
+    length += development.length(piece, distance);
   return length;
 }
 
 /// Points evenly along a ring; every second ring half a step on.
-Ring next_ring(const Development& development, double distance, double spacing, bool shifted, MetricBuilder& builder) {
+Ring next_ring(const Development& development, double distance, double spacing, bool shifted,
+               MetricBuilder& builder) {
   const double length = ring_length(development, distance);
   const int count = std::max(3, static_cast<int>(std::lround(length / spacing)));
   Ring ring;
@@ -190,39 +198,48 @@ Ring next_ring(const Development& development, double distance, double spacing, 
       here = development.length(++piece, distance);
     }
     const double part = here > 0.0 ? std::clamp((at - passed) / here, 0.0, 1.0) : 0.5;
-    ring.points.push_back({builder.add_vertex(), static_cast<double>(piece) + part, development.place(piece, part, distance),
+    ring.points.push_back({builder.add_vertex(), static_cast<double>(piece) + part,
+                           development.place(piece, part, distance),
                            development.place(piece + development.piece_count(), part, distance)});
   }
   ring.half_edges.resize(ring.points.size());
   return ring;
 }
 
-/// A strip of triangles between two rings, from where both start, always on to the point that comes next.
+/// A strip of triangles between two rings, from where both start, always on to the point that comes
+/// next.
 void stitch(Ring& inner, Ring& outer, double period, double target, MetricBuilder& builder) {
   const auto around = [&](const Ring& ring, std::size_t i) {
     return ring.points[i % ring.points.size()].around + (i >= ring.points.size() ? period : 0.0);
   };
   const auto place = [&](const Ring& ring, std::size_t i) {
-    return i >= ring.points.size() ? ring.points[i - ring.points.size()].place_again : ring.points[i].place;
+    return i >= ring.points.size() ? ring.points[i - ring.points.size()].place_again
+                                   : ring.points[i].place;
   };
-  const auto vertex = [&](const Ring& ring, std::size_t i) { return ring.points[i % ring.points.size()].vertex; };
+  const auto vertex = [&](const Ring& ring, std::size_t i) {
+    return ring.points[i % ring.points.size()].vertex;
+  };
   const std::size_t inner_count = inner.points.size(), outer_count = outer.points.size();
-  int first_face = -1, open_side = -1;  // half-edge from the outer point to the inner one of the face before
+  int first_face = -1,
+      open_side = -1;  // half-edge from the outer point to the inner one of the face before
   for (std::size_t i = 0, o = 0; i < inner_count || o < outer_count;) {
-    const bool along_inner = o == outer_count || (i < inner_count && around(inner, i + 1) <= around(outer, o + 1));
+    const bool along_inner =
+        o == outer_count || (i < inner_count && around(inner, i + 1) <= around(outer, o + 1));
     const double across = (place(inner, i) - place(outer, o)).norm();
     const std::size_t i2 = along_inner ? i + 1 : i, o2 = along_inner ? o : o + 1;
     const double across_next = (place(inner, i2) - place(outer, o2)).norm();
     int face = 0, closes = 0, opens = 0;
     if (along_inner) {
       const double length = builder.length(inner.half_edges[i]);
-      face = builder.add_face({vertex(inner, i2), vertex(inner, i), vertex(outer, o)}, {length, across, across_next}, target);
+      face = builder.add_face({vertex(inner, i2), vertex(inner, i), vertex(outer, o)},
+                              {length, across, across_next}, target);
       builder.glue(3 * face, inner.half_edges[i]);
       closes = 3 * face + 1;
       opens = 3 * face + 2;
     } else {
       const double length = (place(outer, o2) - place(outer, o)).norm();
-      face = builder.add_face({vertex(outer, o), vertex(outer, o2), vertex(inner, i)}, {length, across_next, across}, target);
+      face = builder.add_face({vertex(outer, o), vertex(outer, o2), vertex(inner, i)},
+                              {length, across_next, across}, target);
       outer.half_edges[o] = 3 * face;
       closes = 3 * face + 2;
       opens = 3 * face + 1;
@@ -255,7 +272,8 @@ void add_rings(const Loop& loop, double first_width, double width, MetricBuilder
   }
 }
 
-/// Starts the loop where its edges change most, wherever its vertices' numbers begin: what is built on it then does not depend on those.
+/// Starts the loop where its edges change most, wherever its vertices' numbers begin: what is built
+/// on it then does not depend on those.
 void start_at_landmark(Loop& loop) {
   const auto change = [&](std::size_t i) {
     const double a = loop[before(loop, i)].length, b = loop[i].length;
@@ -270,25 +288,29 @@ void start_at_landmark(Loop& loop) {
 }
 
 /// The border as the mesh has it. `corner_sums`: the angles around each vertex.
-Loop loop_of(const MetricMesh& mesh, const std::vector<int>& vertices, const Field& corner_sums, const std::vector<int>& border_from) {
+Loop loop_of(const MetricMesh& mesh, const std::vector<int>& vertices, const Field& corner_sums,
+             const std::vector<int>& border_from) {
   Loop loop;
   for (const int vertex : vertices) {
     const int half_edge = border_from[vertex];
-    loop.push_back({vertex, half_edge, mesh.lengths(half_edge / 3, half_edge % 3), corner_sums[vertex]});
+    loop.push_back(
+        {vertex, half_edge, mesh.lengths(half_edge / 3, half_edge % 3), corner_sums[vertex]});
   }
   return loop;
 }
 
 }  // namespace
 
-MetricMesh with_margin(const MetricMesh& mesh, const std::vector<std::vector<int>>& border_loops, double width) {
+MetricMesh with_margin(const MetricMesh& mesh, const std::vector<std::vector<int>>& border_loops,
+                       double width) {
   if (border_loops.empty() || !(width > 0.0)) return mesh;
   Field corner_sums = Field::Zero(mesh.vertex_count);
   std::vector<int> border_from(static_cast<std::size_t>(mesh.vertex_count), -1);
   for (int face = 0; face < mesh.triangles.rows(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
       corner_sums[mesh.triangles(face, corner)] += angle_of(mesh, face, corner);
-      if (mesh.across(face, corner) < 0) border_from[mesh.triangles(face, corner)] = 3 * face + corner;
+      if (mesh.across(face, corner) < 0)
+        border_from[mesh.triangles(face, corner)] = 3 * face + corner;
     }
   }
   MetricBuilder builder(mesh);
@@ -297,7 +319,8 @@ MetricMesh with_margin(const MetricMesh& mesh, const std::vector<std::vector<int
     start_at_landmark(loop);
     double perimeter = 0.0;
     for (const Rim& rim : loop) perimeter += rim.length;
-    const double first_width = std::min(perimeter / static_cast<double>(loop.size()), kCoarsest * width);
+    const double first_width =
+        std::min(perimeter / static_cast<double>(loop.size()), kCoarsest * width);
     fill_notches(loop, 2.0 * width, std::max(first_width, kFillShare * width), builder);
     if (!loop.empty()) add_rings(loop, first_width, width, builder);
   }

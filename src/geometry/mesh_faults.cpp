@@ -13,7 +13,8 @@
 namespace palpation {
 namespace {
 
-/// Corners of triangles, numbered as half-edges are, in groups that hang together: each group at a vertex is a fan.
+/// Corners of triangles, numbered as half-edges are, in groups that hang together: each group at a
+/// vertex is a fan.
 class Fans {
  public:
   explicit Fans(const Triangles& triangles) : parent_(static_cast<std::size_t>(triangles.size())) {
@@ -45,8 +46,8 @@ void check_indices(const TriangleMesh& mesh) {
   for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face) {
     const Eigen::Vector3i t = mesh.triangles.row(face);
     const bool exist = t.minCoeff() >= 0 && t.maxCoeff() < mesh.vertices.rows();
-    require(exist && t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "count_faults", "triangle " + std::to_string(face),
-            "must have three different vertices that exist");
+    require(exist && t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "count_faults",
+            "triangle " + std::to_string(face), "must have three different vertices that exist");
   }
 }
 
@@ -67,17 +68,22 @@ int count_pinched(const TriangleMesh& mesh, Fans& fans) {
 MeshFaults count_faults(const TriangleMesh& mesh) {
   check_indices(mesh);
   MeshFaults faults;
-  for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face) faults.flat_triangles += has_area(mesh, face) ? 0 : 1;
+  for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face)
+    faults.flat_triangles += has_area(mesh, face) ? 0 : 1;
   const EdgeTable edges(mesh.triangles, static_cast<int>(mesh.vertices.rows()));
   Fans fans(mesh.triangles);
   for (int edge = 0; edge < edges.size(); ++edge) {
     const std::span<const int> sides = edges.half_edges(edge);
-    const int start = half_edge_start(mesh.triangles, sides[0]), end = half_edge_end(mesh.triangles, sides[0]);
+    const int start = half_edge_start(mesh.triangles, sides[0]),
+              end = half_edge_end(mesh.triangles, sides[0]);
     for (const int side : sides.subspan(1)) {
-      for (const int vertex : {start, end}) fans.join(corner_at(mesh.triangles, side, vertex), corner_at(mesh.triangles, sides[0], vertex));
+      for (const int vertex : {start, end})
+        fans.join(corner_at(mesh.triangles, side, vertex),
+                  corner_at(mesh.triangles, sides[0], vertex));
     }
     if (sides.size() > 2) ++faults.crowded_edges;
-    if (sides.size() == 2 && half_edge_start(mesh.triangles, sides[1]) == start) ++faults.one_way_edges;
+    if (sides.size() == 2 && half_edge_start(mesh.triangles, sides[1]) == start)
+      ++faults.one_way_edges;
   }
   faults.pinched_vertices = count_pinched(mesh, fans);
   return faults;

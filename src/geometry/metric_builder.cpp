@@ -10,10 +10,12 @@ constexpr double kMuchLonger = 1.8;
 
 }  // namespace
 
-MetricBuilder::MetricBuilder(const MetricMesh& mesh) : vertex_count_(mesh.vertex_count), fixed_(static_cast<int>(mesh.triangles.rows())) {
+MetricBuilder::MetricBuilder(const MetricMesh& mesh)
+    : vertex_count_(mesh.vertex_count), fixed_(static_cast<int>(mesh.triangles.rows())) {
   faces_.reserve(static_cast<std::size_t>(fixed_) * 5 / 4);
   for (int face = 0; face < fixed_; ++face) {
-    faces_.push_back({mesh.triangles.row(face), mesh.lengths.row(face), mesh.across.row(face), 0.0});
+    faces_.push_back(
+        {mesh.triangles.row(face), mesh.lengths.row(face), mesh.across.row(face), 0.0});
   }
 }
 
@@ -33,13 +35,15 @@ double MetricBuilder::angle(int face, int corner) const {
   return angle_of(one, 0, corner);
 }
 
-/// The part of a half-edge's face beyond the middle of the edge becomes a face of its own; returns it. Its edge 0 is the second half.
+/// The part of a half-edge's face beyond the middle of the edge becomes a face of its own; returns
+/// it. Its edge 0 is the second half.
 int MetricBuilder::halve(int half_edge, int middle) {
   const int f = half_edge / 3, i = half_edge % 3, i1 = (i + 1) % 3, i2 = (i + 2) % 3;
   const Face whole = faces_[f];
   const double a = whole.lengths[i1], b = whole.lengths[i2], c = whole.lengths[i];
   const double median = 0.5 * std::sqrt(std::max(2.0 * (a * a + b * b) - c * c, 1e-12 * c * c));
-  const int fresh = add_face({middle, whole.vertices[i1], whole.vertices[i2]}, {0.5 * c, a, median}, whole.target);
+  const int fresh = add_face({middle, whole.vertices[i1], whole.vertices[i2]}, {0.5 * c, a, median},
+                             whole.target);
   const int beyond = whole.across[i1];
   if (beyond >= 0) glue(3 * fresh + 1, beyond);
   Face& kept = faces_[f];
@@ -63,10 +67,12 @@ void MetricBuilder::split(int half_edge) {
 
 void MetricBuilder::flip_to_delaunay() {
   MetricMesh mesh = done();
-  palpation::flip_to_delaunay(
-      mesh, [&](int face, int beyond) { return face >= fixed_ && beyond >= fixed_ && faces_[face].target == faces_[beyond].target; });
+  palpation::flip_to_delaunay(mesh, [&](int face, int beyond) {
+    return face >= fixed_ && beyond >= fixed_ && faces_[face].target == faces_[beyond].target;
+  });
   for (int face = 0; face < static_cast<int>(faces_.size()); ++face) {
-    faces_[face] = {mesh.triangles.row(face), mesh.lengths.row(face), mesh.across.row(face), faces_[face].target};
+    faces_[face] = {mesh.triangles.row(face), mesh.lengths.row(face), mesh.across.row(face),
+                    faces_[face].target};
   }
 }
 
@@ -76,7 +82,8 @@ void MetricBuilder::split_long_edges() {
     Face& here = faces_[face];
     for (int corner = 0; corner < 3; ++corner) {
       const int beyond = here.across[corner];
-      if (beyond >= 0 && beyond / 3 < fixed_) here.target = std::max(here.target, here.lengths[corner]);
+      if (beyond >= 0 && beyond / 3 < fixed_)
+        here.target = std::max(here.target, here.lengths[corner]);
     }
   }
   for (int face = fixed_; face < static_cast<int>(faces_.size()); ++face) {
@@ -87,7 +94,8 @@ void MetricBuilder::split_long_edges() {
         const Face& here = faces_[face];
         const int beyond = here.across[corner];
         if (beyond >= 0 && (beyond / 3 < fixed_ || beyond / 3 == face)) continue;
-        if (here.lengths[corner] > kMuchLonger * here.target && (longest < 0 || here.lengths[corner] > here.lengths[longest]))
+        if (here.lengths[corner] > kMuchLonger * here.target &&
+            (longest < 0 || here.lengths[corner] > here.lengths[longest]))
           longest = corner;
       }
       if (longest >= 0) {
@@ -100,7 +108,8 @@ void MetricBuilder::split_long_edges() {
 
 MetricMesh MetricBuilder::done() const {
   const auto count = static_cast<Eigen::Index>(faces_.size());
-  MetricMesh mesh{vertex_count_, Triangles(count, 3), MetricMesh::Lengths(count, 3), Triangles(count, 3)};
+  MetricMesh mesh{vertex_count_, Triangles(count, 3), MetricMesh::Lengths(count, 3),
+                  Triangles(count, 3)};
   for (Eigen::Index face = 0; face < count; ++face) {
     mesh.triangles.row(face) = faces_[static_cast<std::size_t>(face)].vertices;
     mesh.lengths.row(face) = faces_[static_cast<std::size_t>(face)].lengths;

@@ -19,8 +19,8 @@ class MetricBuilder {
   double length(int half_edge) const { return faces_[half_edge / 3].lengths[half_edge % 3]; }
   double angle(int face, int corner) const;
 
-  /// Flips edges between added faces of one target, until they are Delaunay: what fills a notch is long and thin before, and would be
-  /// split into far more triangles than its area asks for.
+  /// Flips edges between added faces of one target, until they are Delaunay: what fills a notch is
+  /// long and thin before, and would be split into far more triangles than its area asks for.
   void flip_to_delaunay();
 
   /// Halves the longest edges of added triangles while they are longer than 1.8 times their target.

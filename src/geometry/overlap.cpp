@@ -13,7 +13,8 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// A loop that never turns right (but by rounding), and turns around once: it bounds a convex part of the plane, once.
+/// A loop that never turns right (but by rounding), and turns around once: it bounds a convex part
+/// of the plane, once.
 bool is_convex(const std::vector<int>& loop, const Points2& uv) {
   constexpr double kStraight = 1e-9;  // radians
   const std::size_t count = loop.size();
@@ -40,7 +41,8 @@ Corners corners_of(const Triangles& triangles, Eigen::Index face, const Points2&
 }
 
 /// Inside each triangle at the border, along its border edge.
-std::vector<Line> lines_inside(const Triangles& triangles, const Triangles& neighbours, const Points2& uv, double rounding) {
+std::vector<Line> lines_inside(const Triangles& triangles, const Triangles& neighbours,
+                               const Points2& uv, double rounding) {
   std::vector<Line> lines;
   for (int face = 0; face < triangles.rows(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
@@ -53,7 +55,8 @@ std::vector<Line> lines_inside(const Triangles& triangles, const Triangles& neig
       const double least_height = cross(b - a, c - a) / longest;
       const double inset = std::max(1e-6, 4.0 * rounding / least_height);
       if (inset > 0.25) continue;  // too thin to tell
-      lines.push_back({(1.0 - 2.0 * inset) * a + inset * b + inset * c, inset * a + (1.0 - 2.0 * inset) * b + inset * c});
+      lines.push_back({(1.0 - 2.0 * inset) * a + inset * b + inset * c,
+                       inset * a + (1.0 - 2.0 * inset) * b + inset * c});
     }
   }
   return lines;
@@ -74,7 +77,8 @@ std::optional<Vec2> crossing(const Line& line, const Vec2& a, const Vec2& b) {
 std::vector<Line> edges_of(const std::vector<std::vector<int>>& border_loops, const Points2& uv) {
   std::vector<Line> edges;
   for (const std::vector<int>& loop : border_loops) {
-    for (std::size_t k = 0; k < loop.size(); ++k) edges.push_back({uv.row(loop[k]), uv.row(loop[(k + 1) % loop.size()])});
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      edges.push_back({uv.row(loop[k]), uv.row(loop[(k + 1) % loop.size()])});
   }
   return edges;
 }
@@ -87,12 +91,14 @@ struct NumberedBox : public PlainBox {
 };
 
 CGAL::Bbox_2 box_of(const Vec2& a, const Vec2& b) {
-  return {std::min(a.x(), b.x()), std::min(a.y(), b.y()), std::max(a.x(), b.x()), std::max(a.y(), b.y())};
+  return {std::min(a.x(), b.x()), std::min(a.y(), b.y()), std::max(a.x(), b.x()),
+          std::max(a.y(), b.y())};
 }
 
-/// The first line that more than one triangle covers. The border runs around a place as often as triangles cover it, which is counted
-/// along a ray to the right.
-std::optional<Vec2> first_covered_twice(const std::vector<Line>& lines, const std::vector<Line>& border,
+/// The first line that more than one triangle covers. The border runs around a place as often as
+/// triangles cover it, which is counted along a ray to the right.
+std::optional<Vec2> first_covered_twice(const std::vector<Line>& lines,
+                                        const std::vector<Line>& border,
                                         std::vector<NumberedBox>& edge_boxes) {
   double right = -std::numeric_limits<double>::infinity();
   for (const Line& edge : border) right = std::max(right, edge.from.x());
@@ -119,17 +125,21 @@ std::optional<Vec2> first_covered_twice(const std::vector<Line>& lines, const st
 }  // namespace
 
 std::optional<Vec2> place_of_overlap(const Triangles& triangles, const Triangles& neighbours,
-                                     const std::vector<std::vector<int>>& border_loops, const Points2& uv) {
+                                     const std::vector<std::vector<int>>& border_loops,
+                                     const Points2& uv) {
   if (border_loops.size() == 1 && is_convex(border_loops.front(), uv)) return std::nullopt;
   const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * uv.cwiseAbs().maxCoeff();
   const std::vector<Line> lines = lines_inside(triangles, neighbours, uv, rounding);
   const std::vector<Line> border = edges_of(border_loops, uv);
   std::vector<NumberedBox> line_boxes, edge_boxes;
-  for (const Line& line : lines) line_boxes.emplace_back(box_of(line.from, line.to), static_cast<int>(line_boxes.size()));
-  for (const Line& edge : border) edge_boxes.emplace_back(box_of(edge.from, edge.to), static_cast<int>(edge_boxes.size()));
+  for (const Line& line : lines)
+    line_boxes.emplace_back(box_of(line.from, line.to), static_cast<int>(line_boxes.size()));
+  for (const Line& edge : border)
+    edge_boxes.emplace_back(box_of(edge.from, edge.to), static_cast<int>(edge_boxes.size()));
 
   std::optional<Vec2> found;
-  int first = std::numeric_limits<int>::max();  // the line with the lowest number, whatever order the boxes come in
+  int first = std::numeric_limits<int>::max();  // the line with the lowest number, whatever order
+                                                // the boxes come in
   const auto look = [&](const NumberedBox& line_box, const NumberedBox& edge_box) {
     if (line_box.number >= first) return;
     const Line& edge = border[edge_box.number];
@@ -138,7 +148,8 @@ std::optional<Vec2> place_of_overlap(const Triangles& triangles, const Triangles
     found = place;
     first = line_box.number;
   };
-  CGAL::box_intersection_d(line_boxes.begin(), line_boxes.end(), edge_boxes.begin(), edge_boxes.end(), look);
+  CGAL::box_intersection_d(line_boxes.begin(), line_boxes.end(), edge_boxes.begin(),
+                           edge_boxes.end(), look);
   return found ? found : first_covered_twice(lines, border, edge_boxes);
 }
 

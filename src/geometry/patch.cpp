@@ -15,8 +15,8 @@
 namespace palpation {
 namespace {
 
-/// Whether a face comes within the radius in a straight line. Paths along the surface are longer, so all those of the radius' length stay
-/// in such faces.
+/// Whether a face comes within the radius in a straight line. Paths along the surface are longer,
+/// so all those of the radius' length stay in such faces.
 std::vector<bool> faces_in_ball(const Surface& surface, const Vec3& middle, double radius_m) {
   constexpr double kMargin = 1e-9;  // rounding must not cut off a path
   std::vector<bool> inside(surface.face_count());
@@ -39,7 +39,8 @@ bool contains(const Surface& surface, int face, const SurfacePoint& point) {
   return true;
 }
 
-TriangleMesh patch_by_distance(const Surface& surface, const SurfacePoint& middle, double radius_m) {
+TriangleMesh patch_by_distance(const Surface& surface, const SurfacePoint& middle,
+                               double radius_m) {
   const Field distance = distance_from(surface, std::span(&middle, 1), radius_m);
   std::vector<bool> keep(surface.face_count());
   int seed = -1;
@@ -55,15 +56,18 @@ TriangleMesh patch_by_distance(const Surface& surface, const SurfacePoint& middl
 
 void check(const PatchTests& tests) {
   if (tests.box) {
-    const bool is_box =
-        tests.box->least.allFinite() && tests.box->most.allFinite() && (tests.box->least.array() < tests.box->most.array()).all();
-    require(is_box, "patch_passing", "box", "must be finite, its least corner below its greatest along every axis");
+    const bool is_box = tests.box->least.allFinite() && tests.box->most.allFinite() &&
+                        (tests.box->least.array() < tests.box->most.array()).all();
+    require(is_box, "patch_passing", "box",
+            "must be finite, its least corner below its greatest along every axis");
   }
   if (tests.facing) {
     const Vec3& direction = tests.facing->direction;
-    require(direction.allFinite() && direction.norm() > 0.0, "patch_passing", "direction", "must be finite and not zero");
-    require(tests.facing->within_rad > 0.0 && tests.facing->within_rad <= std::numbers::pi, "patch_passing",
-            "within_rad " + text_of(tests.facing->within_rad), "must lie in (0, pi]");
+    require(direction.allFinite() && direction.norm() > 0.0, "patch_passing", "direction",
+            "must be finite and not zero");
+    require(tests.facing->within_rad > 0.0 && tests.facing->within_rad <= std::numbers::pi,
+            "patch_passing", "within_rad " + text_of(tests.facing->within_rad),
+            "must lie in (0, pi]");
   }
 }
 
@@ -71,12 +75,15 @@ bool passes(const Surface& surface, const PatchTests& tests, int face) {
   if (tests.box) {
     for (const int vertex : surface.triangle(face)) {
       const Vec3 place = surface.vertex(vertex);
-      if ((place.array() < tests.box->least.array()).any() || (place.array() > tests.box->most.array()).any()) return false;
+      if ((place.array() < tests.box->least.array()).any() ||
+          (place.array() > tests.box->most.array()).any())
+        return false;
     }
   }
   if (!tests.facing) return true;
   const Vec3 normal = surface.face_normal(face), direction = tests.facing->direction;
-  return std::atan2(normal.cross(direction).norm(), normal.dot(direction)) <= tests.facing->within_rad;
+  return std::atan2(normal.cross(direction).norm(), normal.dot(direction)) <=
+         tests.facing->within_rad;
 }
 
 Vec3 middle_of(const Surface& surface, int face) {
@@ -131,16 +138,21 @@ int seed_of_largest(const Surface& surface, const std::vector<bool>& keep) {
 }  // namespace
 
 TriangleMesh patch_around(const Surface& surface, const Vec3& centre, double radius_m) {
-  require(std::isfinite(radius_m) && radius_m > 0.0, "patch_around", "radius_m " + text_of(radius_m), "must be positive and finite");
+  require(std::isfinite(radius_m) && radius_m > 0.0, "patch_around",
+          "radius_m " + text_of(radius_m), "must be positive and finite");
   const SurfacePoint middle = surface.project(centre);
   if (surface.is_planar()) return patch_by_distance(surface, middle, radius_m);
   surface.note_computed("geodesics");
-  const CutOut ball = cut_out(surface, faces_in_ball(surface, surface.position(middle), radius_m), middle.face);
-  const auto face = std::lower_bound(ball.faces.begin(), ball.faces.end(), middle.face) - ball.faces.begin();
-  return patch_by_distance(Surface(ball.mesh), {static_cast<int>(face), middle.barycentric}, radius_m);
+  const CutOut ball =
+      cut_out(surface, faces_in_ball(surface, surface.position(middle), radius_m), middle.face);
+  const auto face =
+      std::lower_bound(ball.faces.begin(), ball.faces.end(), middle.face) - ball.faces.begin();
+  return patch_by_distance(Surface(ball.mesh), {static_cast<int>(face), middle.barycentric},
+                           radius_m);
 }
 
-TriangleMesh patch_passing(const Surface& surface, const PatchTests& tests, const std::optional<Vec3>& centre) {
+TriangleMesh patch_passing(const Surface& surface, const PatchTests& tests,
+                           const std::optional<Vec3>& centre) {
   check(tests);
   std::vector<bool> keep(surface.face_count());
   for (int face = 0; face < surface.face_count(); ++face) keep[face] = passes(surface, tests, face);

@@ -15,14 +15,19 @@ namespace {
 /// Nearer to the cutting plane than this share of the way's length is in it.
 constexpr double kThickness = 1e-9;
 
-/// Vertices in the plane count as lying on one side of it, so that the way passes each of them on a known side. Along a border only one
-/// choice leads through tissue.
+/// Vertices in the plane count as lying on one side of it, so that the way passes each of them on a
+/// known side. Along a border only one choice leads through tissue.
 enum class InPlane { Front, Behind };
 
 class SectionWalk {
  public:
-  SectionWalk(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, InPlane in_plane)
-      : surface_(surface), to_(to), in_plane_(in_plane), start_(surface.position(from)), travel_(surface.position(to) - start_) {
+  SectionWalk(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
+              InPlane in_plane)
+      : surface_(surface),
+        to_(to),
+        in_plane_(in_plane),
+        start_(surface.position(from)),
+        travel_(surface.position(to) - start_) {
     const Vec3 normal = surface.normal(from) + surface.normal(to);
     plane_ = normal.cross(travel_);
   }
@@ -33,7 +38,9 @@ class SectionWalk {
     std::optional<Exit> exit;
     int face = -1;
     for (int candidate : faces_around(from)) {
-      if (reaches_end(candidate)) return std::vector<Piece>{{candidate, weights_in(candidate, from), weights_in(candidate, to_)}};
+      if (reaches_end(candidate))
+        return std::vector<Piece>{
+            {candidate, weights_in(candidate, from), weights_in(candidate, to_)}};
       const std::optional<Exit> here = forward_exit(candidate);
       if (here && (!exit || here->progress > exit->progress)) {
         exit = here;
@@ -73,10 +80,12 @@ class SectionWalk {
     return side;
   }
 
-  bool in_front(double side) const { return side > 0.0 || (side == 0.0 && in_plane_ == InPlane::Front); }
+  bool in_front(double side) const {
+    return side > 0.0 || (side == 0.0 && in_plane_ == InPlane::Front);
+  }
 
-  /// Where the plane crosses an edge, if it does; a vertex in the plane counts as in front, so that the way passes every vertex on one
-  /// side.
+  /// Where the plane crosses an edge, if it does; a vertex in the plane counts as in front, so that
+  /// the way passes every vertex on one side.
   std::optional<Exit> crossing(int face, int edge) const {
     const Eigen::Vector3d side = sides(face);
     const int next = (edge + 1) % 3;
@@ -138,13 +147,16 @@ class SectionWalk {
   bool reaches_end(int face) const {
     if (face == to_.face) return true;
     for (int corner = 0; corner < 3; ++corner) {
-      if (to_.barycentric[corner] == 1.0) return corner_of(face, surface_.triangle(to_.face)[corner]) >= 0;
+      if (to_.barycentric[corner] == 1.0)
+        return corner_of(face, surface_.triangle(to_.face)[corner]) >= 0;
     }
     return false;
   }
 
   /// The weights of a point in a face that contains it.
-  Vec3 weights_in(int face, const SurfacePoint& point) const { return carried_over(point.face, point.barycentric, face); }
+  Vec3 weights_in(int face, const SurfacePoint& point) const {
+    return carried_over(point.face, point.barycentric, face);
+  }
 
   Vec3 carried_over(int face, const Vec3& weights, int other) const {
     if (face == other) return weights;
@@ -162,12 +174,15 @@ class SectionWalk {
   Vec3 start_, travel_, plane_;
 };
 
-std::vector<SurfacePoint> spaced_along(const Surface& surface, const std::vector<Piece>& pieces, double step_m) {
+std::vector<SurfacePoint> spaced_along(const Surface& surface, const std::vector<Piece>& pieces,
+                                       double step_m) {
   std::vector<SurfacePoint> places;
   double to_next = step_m;
   double total = 0.0;
   for (const Piece& piece : pieces) {
-    const double length = (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from})).norm();
+    const double length =
+        (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from}))
+            .norm();
     total += length;
     double done = 0.0;
     while (length - done >= to_next) {
@@ -179,11 +194,13 @@ std::vector<SurfacePoint> spaced_along(const Surface& surface, const std::vector
     to_next -= length - done;
   }
   // The end itself is a stop, not a place on the way.
-  if (!places.empty() && total - step_m * static_cast<double>(places.size()) < 1e-6 * step_m) places.pop_back();
+  if (!places.empty() && total - step_m * static_cast<double>(places.size()) < 1e-6 * step_m)
+    places.pop_back();
   return places;
 }
 
-std::vector<SurfacePoint> projected_line(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, double step_m) {
+std::vector<SurfacePoint> projected_line(const Surface& surface, const SurfacePoint& from,
+                                         const SurfacePoint& to, double step_m) {
   const Vec3 start = surface.position(from);
   const Vec3 travel = surface.position(to) - start;
   std::vector<SurfacePoint> places;
@@ -195,12 +212,14 @@ std::vector<SurfacePoint> projected_line(const Surface& surface, const SurfacePo
 double length_of(const Surface& surface, const std::vector<Piece>& pieces) {
   double length = 0.0;
   for (const Piece& piece : pieces)
-    length += (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from})).norm();
+    length +=
+        (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from}))
+            .norm();
   return length;
 }
 
-/// Not less than the length of the shortest path, and not much more: what a plane through both places and their normals cuts out where that
-/// is almost straight, else the fast estimate.
+/// Not less than the length of the shortest path, and not much more: what a plane through both
+/// places and their normals cuts out where that is almost straight, else the fast estimate.
 double length_at_most(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to) {
   constexpr double kAlmostStraight = 1.1, kRounding = 1.0 + 1e-9, kSlack = 1.02;
   const double straight = (surface.position(to) - surface.position(from)).norm();
@@ -213,22 +232,28 @@ double length_at_most(const Surface& surface, const SurfacePoint& from, const Su
 }
 
 /// The shortest path, looked for among ways not much longer first.
-std::optional<ShortestPath> shortest_path(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to) {
-  if (const auto path = unfolded_path(surface, from, to, length_at_most(surface, from, to))) return path;
+std::optional<ShortestPath> shortest_path(const Surface& surface, const SurfacePoint& from,
+                                          const SurfacePoint& to) {
+  if (const auto path = unfolded_path(surface, from, to, length_at_most(surface, from, to)))
+    return path;
   return unfolded_path(surface, from, to);
 }
 
 }  // namespace
 
-std::vector<SurfacePoint> way_between(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, double step_m) {
-  require(std::isfinite(step_m) && step_m > 0.0, "way_between", "step_m = " + text_of(step_m), "must be positive and finite");
+std::vector<SurfacePoint> way_between(const Surface& surface, const SurfacePoint& from,
+                                      const SurfacePoint& to, double step_m) {
+  require(std::isfinite(step_m) && step_m > 0.0, "way_between", "step_m = " + text_of(step_m),
+          "must be positive and finite");
   if (surface.is_planar()) {
     if ((surface.position(to) - surface.position(from)).norm() <= step_m) return {};
     for (const InPlane choice : {InPlane::Front, InPlane::Behind}) {
-      if (const auto pieces = SectionWalk(surface, from, to, choice).walk(from)) return spaced_along(surface, *pieces, step_m);
+      if (const auto pieces = SectionWalk(surface, from, to, choice).walk(from))
+        return spaced_along(surface, *pieces, step_m);
     }
   }
-  if (const auto path = shortest_path(surface, from, to)) return spaced_along(surface, path->pieces, step_m);
+  if (const auto path = shortest_path(surface, from, to))
+    return spaced_along(surface, path->pieces, step_m);
   return projected_line(surface, from, to, step_m);
 }
 

@@ -7,11 +7,13 @@
 namespace palpation {
 namespace {
 
-constexpr double kFlatness = 1e-6;  // of the diameter: what single precision, as in STL, keeps of a tilted plane
+constexpr double kFlatness =
+    1e-6;  // of the diameter: what single precision, as in STL, keeps of a tilted plane
 
 /// Twice the area times the normal.
 Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {
-  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)), b = mesh.vertices.row(mesh.triangles(face, 1)),
+  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)),
+             b = mesh.vertices.row(mesh.triangles(face, 1)),
              c = mesh.vertices.row(mesh.triangles(face, 2));
   return (b - a).cross(c - a);
 }
@@ -36,7 +38,8 @@ Vec3 centroid(const TriangleMesh& mesh) {
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     const double twice_area = area_vector(mesh, f).norm();
     Vec3 corners = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) corners += mesh.vertices.row(mesh.triangles(f, i)).transpose() - origin;
+    for (int i = 0; i < 3; ++i)
+      corners += mesh.vertices.row(mesh.triangles(f, i)).transpose() - origin;
     moment += twice_area * (corners / 3.0);
     weight += twice_area;
   }

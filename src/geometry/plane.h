@@ -12,7 +12,8 @@ Plane find_plane(const TriangleMesh& mesh, double diameter);
 /// Of the surface, each triangle weighing as much as its area.
 Vec3 centroid(const TriangleMesh& mesh);
 
-/// The direction of u for a tangent plane: the mesh's x axis in it, or y where x is within 10 degrees of the unit normal.
+/// The direction of u for a tangent plane: the mesh's x axis in it, or y where x is within 10
+/// degrees of the unit normal.
 Vec3 first_axis(const Vec3& normal);
 
 /// The frame of chart.h, for a mesh in that plane.

@@ -32,8 +32,10 @@ std::vector<SurfacePoint> sample_uniformly(const Surface& surface, int count, Ra
   std::vector<SurfacePoint> points;
   points.reserve(count);
   for (int k = 0; k < count; ++k) {
-    const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), random.uniform() * cumulative.back());
-    const int face = static_cast<int>(std::min(found - cumulative.begin(), static_cast<std::ptrdiff_t>(cumulative.size()) - 1));
+    const auto found = std::upper_bound(cumulative.begin(), cumulative.end(),
+                                        random.uniform() * cumulative.back());
+    const int face = static_cast<int>(
+        std::min(found - cumulative.begin(), static_cast<std::ptrdiff_t>(cumulative.size()) - 1));
     points.push_back({face, uniform_weights(random)});
   }
   return points;

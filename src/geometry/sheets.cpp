@@ -13,8 +13,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 void require_length(const char* function, const char* name, double length_m) {
-  require(std::isfinite(length_m) && length_m > 0.0, function, std::string(name) + " = " + text_of(length_m),
-          "must be positive and finite");
+  require(std::isfinite(length_m) && length_m > 0.0, function,
+          std::string(name) + " = " + text_of(length_m), "must be positive and finite");
 }
 
 void require_size(const char* function, const Vec2& size_m) {
@@ -33,14 +33,16 @@ Section fold(const FoldedOptions& options, double s) {
   s -= flank;
   if (s <= bend) {
     const double angle = s / radius;
-    return {{flank + radius * std::sin(angle), radius - radius * std::cos(angle)}, {-std::sin(angle), std::cos(angle)}};
+    return {{flank + radius * std::sin(angle), radius - radius * std::cos(angle)},
+            {-std::sin(angle), std::cos(angle)}};
   }
   s -= bend;
   if (s <= flank) return {{flank - s, 2.0 * radius}, {0.0, -1.0}};
   s -= flank;
   if (s <= bend) {
     const double angle = s / radius;
-    return {{-radius * std::sin(angle), 3.0 * radius - radius * std::cos(angle)}, {-std::sin(angle), -std::cos(angle)}};
+    return {{-radius * std::sin(angle), 3.0 * radius - radius * std::cos(angle)},
+            {-std::sin(angle), -std::cos(angle)}};
   }
   return {{s - bend, 4.0 * radius}, {0.0, 1.0}};
 }
@@ -50,20 +52,27 @@ Section fold(const FoldedOptions& options, double s) {
 Sheet cylinder_sheet(const CylinderOptions& options) {
   require_length("cylinder_sheet", "radius_m", options.radius_m);
   require_size("cylinder_sheet", options.size_m);
-  require(options.size_m.x() < 2.0 * kPi * options.radius_m, "cylinder_sheet", "size_m.x = " + text_of(options.size_m.x()),
+  require(options.size_m.x() < 2.0 * kPi * options.radius_m, "cylinder_sheet",
+          "size_m.x = " + text_of(options.size_m.x()),
           "must be less than once around, " + text_of(2.0 * kPi * options.radius_m));
   const double radius = options.radius_m, middle = 0.5 * options.size_m.x();
   const auto angle = [=](const Vec2& p) { return (p.x() - middle) / radius; };
-  return {.size_m = options.size_m,
-          .position = [=](const Vec2& p) { return Vec3(middle + radius * std::sin(angle(p)), p.y(), radius * (std::cos(angle(p)) - 1.0)); },
-          .normal = [=](const Vec2& p) { return Vec3(std::sin(angle(p)), 0.0, std::cos(angle(p))); },
-          .unrolled = [](const Vec2& p) { return p; }};
+  return {
+      .size_m = options.size_m,
+      .position =
+          [=](const Vec2& p) {
+            return Vec3(middle + radius * std::sin(angle(p)), p.y(),
+                        radius * (std::cos(angle(p)) - 1.0));
+          },
+      .normal = [=](const Vec2& p) { return Vec3(std::sin(angle(p)), 0.0, std::cos(angle(p))); },
+      .unrolled = [](const Vec2& p) { return p; }};
 }
 
 Sheet dome_sheet(const DomeOptions& options) {
   require_length("dome_sheet", "radius_m", options.radius_m);
   require_length("dome_sheet", "reach_m", options.reach_m);
-  require(options.reach_m < kPi * options.radius_m, "dome_sheet", "reach_m = " + text_of(options.reach_m),
+  require(options.reach_m < kPi * options.radius_m, "dome_sheet",
+          "reach_m = " + text_of(options.reach_m),
           "must not come to the other pole, " + text_of(kPi * options.radius_m));
   const double radius = options.radius_m;
   const auto normal = [=](const Vec2& p) -> Vec3 {
@@ -86,8 +95,13 @@ Sheet saddle_sheet(const SaddleOptions& options) {
   const double radius = options.radius_m;
   return {.corner_m = -0.5 * options.size_m,
           .size_m = options.size_m,
-          .position = [=](const Vec2& p) { return Vec3(p.x(), p.y(), (p.x() * p.x() - p.y() * p.y()) / (2.0 * radius)); },
-          .normal = [=](const Vec2& p) -> Vec3 { return Vec3(-p.x() / radius, p.y() / radius, 1.0).normalized(); },
+          .position =
+              [=](const Vec2& p) {
+                return Vec3(p.x(), p.y(), (p.x() * p.x() - p.y() * p.y()) / (2.0 * radius));
+              },
+          .normal = [=](const Vec2& p) -> Vec3 {
+            return Vec3(-p.x() / radius, p.y() / radius, 1.0).normalized();
+          },
           .unrolled = {}};
 }
 
@@ -95,14 +109,24 @@ Sheet wave_sheet(const WaveOptions& options) {
   require_length("wave_sheet", "amplitude_m", options.amplitude_m);
   require_length("wave_sheet", "wavelength_m", options.wavelength_m);
   require_size("wave_sheet", options.size_m);
-  const double amplitude = options.amplitude_m, rate = 2.0 * kPi / options.wavelength_m, steepest = amplitude * rate;
-  require(steepest <= 100.0, "wave_sheet", "amplitude_m = " + text_of(amplitude), "must be at most 16 times wavelength_m");
-  // Length of the sine curve: the integral of sqrt(1 + a^2 cos^2 u) = sqrt(1 + a^2) sqrt(1 - k^2 sin^2 u), k^2 = a^2 / (1 + a^2).
+  const double amplitude = options.amplitude_m, rate = 2.0 * kPi / options.wavelength_m,
+               steepest = amplitude * rate;
+  require(steepest <= 100.0, "wave_sheet", "amplitude_m = " + text_of(amplitude),
+          "must be at most 16 times wavelength_m");
+  // Length of the sine curve: the integral of sqrt(1 + a^2 cos^2 u) = sqrt(1 + a^2) sqrt(1 - k^2
+  // sin^2 u), k^2 = a^2 / (1 + a^2).
   const double stretch = std::sqrt(1.0 + steepest * steepest);
   return {.size_m = options.size_m,
-          .position = [=](const Vec2& p) { return Vec3(p.x(), p.y(), amplitude * std::sin(rate * p.y())); },
-          .normal = [=](const Vec2& p) -> Vec3 { return Vec3(0.0, -steepest * std::cos(rate * p.y()), 1.0).normalized(); },
-          .unrolled = [=](const Vec2& p) { return Vec2(p.x(), stretch / rate * std::ellint_2(steepest / stretch, rate * p.y())); }};
+          .position =
+              [=](const Vec2& p) { return Vec3(p.x(), p.y(), amplitude * std::sin(rate * p.y())); },
+          .normal = [=](const Vec2& p) -> Vec3 {
+            return Vec3(0.0, -steepest * std::cos(rate * p.y()), 1.0).normalized();
+          },
+          .unrolled =
+              [=](const Vec2& p) {
+                return Vec2(p.x(),
+                            stretch / rate * std::ellint_2(steepest / stretch, rate * p.y()));
+              }};
 }
 
 Sheet folded_sheet(const FoldedOptions& options) {

@@ -47,7 +47,8 @@ Eigen::MatrixXd gram(const std::vector<Strip>& block, const Eigen::SparseMatrix<
   const int strips = static_cast<int>(block.size());
   Eigen::MatrixXd result(strips * kStrip, strips * kStrip);
   for_ranges((strips + kGroup - 1) / kGroup, 1, [&](int first_group, int last_group) {
-    for (int start = first_group * kGroup; start < std::min(last_group * kGroup, strips); start += kGroup) {
+    for (int start = first_group * kGroup; start < std::min(last_group * kGroup, strips);
+         start += kGroup) {
       const int end = std::min(start + kGroup, strips);
       std::vector<Strip> products(static_cast<std::size_t>(end - start));
       for (int j = start; j < end; ++j) multiply(a, block[j], products[j - start]);
@@ -56,8 +57,8 @@ Eigen::MatrixXd gram(const std::vector<Strip>& block, const Eigen::SparseMatrix<
         const long count = std::min<long>(kRowsAtOnce, a.cols() - row);
         for (int i = start; i < strips; ++i) {
           for (int j = start; j < end; ++j) {
-            add_gram(block[i].data() + row * kStrip, products[j - start].data() + row * kStrip, count,
-                     sums[(j - start) * strips + i].data());
+            add_gram(block[i].data() + row * kStrip, products[j - start].data() + row * kStrip,
+                     count, sums[(j - start) * strips + i].data());
           }
         }
       }
@@ -75,12 +76,14 @@ Eigen::MatrixXd gram(const std::vector<Strip>& block, const Eigen::SparseMatrix<
 
 Ritz ritz(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> whole(scale.asDiagonal() * mass * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> whole(scale.asDiagonal() * mass *
+                                                             scale.asDiagonal());
   Eigen::Index dependent = 0;
   while (dependent < scale.size() && !(whole.eigenvalues()[dependent] > kDependent)) ++dependent;
   const Eigen::Index kept = scale.size() - dependent;
   const Eigen::MatrixXd basis =
-      scale.asDiagonal() * whole.eigenvectors().rightCols(kept) * whole.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+      scale.asDiagonal() * whole.eigenvectors().rightCols(kept) *
+      whole.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Eigen::MatrixXd reduced = basis.transpose() * stiffness * basis;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (reduced + reduced.transpose()));
   return {modes.eigenvalues(), basis * modes.eigenvectors()};

@@ -8,11 +8,13 @@
 
 namespace palpation {
 
-/// Share of the greatest eigenvalue wanted that the factor is shifted by. A greater one makes a flatter filter: slow waves do not drown the
-/// quicker ones, whose span is then known to its last digits, whatever is done to the mesh that changes rounding alone.
+/// Share of the greatest eigenvalue wanted that the factor is shifted by. A greater one makes a
+/// flatter filter: slow waves do not drown the quicker ones, whose span is then known to its last
+/// digits, whatever is done to the mesh that changes rounding alone.
 inline constexpr double kShift = 2.0;
 
-/// Y <- T_(q-1)(2 S / s - 1) S Y with S = c (G + c M)^-1 M, s its eigenvalue where the filter ends, q the number of solves.
+/// Y <- T_(q-1)(2 S / s - 1) S Y with S = c (G + c M)^-1 M, s its eigenvalue where the filter ends,
+/// q the number of solves.
 void filter(std::vector<Strip>& block, const ShiftedLaplacian& laplacian, double end);
 
 /// Y' A Y, by groups of strips whose products with A wait while all strips pass by.

@@ -13,11 +13,15 @@
 namespace palpation {
 namespace {
 
-constexpr double kLeastVariety = 1e-5;  // of features that measure about 1, among neighbours: less is a regular mesh
-constexpr double kAlike = 1e-6;         // traits that differ by less are the same
-constexpr double kTurns = 0.5;          // of a wave for a step in one trait as large as usual among neighbours
+constexpr double kLeastVariety =
+    1e-5;  // of features that measure about 1, among neighbours: less is a regular mesh
+constexpr double kAlike = 1e-6;  // traits that differ by less are the same
+constexpr double kTurns =
+    0.5;  // of a wave for a step in one trait as large as usual among neighbours
 
-std::size_t rows_of(const ShiftedLaplacian& laplacian) { return static_cast<std::size_t>(laplacian.mass.cols()); }
+std::size_t rows_of(const ShiftedLaplacian& laplacian) {
+  return static_cast<std::size_t>(laplacian.mass.cols());
+}
 
 /// c (G + c M)^-1 M: a mean over the neighbourhood.
 Strip spread(const ShiftedLaplacian& laplacian, const Strip& in) {
@@ -35,11 +39,14 @@ Strip features(const ShiftedLaplacian& laplacian) {
   const double mean = areas.mean();
   Random random(1);
   std::array<Vec3, kStrip> waves;
-  for (Vec3& wave : waves) wave = Vec3(3.0 * random.normal(), 3.0 * random.normal(), 6.0 * random.uniform());
+  for (Vec3& wave : waves)
+    wave = Vec3(3.0 * random.normal(), 3.0 * random.normal(), 6.0 * random.uniform());
   Strip made(rows_of(laplacian) * kStrip);
   for (Eigen::Index row = 0; row < areas.size(); ++row) {
-    const Vec3 traits(std::log(std::max(weights[row], 1e-9)), std::log(std::max(areas[row] / mean, 1e-9)), 1.0);
-    for (int lane = 0; lane < kStrip; ++lane) made[static_cast<std::size_t>(row * kStrip + lane)] = std::cos(waves[lane].dot(traits));
+    const Vec3 traits(std::log(std::max(weights[row], 1e-9)),
+                      std::log(std::max(areas[row] / mean, 1e-9)), 1.0);
+    for (int lane = 0; lane < kStrip; ++lane)
+      made[static_cast<std::size_t>(row * kStrip + lane)] = std::cos(waves[lane].dot(traits));
   }
   return made;
 }
@@ -49,22 +56,25 @@ bool has_twins(const Strip& traits) {
   const std::size_t count = traits.size() / kStrip;
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return traits[a * kStrip] < traits[b * kStrip]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return traits[a * kStrip] < traits[b * kStrip]; });
   const auto are_alike = [&](std::size_t a, std::size_t b) {
-    return std::equal(
-        traits.begin() + static_cast<std::ptrdiff_t>(a * kStrip), traits.begin() + static_cast<std::ptrdiff_t>((a + 1) * kStrip),
-        traits.begin() + static_cast<std::ptrdiff_t>(b * kStrip), [](double x, double y) { return std::abs(x - y) < kAlike; });
+    return std::equal(traits.begin() + static_cast<std::ptrdiff_t>(a * kStrip),
+                      traits.begin() + static_cast<std::ptrdiff_t>((a + 1) * kStrip),
+                      traits.begin() + static_cast<std::ptrdiff_t>(b * kStrip),
+                      [](double x, double y) { return std::abs(x - y) < kAlike; });
   };
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count && traits[order[j] * kStrip] - traits[order[i] * kStrip] < kAlike; ++j) {
+    for (std::size_t j = i + 1;
+         j < count && traits[order[j] * kStrip] - traits[order[i] * kStrip] < kAlike; ++j) {
       if (are_alike(order[i], order[j])) return true;
     }
   }
   return false;
 }
 
-/// Sixteen traits of each vertex that follow from what is around it, and differ among neighbours by about 1; nothing where they do not tell
-/// all vertices apart.
+/// Sixteen traits of each vertex that follow from what is around it, and differ among neighbours by
+/// about 1; nothing where they do not tell all vertices apart.
 std::optional<Strip> traits_of(const ShiftedLaplacian& laplacian) {
   Strip traits = spread(laplacian, features(laplacian));
   const Strip mean = spread(laplacian, traits);
@@ -106,7 +116,8 @@ Strip waves_of(const Strip& traits, const Eigen::VectorXd& scale, Random& random
       for (int lane = 0; lane < kStrip; ++lane) turns[lane] += here[trait] * slopes[trait][lane];
     }
     for (int lane = 0; lane < kStrip; ++lane)
-      strip[static_cast<std::size_t>(row * kStrip + lane)] = scale[row] * triangle_wave(turns[lane]);
+      strip[static_cast<std::size_t>(row * kStrip + lane)] =
+          scale[row] * triangle_wave(turns[lane]);
   }
   return strip;
 }
@@ -135,7 +146,9 @@ std::vector<Strip> start_block(const ShiftedLaplacian& laplacian, int strips) {
   std::vector<Random> streams;
   for (int i = 0; i < strips; ++i) streams.emplace_back(random.bits());
   for_ranges(strips, 1, [&](int first, int last) {
-    for (int i = first; i < last; ++i) block[static_cast<std::size_t>(i)] = waves_of(*traits, scale, streams[static_cast<std::size_t>(i)]);
+    for (int i = first; i < last; ++i)
+      block[static_cast<std::size_t>(i)] =
+          waves_of(*traits, scale, streams[static_cast<std::size_t>(i)]);
   });
   return block;
 }

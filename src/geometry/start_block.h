@@ -1,4 +1,5 @@
-/// Where the search for a surface's slow waves starts: vectors that are as if random, but follow from the surface alone.
+/// Where the search for a surface's slow waves starts: vectors that are as if random, but follow
+/// from the surface alone.
 #pragma once
 
 #include <vector>
@@ -17,10 +18,11 @@ struct ShiftedLaplacian {
 
 /// So many strips of vectors that look white over the surface.
 ///
-/// On an irregular mesh they are functions of the shapes of its triangles: each vertex' weight and area, spread over the neighbourhood, and
-/// folded into many waves. So they move along when vertices get other numbers, and all that is found from them does. Where the mesh is so
-/// regular that vertices are alike (on a grid, a mirrored half, one of two equal components), such functions could not tell those apart,
-/// and they are random signs by the numbers of the vertices.
+/// On an irregular mesh they are functions of the shapes of its triangles: each vertex' weight and
+/// area, spread over the neighbourhood, and folded into many waves. So they move along when
+/// vertices get other numbers, and all that is found from them does. Where the mesh is so regular
+/// that vertices are alike (on a grid, a mirrored half, one of two equal components), such
+/// functions could not tell those apart, and they are random signs by the numbers of the vertices.
 std::vector<Strip> start_block(const ShiftedLaplacian& laplacian, int strips);
 
 }  // namespace palpation

@@ -19,7 +19,8 @@ namespace palpation {
 namespace {
 
 Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {
-  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)), b = mesh.vertices.row(mesh.triangles(face, 1)),
+  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)),
+             b = mesh.vertices.row(mesh.triangles(face, 1)),
              c = mesh.vertices.row(mesh.triangles(face, 2));
   return 0.5 * (b - a).cross(c - a);
 }
@@ -36,7 +37,9 @@ double sum_of(const Field& terms) {
   return sum.value();
 }
 
-double diameter_of(const TriangleMesh& mesh) { return (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm(); }
+double diameter_of(const TriangleMesh& mesh) {
+  return (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+}
 
 Field thirds_of_faces(const TriangleMesh& mesh, const Field& face_areas) {
   Field areas = Field::Zero(mesh.vertices.rows());
@@ -55,15 +58,18 @@ Points angle_weighted_normals(const TriangleMesh& mesh) {
       const Vec3 to_next = mesh.vertices.row(mesh.triangles(f, (i + 1) % 3)).transpose() - corner;
       const Vec3 to_last = mesh.vertices.row(mesh.triangles(f, (i + 2) % 3)).transpose() - corner;
       // The arc tangent keeps its digits in slivers, where the arc cosine loses them.
-      normals.row(mesh.triangles(f, i)) += std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last)) * normal.transpose();
+      normals.row(mesh.triangles(f, i)) +=
+          std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last)) * normal.transpose();
     }
   }
   return normals;
 }
 
-/// Where the faces around a vertex cancel out (two sheets back to back), the vertex takes the normal of its lowest face.
+/// Where the faces around a vertex cancel out (two sheets back to back), the vertex takes the
+/// normal of its lowest face.
 void make_unit(Points& normals, const TriangleMesh& mesh, const std::vector<int>& face_of_vertex) {
-  constexpr double kCancelled = 1e-12;  // radians of angle that are left of at least one whole angle
+  constexpr double kCancelled =
+      1e-12;  // radians of angle that are left of at least one whole angle
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {
     const double length = normals.row(v).norm();
     if (length > kCancelled) {
@@ -76,8 +82,8 @@ void make_unit(Points& normals, const TriangleMesh& mesh, const std::vector<int>
 
 void check_index(int index, int count, const char* function, const char* what) {
   if (index >= 0 && index < count) return;
-  throw InvalidInput(std::string("Surface::") + function + ": " + what + " " + std::to_string(index) + " must be between 0 and " +
-                     std::to_string(count - 1));
+  throw InvalidInput(std::string("Surface::") + function + ": " + what + " " +
+                     std::to_string(index) + " must be between 0 and " + std::to_string(count - 1));
 }
 
 void check_point(const SurfacePoint& point, int face_count, const char* function) {
@@ -85,7 +91,8 @@ void check_point(const SurfacePoint& point, int face_count, const char* function
   const Vec3& b = point.barycentric;
   constexpr double kRounding = 1e-9;  // callers add up weights of their own
   if (b.minCoeff() >= -kRounding && std::abs(b.sum() - 1.0) <= kRounding) return;
-  throw InvalidInput(std::string("Surface::") + function + ": barycentric (" + text_of(b[0]) + ", " + text_of(b[1]) + ", " + text_of(b[2]) +
+  throw InvalidInput(std::string("Surface::") + function + ": barycentric (" + text_of(b[0]) +
+                     ", " + text_of(b[1]) + ", " + text_of(b[2]) +
                      ") must be at least 0 and add up to 1");
 }
 
@@ -97,7 +104,8 @@ Surface::Surface(TriangleMesh mesh) {
   state->mesh = std::move(mesh);
   state->half_edges = make_half_edge_mesh(state->mesh, state->connectivity.neighbours);
   state->border_loops = walk_borders(state->half_edges);
-  state->topology = count_topology(state->half_edges, state->connectivity.neighbours, static_cast<int>(state->border_loops.size()));
+  state->topology = count_topology(state->half_edges, state->connectivity.neighbours,
+                                   static_cast<int>(state->border_loops.size()));
   state->face_areas = face_areas_of(state->mesh);
   state->area = sum_of(state->face_areas);
   state->diameter = diameter_of(state->mesh);
@@ -138,7 +146,9 @@ double Surface::face_area(int face) const {
 }
 
 const Field& Surface::vertex_areas() const {
-  std::call_once(state_->vertex_areas_once, [this] { state_->vertex_areas = thirds_of_faces(state_->mesh, state_->face_areas); });
+  std::call_once(state_->vertex_areas_once, [this] {
+    state_->vertex_areas = thirds_of_faces(state_->mesh, state_->face_areas);
+  });
   return state_->vertex_areas;
 }
 
@@ -164,7 +174,8 @@ bool Surface::is_planar() const { return state_->plane.is_plane && !state_->laid
 SurfacePoint Surface::at_vertex(int vertex) const {
   const int face = face_of_vertex(vertex);
   SurfacePoint point{face, Vec3::Zero()};
-  for (int i = 0; i < 3; ++i) point.barycentric[i] = state_->mesh.triangles(face, i) == vertex ? 1.0 : 0.0;
+  for (int i = 0; i < 3; ++i)
+    point.barycentric[i] = state_->mesh.triangles(face, i) == vertex ? 1.0 : 0.0;
   return point;
 }
 
@@ -179,7 +190,8 @@ Vec3 Surface::position(const SurfacePoint& point) const {
   check_point(point, face_count(), "position");
   Vec3 position = Vec3::Zero();
   for (int i = 0; i < 3; ++i)
-    position += point.barycentric[i] * state_->mesh.vertices.row(state_->mesh.triangles(point.face, i)).transpose();
+    position += point.barycentric[i] *
+                state_->mesh.vertices.row(state_->mesh.triangles(point.face, i)).transpose();
   return position;
 }
 
@@ -187,7 +199,8 @@ Vec3 Surface::normal(const SurfacePoint& point) const {
   check_point(point, face_count(), "normal");
   const Points& normals = vertex_normals();
   Vec3 normal = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) normal += point.barycentric[i] * normals.row(state_->mesh.triangles(point.face, i)).transpose();
+  for (int i = 0; i < 3; ++i)
+    normal += point.barycentric[i] * normals.row(state_->mesh.triangles(point.face, i)).transpose();
   constexpr double kCancelled = 1e-12;  // of unit vectors' mean: opposite normals at a fold
   return normal.norm() > kCancelled ? normal.normalized() : face_normal(point.face);
 }
@@ -195,13 +208,15 @@ Vec3 Surface::normal(const SurfacePoint& point) const {
 double Surface::interpolate(const Field& field, const SurfacePoint& point) const {
   check_point(point, face_count(), "interpolate");
   if (field.size() != vertex_count()) {
-    throw InvalidInput("Surface::interpolate: field of " + std::to_string(field.size()) + " values must have one for each of the " +
-                       std::to_string(vertex_count()) + " vertices");
+    throw InvalidInput("Surface::interpolate: field of " + std::to_string(field.size()) +
+                       " values must have one for each of the " + std::to_string(vertex_count()) +
+                       " vertices");
   }
   double value = 0.0;
   for (int i = 0; i < 3; ++i) {
     // A weight of zero leaves a value out even where that is infinite.
-    if (point.barycentric[i] != 0.0) value += point.barycentric[i] * field[state_->mesh.triangles(point.face, i)];
+    if (point.barycentric[i] != 0.0)
+      value += point.barycentric[i] * field[state_->mesh.triangles(point.face, i)];
   }
   return value;
 }
@@ -211,7 +226,8 @@ int Surface::nearest_vertex(const Vec3& position) const {
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int v = 0; v < vertex_count(); ++v) {
-    const double distance_squared = (state_->mesh.vertices.row(v).transpose() - position).squaredNorm();
+    const double distance_squared =
+        (state_->mesh.vertices.row(v).transpose() - position).squaredNorm();
     if (distance_squared < least) {
       least = distance_squared;
       nearest = v;
@@ -243,22 +259,30 @@ void Surface::State::refuse_chart() const {
   const auto refuse = [](const std::string& what, const std::string& rule) {
     require(false, "Surface::chart", what, "has no chart: " + rule);
   };
-  if (plane.folded_face) refuse("a flat surface that is folded", "triangle " + std::to_string(*plane.folded_face) + " looks the other way");
+  if (plane.folded_face)
+    refuse("a flat surface that is folded",
+           "triangle " + std::to_string(*plane.folded_face) + " looks the other way");
   if (plane.is_plane) {
     const Vec2 place = laid_flat().overlap.value_or(Vec2::Zero());
     refuse("a flat surface that lies over itself",
-           "two of its sheets cover u = " + text_of(place.x()) + " m, v = " + text_of(place.y()) + " m of its plane");
+           "two of its sheets cover u = " + text_of(place.x()) + " m, v = " + text_of(place.y()) +
+               " m of its plane");
   }
-  const std::string reason = topology.is_disk() ? flattened().chart_fault : loops_in_the_way(topology, border_loops, mesh.vertices);
+  const std::string reason = topology.is_disk()
+                                 ? flattened().chart_fault
+                                 : loops_in_the_way(topology, border_loops, mesh.vertices);
   refuse("a curved surface", reason + "; work on a patch of it");
 }
 
 const Chart& Surface::chart() const {
-  if (!has_chart() || (!state_->is_flat() && !state_->flattened().chart_fault.empty())) state_->refuse_chart();
+  if (!has_chart() || (!state_->is_flat() && !state_->flattened().chart_fault.empty()))
+    state_->refuse_chart();
   return state_->chart;
 }
 
-bool Surface::has_chart() const { return state_->is_flat() ? is_planar() : state_->topology.is_disk(); }
+bool Surface::has_chart() const {
+  return state_->is_flat() ? is_planar() : state_->topology.is_disk();
+}
 
 std::vector<std::string> Surface::computed() const {
   const std::lock_guard lock(state_->computed_guard);

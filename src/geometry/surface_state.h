@@ -21,10 +21,12 @@ class ClosestPoint;
 struct Plane {
   bool is_plane = false;
   Vec3 normal = Vec3::UnitZ();
-  std::optional<Eigen::Index> folded_face = std::nullopt;  ///< a face that looks the other way, where all else is flat
+  std::optional<Eigen::Index> folded_face =
+      std::nullopt;  ///< a face that looks the other way, where all else is flat
 };
 
-/// All but the last group is fixed when the constructor is done. What is mutable is made at first use, each under its own flag.
+/// All but the last group is fixed when the constructor is done. What is mutable is made at first
+/// use, each under its own flag.
 struct Surface::State {
   /// Whether it lies in a plane, folded or not.
   bool is_flat() const { return plane.is_plane || plane.folded_face; }
@@ -45,7 +47,8 @@ struct Surface::State {
   double diameter = 0.0;
   Plane plane;
 
-  mutable std::once_flag vertex_areas_once, vertex_normals_once, chart_once, closest_point_once, order_once;
+  mutable std::once_flag vertex_areas_once, vertex_normals_once, chart_once, closest_point_once,
+      order_once;
   mutable Field vertex_areas;
   mutable Points vertex_normals;
   mutable Chart chart;

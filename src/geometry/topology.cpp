@@ -49,7 +49,8 @@ Topology count_topology(const HalfEdgeMesh& mesh, const Triangles& neighbours, i
   Topology topology;
   topology.components = count_components(neighbours);
   topology.borders = border_count;
-  topology.euler = static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) + static_cast<int>(mesh.n_faces());
+  topology.euler = static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) +
+                   static_cast<int>(mesh.n_faces());
   // Euler and Poincare: every component adds 2 - 2 handles - borders.
   topology.handles = (2 * topology.components - border_count - topology.euler) / 2;
   return topology;

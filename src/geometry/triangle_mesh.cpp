@@ -19,7 +19,8 @@ void check_mesh_to_refine(const TriangleMesh& mesh) {
     for (int i = 0; i < 3; ++i) {
       const int vertex = mesh.triangles(f, i);
       if (vertex >= 0 && vertex < mesh.vertices.rows()) continue;
-      throw InvalidInput("refine: triangle " + std::to_string(f) + ": vertex " + std::to_string(vertex) + " must be between 0 and " +
+      throw InvalidInput("refine: triangle " + std::to_string(f) + ": vertex " +
+                         std::to_string(vertex) + " must be between 0 and " +
                          std::to_string(mesh.vertices.rows() - 1));
     }
   }
@@ -29,18 +30,21 @@ double longest_edge_length(const TriangleMesh& mesh) {
   double longest = 0.0;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     for (int i = 0; i < 3; ++i) {
-      const Vec3 edge = mesh.vertices.row(mesh.triangles(f, (i + 1) % 3)) - mesh.vertices.row(mesh.triangles(f, i));
+      const Vec3 edge = mesh.vertices.row(mesh.triangles(f, (i + 1) % 3)) -
+                        mesh.vertices.row(mesh.triangles(f, i));
       longest = std::max(longest, edge.norm());
     }
   }
   return longest;
 }
 
-/// Every pass halves the edges, so the number of triangles is known before the first of them is made.
+/// Every pass halves the edges, so the number of triangles is known before the first of them is
+/// made.
 void check_triangles_needed(Eigen::Index triangles, double longest, double longest_edge_m) {
   std::int64_t needed = triangles;
   for (; longest > longest_edge_m && needed <= kMostTriangles; longest /= 2.0) needed *= 4;
-  require(needed <= kMostTriangles, "refine", "longest_edge_m = " + text_of(longest_edge_m), "would need more than 2^27 triangles");
+  require(needed <= kMostTriangles, "refine", "longest_edge_m = " + text_of(longest_edge_m),
+          "would need more than 2^27 triangles");
 }
 
 TriangleMesh split_every_triangle_in_four(const TriangleMesh& mesh) {
@@ -52,8 +56,10 @@ TriangleMesh split_every_triangle_in_four(const TriangleMesh& mesh) {
   Triangles midpoint(mesh.triangles.rows(), 3);  // of the edge from corner i to corner i + 1
   for (int e = 0; e < edges.size(); ++e) {
     const int any = edges.half_edges(e).front();
-    const int start = half_edge_start(mesh.triangles, any), end = half_edge_end(mesh.triangles, any);
-    finer.vertices.row(vertex_count + e) = 0.5 * mesh.vertices.row(start) + 0.5 * mesh.vertices.row(end);
+    const int start = half_edge_start(mesh.triangles, any),
+              end = half_edge_end(mesh.triangles, any);
+    finer.vertices.row(vertex_count + e) =
+        0.5 * mesh.vertices.row(start) + 0.5 * mesh.vertices.row(end);
     for (int h : edges.half_edges(e)) midpoint(h / 3, h % 3) = vertex_count + e;
   }
   finer.triangles.resize(4 * mesh.triangles.rows(), 3);
@@ -76,8 +82,8 @@ double extent_m(const TriangleMesh& mesh) {
 }
 
 TriangleMesh refine(TriangleMesh mesh, double longest_edge_m) {
-  require(std::isfinite(longest_edge_m) && longest_edge_m > 0.0, "refine", "longest_edge_m = " + text_of(longest_edge_m),
-          "must be positive and finite");
+  require(std::isfinite(longest_edge_m) && longest_edge_m > 0.0, "refine",
+          "longest_edge_m = " + text_of(longest_edge_m), "must be positive and finite");
   check_mesh_to_refine(mesh);
   double longest = longest_edge_length(mesh);
   check_triangles_needed(mesh.triangles.rows(), longest, longest_edge_m);

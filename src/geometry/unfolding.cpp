@@ -75,7 +75,8 @@ class Trace {
       const Vec2 place = windows_.in_frame(window.half_edge, frame, weights);
       const double rise = place.y() - window.image.y();
       double along = place.x();
-      if (rise > 0.0) along = window.image.x() - window.image.y() / rise * (place.x() - window.image.x());
+      if (rise > 0.0)
+        along = window.image.x() - window.image.y() / rise * (place.x() - window.image.x());
       along = std::clamp(along, window.from, window.to);
       const double share = along / frame.length;
       const int parent = windows_.parent_at(number, along);
@@ -102,31 +103,38 @@ class Trace {
 
 }  // namespace
 
-Field unfolded_distances(const Surface& surface, std::span<const SurfacePoint> sources, const UnfoldingLimits& limits) {
+Field unfolded_distances(const Surface& surface, std::span<const SurfacePoint> sources,
+                         const UnfoldingLimits& limits) {
   Windows windows(surface, sources, limits.radius_m, /*keeps_paths=*/false);
   windows.spread();
-  Field distances = Field::Constant(surface.vertex_count(), std::numeric_limits<double>::infinity());
+  Field distances =
+      Field::Constant(surface.vertex_count(), std::numeric_limits<double>::infinity());
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     const Reached& reached = windows.vertex(vertex);
-    if (reached.is_known && reached.distance <= limits.radius_m) distances[vertex] = reached.distance;
+    if (reached.is_known && reached.distance <= limits.radius_m)
+      distances[vertex] = reached.distance;
   }
   return distances;
 }
 
-std::vector<double> unfolded_distances_of(const Surface& surface, const SurfacePoint& source, std::span<const int> vertices,
-                                          double radius_m) {
+std::vector<double> unfolded_distances_of(const Surface& surface, const SurfacePoint& source,
+                                          std::span<const int> vertices, double radius_m) {
   Windows windows(surface, std::span(&source, 1), radius_m, /*keeps_paths=*/false);
   windows.spread();
   std::vector<double> distances;
   for (const int vertex : vertices) {
     const Reached& reached = windows.vertex(vertex);
-    distances.push_back(reached.is_known && reached.distance <= radius_m ? reached.distance : std::numeric_limits<double>::infinity());
+    distances.push_back(reached.is_known && reached.distance <= radius_m
+                            ? reached.distance
+                            : std::numeric_limits<double>::infinity());
   }
   return distances;
 }
 
-std::optional<ShortestPath> unfolded_path(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, double at_most_m) {
-  Windows windows(surface, std::span(&from, 1), std::numeric_limits<double>::infinity(), /*keeps_paths=*/true);
+std::optional<ShortestPath> unfolded_path(const Surface& surface, const SurfacePoint& from,
+                                          const SurfacePoint& to, double at_most_m) {
+  Windows windows(surface, std::span(&from, 1), std::numeric_limits<double>::infinity(),
+                  /*keeps_paths=*/true);
   windows.aim_at(to, at_most_m);
   windows.spread();
   if (!windows.target().is_known) return std::nullopt;

@@ -1,4 +1,5 @@
-/// Windows of light that fall from sources through edges into unfolded faces: the state of a search for shortest paths.
+/// Windows of light that fall from sources through edges into unfolded faces: the state of a search
+/// for shortest paths.
 #pragma once
 
 #include <queue>
@@ -11,22 +12,25 @@
 
 namespace palpation {
 
-/// Half-edge 3 f + i in the plane of its face f: it runs from the origin to (length, 0), and the third corner is at apex, above it.
+/// Half-edge 3 f + i in the plane of its face f: it runs from the origin to (length, 0), and the
+/// third corner is at apex, above it.
 struct EdgeFrame {
   double length;
   Vec2 apex;
 };
 
-/// The part [from, to] of a half-edge through which light falls into its face, straight from `image` (not above the edge), which is
-/// sigma away from the source.
+/// The part [from, to] of a half-edge through which light falls into its face, straight from
+/// `image` (not above the edge), which is sigma away from the source.
 struct Window {
   int half_edge;
-  int parent;  // the window that it is a part of, one face before; -1: the face before holds the origin
+  int parent;  // the window that it is a part of, one face before; -1: the face before holds the
+               // origin
   int origin;  // a vertex that light bends at, or -1 - the source's number
   double from, to;
   Vec2 image;
   double sigma;
-  int part = -1;  // another window that was made one with this and keeps its own parent; it may have such a part in turn
+  int part = -1;  // another window that was made one with this and keeps its own parent; it may
+                  // have such a part in turn
 };
 
 /// How a vertex is reached.
@@ -36,12 +40,14 @@ struct Reached {
   int window;  // through this one; -1: straight from the origin along an edge or through `face`
   int origin;  // as a window's
   int face;
-  double arrival;  // of a vertex: the angle in the face from its next corner to where the light comes from
+  double arrival;  // of a vertex: the angle in the face from its next corner to where the light
+                   // comes from
 };
 
 class Windows {
  public:
-  Windows(const Surface& surface, std::span<const SurfacePoint> sources, double radius_m, bool keeps_paths);
+  Windows(const Surface& surface, std::span<const SurfacePoint> sources, double radius_m,
+          bool keeps_paths);
 
   /// Only ways to this place count, and only those no longer than at_most_m.
   void aim_at(const SurfacePoint& target, double at_most_m);
@@ -52,7 +58,9 @@ class Windows {
   const Window& window(int number) const { return windows_[static_cast<std::size_t>(number)]; }
   /// The window that the light at this place of a window's half-edge came through before.
   int parent_at(int number, double along) const;
-  const SurfacePoint& source(int number) const { return sources_[static_cast<std::size_t>(number)]; }
+  const SurfacePoint& source(int number) const {
+    return sources_[static_cast<std::size_t>(number)];
+  }
 
   EdgeFrame frame(int half_edge) const;
   /// A point of the half-edge's face in its frame.
@@ -101,7 +109,8 @@ class Windows {
   void light_blade(const Blade& blade, int vertex, double distance, double first, double last);
   void reach_target(double distance, int window, int origin, int face);
   bool light_bends_at(int vertex) const;
-  bool is_shadowed(int half_edge, double from, double to, double to_from, double to_to, double length) const;
+  bool is_shadowed(int half_edge, double from, double to, double to_from, double to_to,
+                   double length) const;
   bool is_too_far(double distance, int half_edge) const;
   void add(Window window);
   bool joins(Window& window, double distance);
@@ -119,7 +128,8 @@ class Windows {
   Reached target_{};
   ZeroedArray<Reached> reached_;
   ZeroedArray<Best> best_;
-  ZeroedArray<int> waiting_;  // 1 + the last window added to a half-edge that is still to be crossed
+  ZeroedArray<int>
+      waiting_;  // 1 + the last window added to a half-edge that is still to be crossed
   std::vector<Window> windows_;
   std::vector<int> free_;
   mutable std::vector<Blade> fan_;

@@ -1,4 +1,5 @@
-/// Room for a record per element of a mesh, of which only a few will be used: memory that is not touched costs nothing.
+/// Room for a record per element of a mesh, of which only a few will be used: memory that is not
+/// touched costs nothing.
 #pragma once
 
 #include <cstdlib>
@@ -14,7 +15,8 @@ class ZeroedArray {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
-  explicit ZeroedArray(std::size_t count) : records_(static_cast<Record*>(std::calloc(count, sizeof(Record)))) {
+  explicit ZeroedArray(std::size_t count)
+      : records_(static_cast<Record*>(std::calloc(count, sizeof(Record)))) {
     if (!records_) throw std::bad_alloc();
   }
   Record& operator[](std::size_t index) { return records_.get()[index]; }

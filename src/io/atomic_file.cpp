@@ -68,26 +68,31 @@ fs::path file_behind(const fs::path& path) {
   return ignored || target.empty() ? path : target;
 }
 
-/// Beside the file, so that renaming stays within one file system; unique in this process and among processes.
+/// Beside the file, so that renaming stays within one file system; unique in this process and among
+/// processes.
 fs::path temporary_name(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  const std::string mark = ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string mark =
+      ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
   return path.parent_path() / (path.stem().string() + mark + path.extension().string());
 }
 
 void write_all(const Descriptor& file, const std::string& content, const fs::path& path) {
   std::size_t written = 0;
   while (written < content.size()) {
-    const ssize_t count = ::write(file.number(), content.data() + written, content.size() - written);
+    const ssize_t count =
+        ::write(file.number(), content.data() + written, content.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail_to_write(path, reason(errno));
     written += static_cast<std::size_t>(count);
   }
 }
 
-/// To the disk, then under its name: a crash in between leaves the old file. File systems without fsync say EINVAL.
+/// To the disk, then under its name: a crash in between leaves the old file. File systems without
+/// fsync say EINVAL.
 void finish(Descriptor& file, TemporaryFile& temporary, const fs::path& path) {
-  if (::fsync(file.number()) != 0 && errno != EINVAL && errno != EROFS) fail_to_write(path, reason(errno));
+  if (::fsync(file.number()) != 0 && errno != EINVAL && errno != EROFS)
+    fail_to_write(path, reason(errno));
   if (!file.close()) fail_to_write(path, reason(errno));
   if (::rename(temporary.path().c_str(), path.c_str()) != 0) fail_to_write(path, reason(errno));
   temporary.keep();
@@ -115,7 +120,9 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 }
 
 std::string read_file(const fs::path& path, std::uintmax_t limit_bytes) {
-  const auto fail = [&](const std::string& why) { throw IoError(path.string() + ": cannot read: " + why); };
+  const auto fail = [&](const std::string& why) {
+    throw IoError(path.string() + ": cannot read: " + why);
+  };
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file.is_open()) fail(reason(errno));
   struct ::stat status {};
@@ -123,7 +130,8 @@ std::string read_file(const fs::path& path, std::uintmax_t limit_bytes) {
   if (S_ISDIR(status.st_mode)) fail("is a folder");
   if (!S_ISREG(status.st_mode)) fail("is no regular file");
   const auto size = static_cast<std::uintmax_t>(status.st_size);
-  if (size > limit_bytes) fail(std::to_string(size) + " bytes are more than the limit of " + std::to_string(limit_bytes));
+  if (size > limit_bytes)
+    fail(std::to_string(size) + " bytes are more than the limit of " + std::to_string(limit_bytes));
   std::string content(size, '\0');
   std::size_t filled = 0;
   while (filled < content.size()) {

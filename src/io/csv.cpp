@@ -22,19 +22,22 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-[[noreturn]] void fail_at_line(const std::string& name, std::int64_t line, const std::string& what) {
+[[noreturn]] void fail_at_line(const std::string& name, std::int64_t line,
+                               const std::string& what) {
   throw IoError(name + ":" + std::to_string(line) + ": " + what);
 }
 
 /// Cuts one line into cells.
 class LineCutter {
  public:
-  LineCutter(std::string_view line, const std::string& name, std::int64_t number) : rest_(line), name_(name), number_(number) {}
+  LineCutter(std::string_view line, const std::string& name, std::int64_t number)
+      : rest_(line), name_(name), number_(number) {}
 
   std::vector<std::string> cells() {
     std::vector<std::string> cells;
     do {
-      if (cells.size() == kMostColumns) fail_at_line(name_, number_, "more than " + std::to_string(kMostColumns) + " columns");
+      if (cells.size() == kMostColumns)
+        fail_at_line(name_, number_, "more than " + std::to_string(kMostColumns) + " columns");
       cells.push_back(next_cell());
     } while (take_comma());
     return cells;
@@ -46,7 +49,8 @@ class LineCutter {
     if (!ahead.empty() && ahead[0] == '"') return quoted_cell();
     const std::size_t end = std::min(rest_.find(','), rest_.size());
     const std::string_view cell = trimmed(rest_.substr(0, end));
-    if (cell.find('"') != std::string_view::npos) fail_at_line(name_, number_, "a quote inside the cell " + in_quotes(cell));
+    if (cell.find('"') != std::string_view::npos)
+      fail_at_line(name_, number_, "a quote inside the cell " + in_quotes(cell));
     rest_.remove_prefix(end);
     return std::string(cell);
   }
@@ -56,7 +60,8 @@ class LineCutter {
     std::string cell;
     while (true) {
       const std::size_t quote = rest_.find('"');
-      if (quote == std::string_view::npos) fail_at_line(name_, number_, "a quoted cell does not end on its line");
+      if (quote == std::string_view::npos)
+        fail_at_line(name_, number_, "a quoted cell does not end on its line");
       cell += rest_.substr(0, quote);
       rest_.remove_prefix(quote + 1);
       if (rest_.empty() || rest_[0] != '"') break;
@@ -64,7 +69,8 @@ class LineCutter {
       rest_.remove_prefix(1);
     }
     const std::size_t end = std::min(rest_.find(','), rest_.size());
-    if (!trimmed(rest_.substr(0, end)).empty()) fail_at_line(name_, number_, "text behind the quoted cell " + in_quotes(cell));
+    if (!trimmed(rest_.substr(0, end)).empty())
+      fail_at_line(name_, number_, "text behind the quoted cell " + in_quotes(cell));
     rest_.remove_prefix(end);
     return cell;
   }
@@ -80,30 +86,39 @@ class LineCutter {
   std::int64_t number_;
 };
 
-bool is_number(const std::string& word) { return parse_number(word).status != NumberStatus::NotANumber; }
+bool is_number(const std::string& word) {
+  return parse_number(word).status != NumberStatus::NotANumber;
+}
 
-void check_columns(const std::vector<std::string>& columns, const std::string& name, std::int64_t line) {
+void check_columns(const std::vector<std::string>& columns, const std::string& name,
+                   std::int64_t line) {
   if (columns.size() == 1) {
     const std::string_view header = columns.front();
     for (const auto& [mark, word] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
       if (header.find(mark) != std::string_view::npos)
-        fail_at_line(name, line, std::string("the header has ") + word + " between its cells: commas are expected, and points in decimals");
+        fail_at_line(name, line,
+                     std::string("the header has ") + word +
+                         " between its cells: commas are expected, and points in decimals");
     }
   }
   if (std::all_of(columns.begin(), columns.end(), is_number))
-    fail_at_line(name, line, "the header line, which names the columns, is missing: this one holds numbers");
+    fail_at_line(name, line,
+                 "the header line, which names the columns, is missing: this one holds numbers");
   std::vector<std::string> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
   if (sorted.front().empty()) fail_at_line(name, line, "a column has no name");
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) fail_at_line(name, line, "column " + in_quotes(*twice) + " appears twice");
+  if (twice != sorted.end())
+    fail_at_line(name, line, "column " + in_quotes(*twice) + " appears twice");
 }
 
 void check_row(std::size_t cells, std::size_t columns, const std::string& name, std::int64_t line) {
   if (cells == columns) return;
-  fail_at_line(name, line,
-               std::to_string(cells) + (cells == 1 ? " cell" : " cells") + ", but the header names " + std::to_string(columns) +
-                   (cells > columns ? " columns (decimals take a point, not a comma)" : " columns"));
+  fail_at_line(
+      name, line,
+      std::to_string(cells) + (cells == 1 ? " cell" : " cells") + ", but the header names " +
+          std::to_string(columns) +
+          (cells > columns ? " columns (decimals take a point, not a comma)" : " columns"));
 }
 
 std::string_view without_mark(std::string_view text, const std::string& name) {
@@ -112,7 +127,9 @@ std::string_view without_mark(std::string_view text, const std::string& name) {
   if (nul != std::string_view::npos)
     throw IoError(name + ", byte " + std::to_string(nul) +
                   ": a NUL byte has no place in a text file (if this is UTF-16, save it as UTF-8)");
-  return text.substr(0, kByteOrderMark.size()) == kByteOrderMark ? text.substr(kByteOrderMark.size()) : text;
+  return text.substr(0, kByteOrderMark.size()) == kByteOrderMark
+             ? text.substr(kByteOrderMark.size())
+             : text;
 }
 
 }  // namespace
@@ -123,21 +140,30 @@ std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
   return std::string_view(cells_).substr(start, ends_[index] - start);
 }
 
-CsvTable read_csv(const std::filesystem::path& path) { return parse_csv(read_file(path, kMostBytes), path.string()); }
+CsvTable read_csv(const std::filesystem::path& path) {
+  return parse_csv(read_file(path, kMostBytes), path.string());
+}
 
 CsvTable parse_csv(std::string_view text, const std::string& name) {
-  if (text.size() > kMostBytes) throw IoError(name + ": more than " + std::to_string(kMostBytes) + " bytes");
+  if (text.size() > kMostBytes)
+    throw IoError(name + ": more than " + std::to_string(kMostBytes) + " bytes");
   text = without_mark(text, name);
   CsvTable table;
   table.name_ = name;
   table.cells_.reserve(text.size());
   table.ends_.reserve(
-      static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '\n' || c == '\r'; })) + 1);
-  table.lines_.reserve(static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; })) +
-                       1);
+      static_cast<std::size_t>(std::count_if(
+          text.begin(), text.end(), [](char c) { return c == ',' || c == '\n' || c == '\r'; })) +
+      1);
+  table.lines_.reserve(
+      static_cast<std::size_t>(
+          std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; })) +
+      1);
   LineCursor lines(text);
   while (const std::optional<std::string_view> line = lines.next()) {
-    if (line->size() > kLongestLine) fail_at_line(name, lines.line(), "a line of more than " + std::to_string(kLongestLine) + " bytes");
+    if (line->size() > kLongestLine)
+      fail_at_line(name, lines.line(),
+                   "a line of more than " + std::to_string(kLongestLine) + " bytes");
     if (trimmed(*line).empty()) continue;
     const std::vector<std::string> cells = LineCutter(*line, name, lines.line()).cells();
     const int number = static_cast<int>(lines.line());
@@ -154,7 +180,8 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
     }
     table.lines_.push_back(number);
   }
-  if (table.columns_.empty()) throw IoError(name + ": the file is empty; a header line that names the columns is expected");
+  if (table.columns_.empty())
+    throw IoError(name + ": the file is empty; a header line that names the columns is expected");
   return table;
 }
 
@@ -168,13 +195,19 @@ std::size_t column_index(const CsvTable& table, std::string_view column) {
   if (const std::optional<std::size_t> index = find_column(table, column)) return *index;
   std::string names;
   for (const std::string& other : table.columns()) names += (names.empty() ? "" : ", ") + other;
-  fail_at_line(table.name(), table.header_line(), "no column " + in_quotes(column) + " among " + in_quotes(names));
+  fail_at_line(table.name(), table.header_line(),
+               "no column " + in_quotes(column) + " among " + in_quotes(names));
 }
 
-void fail_at_row(const CsvTable& table, std::size_t row, const std::string& what) { fail_at_line(table.name(), table.line(row), what); }
+void fail_at_row(const CsvTable& table, std::size_t row, const std::string& what) {
+  fail_at_line(table.name(), table.line(row), what);
+}
 
-void fail_at_cell(const CsvTable& table, std::size_t row, std::size_t column, const std::string& rule) {
-  fail_at_row(table, row, "column " + table.columns()[column] + ": " + in_quotes(table.cell(row, column)) + " " + rule);
+void fail_at_cell(const CsvTable& table, std::size_t row, std::size_t column,
+                  const std::string& rule) {
+  fail_at_row(
+      table, row,
+      "column " + table.columns()[column] + ": " + in_quotes(table.cell(row, column)) + " " + rule);
 }
 
 std::optional<double> number_at(const CsvTable& table, std::size_t row, std::size_t column) {
@@ -186,7 +219,9 @@ std::optional<double> number_at(const CsvTable& table, std::size_t row, std::siz
       return number.value;
     case NumberStatus::NotANumber:
       fail_at_cell(table, row, column,
-                   cell.find(',') == std::string_view::npos ? "is not a number" : "is not a number: decimals take a point");
+                   cell.find(',') == std::string_view::npos
+                       ? "is not a number"
+                       : "is not a number: decimals take a point");
     case NumberStatus::TooLarge:
       fail_at_cell(table, row, column, "is too large for a double");
     case NumberStatus::Underflow:
@@ -208,7 +243,8 @@ std::string csv_line(std::span<const std::string> cells) {
     std::string cell = cells[i];
     std::replace_if(
         cell.begin(), cell.end(), [](char c) { return c == '\n' || c == '\r' || c == '\0'; }, ' ');
-    const bool plain = cell.find_first_of(",\"") == std::string::npos && trimmed(cell).size() == cell.size();
+    const bool plain =
+        cell.find_first_of(",\"") == std::string::npos && trimmed(cell).size() == cell.size();
     if (plain) {
       line += cell;
       continue;

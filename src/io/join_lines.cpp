@@ -55,8 +55,10 @@ class Joiner {
     std::vector<std::size_t>& here = lines_at_[place];
     while (!here.empty() && used_[here.back()]) here.pop_back();
     if (here.empty()) {
-      source_.fail("line " + std::to_string(last) + " ends at (" + text_of(place[0]) + ", " + text_of(place[1]) + ", " + text_of(place[2]) +
-                   ") m, and no other goes on there: a boundary is made of closed lines, also where it meets the tissue's border");
+      source_.fail("line " + std::to_string(last) + " ends at (" + text_of(place[0]) + ", " +
+                   text_of(place[1]) + ", " + text_of(place[2]) +
+                   ") m, and no other goes on there: a boundary is made of closed lines, also "
+                   "where it meets the tissue's border");
     }
     used_[here.back()] = true;
     return here.back();
@@ -80,7 +82,8 @@ class Joiner {
 
 }  // namespace
 
-std::vector<Line> joined_lines(const MeshSource& source, const std::vector<Vec3>& points, const std::vector<Line>& lines) {
+std::vector<Line> joined_lines(const MeshSource& source, const std::vector<Vec3>& points,
+                               const std::vector<Line>& lines) {
   return Joiner(source, points, lines).join();
 }
 

@@ -14,8 +14,8 @@ class Landing {
   /// Keeps a reference: the surface must outlive it.
   explicit Landing(const Surface& surface, double farthest_beside_m = 0.001);
 
-  /// The closest point of the surface; or nothing, and what is wrong, for a position more than 5 mm off the surface or too far beside
-  /// its border.
+  /// The closest point of the surface; or nothing, and what is wrong, for a position more than 5 mm
+  /// off the surface or too far beside its border.
   std::optional<SurfacePoint> place(const Vec3& position, std::string& fault);
 
   int moved() const { return moved_; }  ///< how many positions lay more than 0.1 mm off

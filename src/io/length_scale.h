@@ -1,4 +1,5 @@
-/// Metres to and from the unit of a file, in a way that reading back what was written gives the same doubles where there are such.
+/// Metres to and from the unit of a file, in a way that reading back what was written gives the
+/// same doubles where there are such.
 #pragma once
 
 #include <cmath>
@@ -22,11 +23,12 @@ inline double units_per_metre(LengthUnit unit) {
 /// Division by 1000 rounds once; multiplication by 0.001, which is no double, would round twice.
 inline double to_metres(double value, LengthUnit unit) { return value / units_per_metre(unit); }
 
-/// A value that to_metres takes back to value_m: a neighbour of the product, if not the product itself. A few doubles in a hundred have
-/// none; they come back within one unit in the last place.
+/// A value that to_metres takes back to value_m: a neighbour of the product, if not the product
+/// itself. A few doubles in a hundred have none; they come back within one unit in the last place.
 inline double from_metres(double value_m, LengthUnit unit) {
   const double product = value_m * units_per_metre(unit);
-  for (const double candidate : {product, std::nextafter(product, -HUGE_VAL), std::nextafter(product, HUGE_VAL)}) {
+  for (const double candidate :
+       {product, std::nextafter(product, -HUGE_VAL), std::nextafter(product, HUGE_VAL)}) {
     if (to_metres(candidate, unit) == value_m) return candidate;
   }
   return product;

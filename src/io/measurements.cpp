@@ -25,7 +25,8 @@ constexpr double kGreatestVariance = 1e60;
 constexpr double kLeastVariance = 1e-60;
 constexpr std::int64_t kLastBatch = 1'000'000;
 constexpr std::size_t kEnoughForOutliers = 8;
-constexpr double kFarOut = 1000.0;  // times the width of the middle half: neither noise nor a tumour
+constexpr double kFarOut =
+    1000.0;  // times the width of the middle half: neither noise nor a tumour
 
 struct Columns {
   explicit Columns(const CsvTable& table)
@@ -45,7 +46,8 @@ struct Columns {
 };
 
 /// A cell of a column that may be missing: then all its cells are empty.
-std::string_view word_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+std::string_view word_at(const CsvTable& table, std::size_t row,
+                         const std::optional<std::size_t>& column) {
   return column ? table.cell(row, *column) : std::string_view();
 }
 
@@ -55,10 +57,12 @@ double reading_at(const CsvTable& table, std::size_t row, std::size_t column) {
   fail_at_cell(table, row, column, "must be at most 1e30 in size: write it in another unit");
 }
 
-double noise_variance_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+double noise_variance_at(const CsvTable& table, std::size_t row,
+                         const std::optional<std::size_t>& column) {
   if (word_at(table, row, column).empty()) return std::numeric_limits<double>::quiet_NaN();
   const double variance = finite_number_at(table, row, *column);
-  if (variance == 0.0 || (variance >= kLeastVariance && variance <= kGreatestVariance)) return variance;
+  if (variance == 0.0 || (variance >= kLeastVariance && variance <= kGreatestVariance))
+    return variance;
   fail_at_cell(table, row, *column, "must be empty, 0, or 1e-60 to 1e60");
 }
 
@@ -70,7 +74,8 @@ int batch_at(const CsvTable& table, std::size_t row, const std::optional<std::si
   fail_at_cell(table, row, *column, "must be empty, or a whole number from 0 to 1000000");
 }
 
-TouchKind kind_at(const CsvTable& table, std::size_t row, const std::optional<std::size_t>& column) {
+TouchKind kind_at(const CsvTable& table, std::size_t row,
+                  const std::optional<std::size_t>& column) {
   const std::string_view word = word_at(table, row, column);
   if (word.empty() || word == "stop") return TouchKind::Stop;
   if (word == "way") return TouchKind::Way;
@@ -78,21 +83,30 @@ TouchKind kind_at(const CsvTable& table, std::size_t row, const std::optional<st
 }
 
 /// Zero stands for an unknown direction, as do three empty cells.
-Vec3 travel_at(const CsvTable& table, std::size_t row, const std::array<std::optional<std::size_t>, 3>& columns) {
-  const auto is_empty = [&](const std::optional<std::size_t>& column) { return word_at(table, row, column).empty(); };
+Vec3 travel_at(const CsvTable& table, std::size_t row,
+               const std::array<std::optional<std::size_t>, 3>& columns) {
+  const auto is_empty = [&](const std::optional<std::size_t>& column) {
+    return word_at(table, row, column).empty();
+  };
   if (std::all_of(columns.begin(), columns.end(), is_empty)) return Vec3::Zero();
   Vec3 travel;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!columns[i]) fail_at_row(table, row, "there is no column t" + std::string(1, "xyz"[i]) + ": a direction needs tx, ty and tz");
-    if (is_empty(columns[i])) fail_at_cell(table, row, *columns[i], "must be a finite number, or tx, ty and tz be empty");
+    if (!columns[i])
+      fail_at_row(
+          table, row,
+          "there is no column t" + std::string(1, "xyz"[i]) + ": a direction needs tx, ty and tz");
+    if (is_empty(columns[i]))
+      fail_at_cell(table, row, *columns[i], "must be a finite number, or tx, ty and tz be empty");
     travel[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, *columns[i]);
   }
-  // What is a unit vector but for rounding keeps its digits, so that a file comes back as it was written.
+  // What is a unit vector but for rounding keeps its digits, so that a file comes back as it was
+  // written.
   const bool is_unit = std::abs(travel.norm() - 1.0) <= 1e-12;
   return is_unit ? travel : Vec3(travel.stableNormalized());
 }
 
-SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& table, std::size_t row) {
+SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& table,
+                      std::size_t row) {
   std::string fault;
   const std::optional<SurfacePoint> place = landing.place(position, fault);
   if (!place) fail_at_row(table, row, fault);
@@ -103,15 +117,17 @@ SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& ta
 class Repeats {
  public:
   /// The place that a reading counts for: its own, or an earlier one within reach.
-  SurfacePoint settle(const SurfacePoint& where, const Vec3& position, const CsvTable& table, std::size_t row, double reading, bool exact) {
+  SurfacePoint settle(const SurfacePoint& where, const Vec3& position, const CsvTable& table,
+                      std::size_t row, double reading, bool exact) {
     const std::size_t number = places_.number_of(where, position);
     if (number == exact_rows_.size()) exact_rows_.emplace_back();
     if ((places_[number].position - position).norm() > kRounding_m) ++joined_;
     std::optional<Exact>& first = exact_rows_[number];
     if (exact && first && first->reading != reading) {
       fail_at_row(table, row,
-                  "the reading " + text_of(reading) + " contradicts " + text_of(first->reading) + " in line " +
-                      std::to_string(table.line(first->row)) + ": both are at one place and without noise");
+                  "the reading " + text_of(reading) + " contradicts " + text_of(first->reading) +
+                      " in line " + std::to_string(table.line(first->row)) +
+                      ": both are at one place and without noise");
     }
     if (exact && !first) first = Exact{row, reading};
     return places_[number].where;
@@ -121,7 +137,8 @@ class Repeats {
 
   void tell(const std::string& name, std::vector<std::string>& warnings) const {
     if (joined_ == 0) return;
-    warnings.push_back(name + ": " + std::to_string(joined_) + (joined_ == 1 ? " position lies" : " positions lie") +
+    warnings.push_back(name + ": " + std::to_string(joined_) +
+                       (joined_ == 1 ? " position lies" : " positions lie") +
                        " within a nanometre of an earlier one, and counts as the same place.");
   }
 
@@ -141,8 +158,10 @@ double at_rank(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(rank)];
 }
 
-/// Readings that stand out by more than any tissue does are kept, and told: a probe that slipped decides where the level lies.
-void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpations, std::vector<std::string>& warnings) {
+/// Readings that stand out by more than any tissue does are kept, and told: a probe that slipped
+/// decides where the level lies.
+void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpations,
+                   std::vector<std::string>& warnings) {
   const std::vector<double> used = used_readings(palpations);
   if (used.size() < kEnoughForOutliers) return;
   const double low = at_rank(used, 0.25), middle = at_rank(used, 0.5), high = at_rank(used, 0.75);
@@ -151,14 +170,20 @@ void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpatio
   int count = 0;
   for (std::size_t row = 0; row < palpations.size(); ++row) {
     const Palpation& palpation = palpations[row];
-    if (!palpation.set_aside.empty() || std::abs(palpation.reading - middle) <= kFarOut * (high - low)) continue;
-    if (++count <= 5) lines += (lines.empty() ? "" : ", ") + std::to_string(table.line(row)) + " (" + text_of(palpation.reading) + ")";
+    if (!palpation.set_aside.empty() ||
+        std::abs(palpation.reading - middle) <= kFarOut * (high - low))
+      continue;
+    if (++count <= 5)
+      lines += (lines.empty() ? "" : ", ") + std::to_string(table.line(row)) + " (" +
+               text_of(palpation.reading) + ")";
   }
   if (count == 0) return;
-  warnings.push_back(table.name() + ": " + (count == 1 ? "1 reading stands" : std::to_string(count) + " readings stand") +
-                     " more than 1000 times as far out as the middle half of all readings is wide, in line " + lines +
-                     (count > 5 ? " and others" : "") + (count == 1 ? ". It counts" : ". They count") +
-                     " like the others; if the probe slipped, say so in the column set_aside.");
+  warnings.push_back(
+      table.name() + ": " +
+      (count == 1 ? "1 reading stands" : std::to_string(count) + " readings stand") +
+      " more than 1000 times as far out as the middle half of all readings is wide, in line " +
+      lines + (count > 5 ? " and others" : "") + (count == 1 ? ". It counts" : ". They count") +
+      " like the others; if the probe slipped, say so in the column set_aside.");
 }
 
 void check_range(const CsvTable& table, const std::vector<Palpation>& palpations) {
@@ -166,15 +191,18 @@ void check_range(const CsvTable& table, const std::vector<Palpation>& palpations
   if (all_equal(used)) return;
   const auto [least, most] = std::ranges::minmax(used);
   if (most - least < kLeastRange)
-    throw IoError(table.name() + ": column reading: the readings differ by " + text_of(most - least) +
-                  " at most; where they differ it must be by 1e-30 at least: write them in another unit");
+    throw IoError(
+        table.name() + ": column reading: the readings differ by " + text_of(most - least) +
+        " at most; where they differ it must be by 1e-30 at least: write them in another unit");
 }
 
-/// Rows that were given twice tell nothing new, and readings that never scatter would pass for ones without noise. A sensor that counts may
-/// repeat itself to the last digit at a place touched again, but not more often than not.
-void set_aside_copies(const CsvTable& table, const Surface& surface, std::vector<Palpation>& palpations,
-                      std::vector<std::string>& warnings) {
-  std::map<std::array<double, 3>, std::map<std::array<double, 2>, std::size_t>> rows_at;  // by place, then reading and noise
+/// Rows that were given twice tell nothing new, and readings that never scatter would pass for ones
+/// without noise. A sensor that counts may repeat itself to the last digit at a place touched
+/// again, but not more often than not.
+void set_aside_copies(const CsvTable& table, const Surface& surface,
+                      std::vector<Palpation>& palpations, std::vector<std::string>& warnings) {
+  std::map<std::array<double, 3>, std::map<std::array<double, 2>, std::size_t>>
+      rows_at;  // by place, then reading and noise
   std::vector<std::pair<std::size_t, std::size_t>> copies;
   std::size_t revisits = 0;
   for (std::size_t row = 0; row < palpations.size(); ++row) {
@@ -182,24 +210,32 @@ void set_aside_copies(const CsvTable& table, const Surface& surface, std::vector
     const Vec3 place = surface.position(palpations[row].where);
     auto& rows = rows_at[{place.x(), place.y(), place.z()}];
     revisits += !rows.empty();
-    const double noise = std::isnan(palpations[row].noise_variance) ? -1.0 : palpations[row].noise_variance;
+    const double noise =
+        std::isnan(palpations[row].noise_variance) ? -1.0 : palpations[row].noise_variance;
     const auto [first, is_new] = rows.try_emplace({palpations[row].reading, noise}, row);
     if (!is_new) copies.emplace_back(row, first->second);
   }
   if (copies.empty() || 2 * copies.size() < revisits) return;
-  for (const auto& [row, first] : copies) palpations[row].set_aside = "copy of line " + std::to_string(table.line(first));
+  for (const auto& [row, first] : copies)
+    palpations[row].set_aside = "copy of line " + std::to_string(table.line(first));
   const auto& [row, first] = copies.front();
-  const std::string words = copies.size() == 1 ? " row repeats an earlier one, place and reading alike to every digit, and is"
-                                               : " rows repeat earlier ones, place and reading alike to every digit, and are";
-  warnings.push_back(table.name() + ": " + std::to_string(copies.size()) + words + " set aside: line " + std::to_string(table.line(row)) +
-                     " repeats line " + std::to_string(table.line(first)) + ".");
+  const std::string words =
+      copies.size() == 1
+          ? " row repeats an earlier one, place and reading alike to every digit, and is"
+          : " rows repeat earlier ones, place and reading alike to every digit, and are";
+  warnings.push_back(table.name() + ": " + std::to_string(copies.size()) + words +
+                     " set aside: line " + std::to_string(table.line(row)) + " repeats line " +
+                     std::to_string(table.line(first)) + ".");
 }
 
-std::string noise_text(double variance) { return std::isnan(variance) ? std::string() : text_of(variance); }
+std::string noise_text(double variance) {
+  return std::isnan(variance) ? std::string() : text_of(variance);
+}
 
 }  // namespace
 
-MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface, const MeasurementRules& rules) {
+MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
+                                   const MeasurementRules& rules) {
   const CsvTable table = read_csv(path);
   const Columns columns(table);
   Landing landing(surface);
@@ -209,7 +245,8 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   std::size_t farthest_row = 0;
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     Vec3 position;
-    for (std::size_t i = 0; i < 3; ++i) position[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, columns.position[i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      position[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, columns.position[i]);
     const double farthest_m = landing.farthest_m();
     Palpation palpation{.where = place_at(landing, position, table, row),
                         .reading = reading_at(table, row, columns.reading),
@@ -220,8 +257,10 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
                         .set_aside = std::string(word_at(table, row, columns.set_aside))};
     if (landing.farthest_m() > farthest_m) farthest_row = row;
     if (palpation.set_aside.empty()) {
-      const bool exact = palpation.noise_variance == 0.0 || (rules.empty_noise_is_none && std::isnan(palpation.noise_variance));
-      palpation.where = repeats.settle(palpation.where, surface.position(palpation.where), table, row, palpation.reading, exact);
+      const bool exact = palpation.noise_variance == 0.0 ||
+                         (rules.empty_noise_is_none && std::isnan(palpation.noise_variance));
+      palpation.where = repeats.settle(palpation.where, surface.position(palpation.where), table,
+                                       row, palpation.reading, exact);
     }
     file.palpations.push_back(std::move(palpation));
   }
@@ -229,9 +268,11 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   set_aside_copies(table, surface, file.palpations, file.warnings);
   file.places = static_cast<int>(repeats.places());
   if (landing.moved() > 0) {
-    file.warnings.push_back(table.name() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(table.row_count()) +
-                            " positions lay off the surface, by up to " + text_of(landing.farthest_m()) + " m in line " +
-                            std::to_string(table.line(farthest_row)) + ", and were taken to its closest points.");
+    file.warnings.push_back(
+        table.name() + ": " + std::to_string(landing.moved()) + " of " +
+        std::to_string(table.row_count()) + " positions lay off the surface, by up to " +
+        text_of(landing.farthest_m()) + " m in line " + std::to_string(table.line(farthest_row)) +
+        ", and were taken to its closest points.");
   }
   repeats.tell(table.name(), file.warnings);
   tell_outliers(table, file.palpations, file.warnings);
@@ -242,7 +283,9 @@ std::string measurements_csv(const Surface& surface, std::span<const Palpation> 
   std::string text = "x,y,z,reading,noise_variance,batch,kind,tx,ty,tz,set_aside\n";
   for (const Palpation& palpation : palpations) {
     const Vec3 position = surface.position(palpation.where);
-    const auto travel = [&](int i) { return palpation.travel.isZero(0.0) ? std::string() : text_of(palpation.travel[i]); };
+    const auto travel = [&](int i) {
+      return palpation.travel.isZero(0.0) ? std::string() : text_of(palpation.travel[i]);
+    };
     const std::array<std::string, 11> cells = {text_of(position.x()),
                                                text_of(position.y()),
                                                text_of(position.z()),

@@ -29,7 +29,8 @@ std::optional<std::string_view> LineCursor::next() {
 }
 
 std::optional<std::string_view> WordCursor::next() {
-  while (position_ < text_.size() && (is_blank(text_[position_]) || is_line_end(text_[position_]))) {
+  while (position_ < text_.size() &&
+         (is_blank(text_[position_]) || is_line_end(text_[position_]))) {
     if (!is_line_end(text_[position_])) {
       ++position_;
       continue;
@@ -39,7 +40,8 @@ std::optional<std::string_view> WordCursor::next() {
   }
   if (position_ >= text_.size()) return std::nullopt;
   const std::size_t first = position_;
-  while (position_ < text_.size() && !is_blank(text_[position_]) && !is_line_end(text_[position_])) ++position_;
+  while (position_ < text_.size() && !is_blank(text_[position_]) && !is_line_end(text_[position_]))
+    ++position_;
   return text_.substr(first, position_ - first);
 }
 
@@ -62,7 +64,8 @@ void split_words(std::string_view line, std::vector<std::string_view>& words, st
 
 std::string_view without_comment(std::string_view line) {
   std::size_t mark = line.find('#');
-  while (mark != std::string_view::npos && mark > 0 && !is_blank(line[mark - 1])) mark = line.find('#', mark + 1);
+  while (mark != std::string_view::npos && mark > 0 && !is_blank(line[mark - 1]))
+    mark = line.find('#', mark + 1);
   return line.substr(0, mark);
 }
 
@@ -74,10 +77,12 @@ std::string lower_case(std::string_view word) {
   return lower;
 }
 
-double CoordinateReader::coordinate(std::string_view word, int component, std::int64_t vertex, std::int64_t line) {
+double CoordinateReader::coordinate(std::string_view word, int component, std::int64_t vertex,
+                                    std::int64_t line) {
   const ParsedNumber number = parse_number(word);
   const auto fail = [&](const std::string& rule) {
-    source_.fail_at_line(line, "vertex " + std::to_string(vertex) + ": " + "xyz"[component] + " = " + in_quotes(word) + " " + rule);
+    source_.fail_at_line(line, "vertex " + std::to_string(vertex) + ": " + "xyz"[component] +
+                                   " = " + in_quotes(word) + " " + rule);
   };
   if (number.status == NumberStatus::NotANumber) fail("is not a number (decimal point, no units)");
   if (number.status == NumberStatus::TooLarge) fail("is too large for a double");
@@ -86,10 +91,12 @@ double CoordinateReader::coordinate(std::string_view word, int component, std::i
   return number.value;
 }
 
-Vec3 CoordinateReader::point(std::span<const std::string_view, 3> words, std::int64_t vertex, std::int64_t line) {
+Vec3 CoordinateReader::point(std::span<const std::string_view, 3> words, std::int64_t vertex,
+                             std::int64_t line) {
   Vec3 point;
   for (int component = 0; component < 3; ++component) {
-    point[component] = coordinate(words[static_cast<std::size_t>(component)], component, vertex, line);
+    point[component] =
+        coordinate(words[static_cast<std::size_t>(component)], component, vertex, line);
   }
   return point;
 }

@@ -1,4 +1,5 @@
-/// Walking through the text of a mesh file: lines (LF, CRLF or CR alone), words, and the coordinates in them.
+/// Walking through the text of a mesh file: lines (LF, CRLF or CR alone), words, and the
+/// coordinates in them.
 #pragma once
 
 #include <array>
@@ -51,8 +52,10 @@ class WordCursor {
   std::int64_t line_ = 1;
 };
 
-/// The words of one line, into a vector that is used again. At most `most`: who expects a few need not hold all those of a long line.
-void split_words(std::string_view line, std::vector<std::string_view>& words, std::size_t most = std::string_view::npos);
+/// The words of one line, into a vector that is used again. At most `most`: who expects a few need
+/// not hold all those of a long line.
+void split_words(std::string_view line, std::vector<std::string_view>& words,
+                 std::size_t most = std::string_view::npos);
 
 /// The line before its comment: a word that begins with '#', and the rest.
 std::string_view without_comment(std::string_view line);

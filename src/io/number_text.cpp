@@ -15,26 +15,34 @@ std::string_view without_plus(std::string_view word) {
   return plus ? word.substr(1) : word;
 }
 
-std::string_view mantissa_of(std::string_view word) { return word.substr(0, word.find_first_of("eE")); }
+std::string_view mantissa_of(std::string_view word) {
+  return word.substr(0, word.find_first_of("eE"));
+}
 
 bool has_nonzero_digit(std::string_view word) {
   const std::string_view mantissa = mantissa_of(word);
   return std::any_of(mantissa.begin(), mantissa.end(), [](char c) { return c >= '1' && c <= '9'; });
 }
 
-/// Decimal exponent of the first digit that is not zero: from_chars reports too large and too small alike.
+/// Decimal exponent of the first digit that is not zero: from_chars reports too large and too small
+/// alike.
 std::int64_t magnitude_of(std::string_view word) {
   const std::string_view mantissa = mantissa_of(word);
   const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
   const std::size_t leading = mantissa.find_first_of("123456789");
-  const auto place = leading < point ? static_cast<std::int64_t>(point - leading) - 1 : -static_cast<std::int64_t>(leading - point);
+  const auto place = leading < point ? static_cast<std::int64_t>(point - leading) - 1
+                                     : -static_cast<std::int64_t>(leading - point);
   if (mantissa.size() == word.size()) return place;
   const std::string_view exponent = without_plus(word.substr(mantissa.size() + 1));
   std::int64_t value = 0;
-  const auto [end, status] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), value);
+  const auto [end, status] =
+      std::from_chars(exponent.data(), exponent.data() + exponent.size(), value);
   if (status == std::errc::result_out_of_range)
-    return exponent[0] == '-' ? std::numeric_limits<std::int64_t>::min() / 2 : std::numeric_limits<std::int64_t>::max() / 2;
-  return std::clamp(value, std::numeric_limits<std::int64_t>::min() / 2, std::numeric_limits<std::int64_t>::max() / 2) + place;
+    return exponent[0] == '-' ? std::numeric_limits<std::int64_t>::min() / 2
+                              : std::numeric_limits<std::int64_t>::max() / 2;
+  return std::clamp(value, std::numeric_limits<std::int64_t>::min() / 2,
+                    std::numeric_limits<std::int64_t>::max() / 2) +
+         place;
 }
 
 }  // namespace
@@ -43,7 +51,8 @@ ParsedNumber parse_number(std::string_view word) {
   const std::string_view text = without_plus(word);
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size() || status == std::errc::invalid_argument) return {0.0, NumberStatus::NotANumber};
+  if (end != text.data() + text.size() || status == std::errc::invalid_argument)
+    return {0.0, NumberStatus::NotANumber};
   const bool spelled_number = std::any_of(text.begin(), text.end(), is_digit);
   if (status == std::errc::result_out_of_range || (spelled_number && std::isinf(value))) {
     if (magnitude_of(text) > 0) return {value, NumberStatus::TooLarge};
@@ -64,7 +73,8 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   std::string text = "\"";
-  for (const char c : word.substr(0, kLongest)) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  for (const char c : word.substr(0, kLongest))
+    text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return text + (word.size() > kLongest ? "...\"" : "\"");
 }
 

@@ -15,7 +15,8 @@ struct ParsedNumber {
   NumberStatus status = NumberStatus::NotANumber;
 };
 
-/// The whole word as a double, correctly rounded; "nan" and "inf" are numbers here. A leading plus is welcome.
+/// The whole word as a double, correctly rounded; "nan" and "inf" are numbers here. A leading plus
+/// is welcome.
 ParsedNumber parse_number(std::string_view word);
 
 /// The whole word as an integer; nothing if it is none, or none that fits.

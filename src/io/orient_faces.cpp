@@ -8,7 +8,8 @@
 namespace palpation {
 namespace {
 
-/// Side 3 t + i runs from corner i to corner i + 1 of triangle t; low and high are the vertices of its edge.
+/// Side 3 t + i runs from corner i to corner i + 1 of triangle t; low and high are the vertices of
+/// its edge.
 class Sides {
  public:
   explicit Sides(const std::vector<SoupTriangle>& triangles) : triangles_(triangles) {}
@@ -20,8 +21,12 @@ class Sides {
   bool share_edge(int a, int b) const { return low(a) == low(b) && high(a) == high(b); }
 
  private:
-  int start(int side) const { return triangles_[triangle(side)].corners[static_cast<std::size_t>(side) % 3]; }
-  int end(int side) const { return triangles_[triangle(side)].corners[(static_cast<std::size_t>(side) + 1) % 3]; }
+  int start(int side) const {
+    return triangles_[triangle(side)].corners[static_cast<std::size_t>(side) % 3];
+  }
+  int end(int side) const {
+    return triangles_[triangle(side)].corners[(static_cast<std::size_t>(side) + 1) % 3];
+  }
 
   const std::vector<SoupTriangle>& triangles_;
 };
@@ -53,12 +58,13 @@ std::vector<int> by_edge(const Sides& sides, std::size_t point_count) {
 Adjacency adjacency_of(const std::vector<SoupTriangle>& triangles, std::size_t point_count) {
   const Sides sides(triangles);
   const std::vector<int> sorted = by_edge(sides, point_count);
-  Adjacency adjacency{std::vector<std::array<Neighbour, 3>>(triangles.size()), std::vector<int>(triangles.size(), 0),
+  Adjacency adjacency{std::vector<std::array<Neighbour, 3>>(triangles.size()),
+                      std::vector<int>(triangles.size(), 0),
                       std::vector<bool>(triangles.size(), false)};
   const auto connect = [&](int from, int to) {
     const std::size_t t = Sides::triangle(from);
-    adjacency.neighbours[t][static_cast<std::size_t>(adjacency.counts[t]++)] = {static_cast<int>(Sides::triangle(to)),
-                                                                                sides.upward(from) != sides.upward(to)};
+    adjacency.neighbours[t][static_cast<std::size_t>(adjacency.counts[t]++)] = {
+        static_cast<int>(Sides::triangle(to)), sides.upward(from) != sides.upward(to)};
   };
   for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
     while (last < sorted.size() && sides.share_edge(sorted[first], sorted[last])) ++last;
@@ -66,7 +72,8 @@ Adjacency adjacency_of(const std::vector<SoupTriangle>& triangles, std::size_t p
       connect(sorted[first], sorted[first + 1]);
       connect(sorted[first + 1], sorted[first]);
     } else {
-      for (std::size_t i = first; i < last; ++i) adjacency.has_open_or_crowded_edge[Sides::triangle(sorted[i])] = true;
+      for (std::size_t i = first; i < last; ++i)
+        adjacency.has_open_or_crowded_edge[Sides::triangle(sorted[i])] = true;
     }
   }
   return adjacency;
@@ -80,7 +87,8 @@ struct Component {
   bool closed = true;
 };
 
-/// Walks from the seed, breadth first, giving each triangle the turn that agrees with the one it was reached from.
+/// Walks from the seed, breadth first, giving each triangle the turn that agrees with the one it
+/// was reached from.
 Component spread(int seed, const Adjacency& adjacency, std::vector<Turn>& turns) {
   Component component;
   component.triangles.push_back(seed);
@@ -90,7 +98,8 @@ Component spread(int seed, const Adjacency& adjacency, std::vector<Turn>& turns)
     if (adjacency.has_open_or_crowded_edge[t]) component.closed = false;
     for (int i = 0; i < adjacency.counts[t]; ++i) {
       const Neighbour& neighbour = adjacency.neighbours[t][static_cast<std::size_t>(i)];
-      const Turn wanted = (turns[t] == Turn::Keep) == neighbour.agrees ? Turn::Keep : Turn::TurnRound;
+      const Turn wanted =
+          (turns[t] == Turn::Keep) == neighbour.agrees ? Turn::Keep : Turn::TurnRound;
       Turn& turn = turns[static_cast<std::size_t>(neighbour.triangle)];
       if (turn == Turn::Unknown) {
         turn = wanted;
@@ -104,26 +113,31 @@ Component spread(int seed, const Adjacency& adjacency, std::vector<Turn>& turns)
 }
 
 /// Turns the smaller part of a component; returns how many triangles were turned.
-std::int64_t turn_fewest(const Component& component, const std::vector<Turn>& turns, std::vector<SoupTriangle>& triangles) {
-  const auto turned = std::count_if(component.triangles.begin(), component.triangles.end(),
-                                    [&](int t) { return turns[static_cast<std::size_t>(t)] == Turn::TurnRound; });
+std::int64_t turn_fewest(const Component& component, const std::vector<Turn>& turns,
+                         std::vector<SoupTriangle>& triangles) {
+  const auto turned =
+      std::count_if(component.triangles.begin(), component.triangles.end(),
+                    [&](int t) { return turns[static_cast<std::size_t>(t)] == Turn::TurnRound; });
   const auto kept = static_cast<std::int64_t>(component.triangles.size()) - turned;
   const Turn minority = turned <= kept ? Turn::TurnRound : Turn::Keep;
   for (const int t : component.triangles) {
     if (turns[static_cast<std::size_t>(t)] == minority)
-      std::swap(triangles[static_cast<std::size_t>(t)].corners[1], triangles[static_cast<std::size_t>(t)].corners[2]);
+      std::swap(triangles[static_cast<std::size_t>(t)].corners[1],
+                triangles[static_cast<std::size_t>(t)].corners[2]);
   }
   return std::min<std::int64_t>(turned, kept);
 }
 
 /// Six times the volume inside a closed component, seen from its first corner.
-double volume_of(const Component& component, const std::vector<SoupTriangle>& triangles, const PolygonSoup& soup) {
+double volume_of(const Component& component, const std::vector<SoupTriangle>& triangles,
+                 const PolygonSoup& soup) {
   const auto point = [&](int t, std::size_t i) -> const Vec3& {
     return soup.points[static_cast<std::size_t>(triangles[static_cast<std::size_t>(t)].corners[i])];
   };
   const Vec3 origin = point(component.triangles.front(), 0);
   double volume = 0.0;
-  for (const int t : component.triangles) volume += (point(t, 0) - origin).dot((point(t, 1) - origin).cross(point(t, 2) - origin));
+  for (const int t : component.triangles)
+    volume += (point(t, 0) - origin).dot((point(t, 1) - origin).cross(point(t, 2) - origin));
   return volume;
 }
 
@@ -143,9 +157,11 @@ void orient_alike(std::vector<SoupTriangle>& triangles, PolygonSoup& soup) {
       continue;
     }
     turned += turn_fewest(component, turns, triangles);
-    if (component.closed && volume_of(component, triangles, soup) < 0.0) inside_out.push_back(triangles[seed].face);
+    if (component.closed && volume_of(component, triangles, soup) < 0.0)
+      inside_out.push_back(triangles[seed].face);
   }
-  const auto say = [&](const std::vector<int>& faces, const std::string& what, const std::string& advice) {
+  const auto say = [&](const std::vector<int>& faces, const std::string& what,
+                       const std::string& advice) {
     if (faces.empty()) return;
     soup.warn(std::to_string(faces.size()) + " of the components, such as that of face " +
                   std::to_string(faces.front() + soup.first_number) + ", " + what,
@@ -153,16 +169,20 @@ void orient_alike(std::vector<SoupTriangle>& triangles, PolygonSoup& soup) {
   };
   if (components > 1) {
     soup.warn("The mesh is in " + std::to_string(components) + " components, which share no edge.",
-              "Nothing is known across a gap. Delete what is not tissue; if they should be one, weld their seams.");
+              "Nothing is known across a gap. Delete what is not tissue; if they should be one, "
+              "weld their seams.");
   }
   if (turned > 0) {
-    soup.warn(
-        std::to_string(turned) + (turned == 1 ? " triangle was" : " triangles were") + " turned round to agree with their neighbours.",
-        "Nothing to do, so long as the outside is where it should be.");
+    soup.warn(std::to_string(turned) + (turned == 1 ? " triangle was" : " triangles were") +
+                  " turned round to agree with their neighbours.",
+              "Nothing to do, so long as the outside is where it should be.");
   }
   say(one_sided, "cannot be oriented: no turning makes all neighbours agree.",
-      "A surface with one side (a Moebius strip) has no outside to touch. Delete the faces where it closes on itself.");
-  say(inside_out, "are closed with faces that look inward: if tissue is inside, the normals point the wrong way.",
+      "A surface with one side (a Moebius strip) has no outside to touch. Delete the faces where "
+      "it closes on itself.");
+  say(inside_out,
+      "are closed with faces that look inward: if tissue is inside, the normals point the wrong "
+      "way.",
       "The probe would come from inside. Flip all faces in a mesh editor.");
 }
 

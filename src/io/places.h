@@ -1,4 +1,5 @@
-/// Places on a surface, each known by the first point that came within a nanometre: what counts as touching the same spot again.
+/// Places on a surface, each known by the first point that came within a nanometre: what counts as
+/// touching the same spot again.
 #pragma once
 
 #include <array>

@@ -14,19 +14,23 @@ namespace {
 /// A fan triangle counts as positive if it holds more than this part of the polygon's area.
 constexpr double kLeastFanArea = 1e-12;
 
-void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_t face, std::vector<int>& sorted) {
+void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_t face,
+                   std::vector<int>& sorted) {
   const std::span<const int> corners = soup.face(face);
   const auto count = static_cast<std::int64_t>(soup.points.size());
   for (const int corner : corners) {
     if (corner >= 0 && corner < count) continue;
     soup.fail_at_face(source, face,
-                      "vertex index " + std::to_string(std::int64_t{corner} + soup.first_number) + " is out of range " +
-                          std::to_string(soup.first_number) + " to " + std::to_string(count - 1 + soup.first_number));
+                      "vertex index " + std::to_string(std::int64_t{corner} + soup.first_number) +
+                          " is out of range " + std::to_string(soup.first_number) + " to " +
+                          std::to_string(count - 1 + soup.first_number));
   }
   sorted.assign(corners.begin(), corners.end());
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) soup.fail_at_face(source, face, "uses vertex " + std::to_string(*twice + soup.first_number) + " twice");
+  if (twice != sorted.end())
+    soup.fail_at_face(source, face,
+                      "uses vertex " + std::to_string(*twice + soup.first_number) + " twice");
 }
 
 /// Twice the vector area of a polygon (Newell), relative to its first corner.
@@ -41,9 +45,12 @@ Vec3 vector_area(const PolygonSoup& soup, std::span<const int> corners) {
   return sum;
 }
 
-bool sees_all(const PolygonSoup& soup, std::span<const int> corners, std::size_t apex, const Vec3& area) {
+bool sees_all(const PolygonSoup& soup, std::span<const int> corners, std::size_t apex,
+              const Vec3& area) {
   const std::size_t count = corners.size();
-  const auto point = [&](std::size_t i) -> const Vec3& { return soup.points[static_cast<std::size_t>(corners[(apex + i) % count])]; };
+  const auto point = [&](std::size_t i) -> const Vec3& {
+    return soup.points[static_cast<std::size_t>(corners[(apex + i) % count])];
+  };
   for (std::size_t i = 1; i + 1 < count; ++i) {
     const Vec3 normal = (point(i) - point(0)).cross(point(i + 1) - point(0));
     if (!(normal.dot(area) > kLeastFanArea * area.squaredNorm())) return false;
@@ -60,10 +67,12 @@ std::optional<std::size_t> fan_apex(const PolygonSoup& soup, std::span<const int
   return std::nullopt;
 }
 
-void append_fan(std::span<const int> corners, std::size_t apex, int face, std::vector<SoupTriangle>& triangles) {
+void append_fan(std::span<const int> corners, std::size_t apex, int face,
+                std::vector<SoupTriangle>& triangles) {
   const std::size_t count = corners.size();
   for (std::size_t i = 1; i + 1 < count; ++i) {
-    triangles.push_back({{corners[apex], corners[(apex + i) % count], corners[(apex + i + 1) % count]}, face});
+    triangles.push_back(
+        {{corners[apex], corners[(apex + i) % count], corners[(apex + i + 1) % count]}, face});
   }
 }
 
@@ -77,7 +86,9 @@ std::array<int, 3> sorted_corners(const SoupTriangle& triangle) {
 
 std::span<const int> PolygonSoup::face(std::size_t index) const {
   const std::int64_t first = first_corner[index];
-  const std::int64_t last = index + 1 < first_corner.size() ? first_corner[index + 1] : static_cast<std::int64_t>(corners.size());
+  const std::int64_t last = index + 1 < first_corner.size()
+                                ? first_corner[index + 1]
+                                : static_cast<std::int64_t>(corners.size());
   return {corners.data() + first, static_cast<std::size_t>(last - first)};
 }
 
@@ -97,35 +108,42 @@ void PolygonSoup::end_face(const MeshSource& source) const {
   if (count >= 3 && count <= kMostCorners) return;
   fail_at_face(source, face_count() - 1,
                count < 3 ? "has " + std::to_string(count) + " corners; a face has at least 3"
-                         : "has more than " + std::to_string(kMostCorners) + " corners: cut it into triangles");
+                         : "has more than " + std::to_string(kMostCorners) +
+                               " corners: cut it into triangles");
 }
 
-void PolygonSoup::fail_at_face(const MeshSource& source, std::size_t index, const std::string& what) const {
-  const std::string text = "face " + std::to_string(index + static_cast<std::size_t>(first_number)) + ": " + what;
+void PolygonSoup::fail_at_face(const MeshSource& source, std::size_t index,
+                               const std::string& what) const {
+  const std::string text =
+      "face " + std::to_string(index + static_cast<std::size_t>(first_number)) + ": " + what;
   if (place_kind == PlaceKind::Line) source.fail_at_line(places[index], text);
-  if (place_kind == PlaceKind::Byte) source.fail_at_byte(static_cast<std::size_t>(places[index]), text);
+  if (place_kind == PlaceKind::Byte)
+    source.fail_at_byte(static_cast<std::size_t>(places[index]), text);
   source.fail(text);
 }
 
 void refuse_crowds(const MeshSource& source, const PolygonSoup& soup) {
-  // Small meshes may be any tangle: Surface names the edge at fault. A closed surface has two triangles for each vertex, and two more for
-  // every handle.
+  // Small meshes may be any tangle: Surface names the edge at fault. A closed surface has two
+  // triangles for each vertex, and two more for every handle.
   constexpr std::size_t kFew = 250'000;
   const std::size_t triangles = soup.corners.size() - 2 * soup.face_count();
   if (triangles <= kFew) return;
   std::vector<bool> used(soup.points.size(), false);
   for (const int corner : soup.corners) {
-    if (corner >= 0 && static_cast<std::size_t>(corner) < used.size()) used[static_cast<std::size_t>(corner)] = true;
+    if (corner >= 0 && static_cast<std::size_t>(corner) < used.size())
+      used[static_cast<std::size_t>(corner)] = true;
   }
   const auto vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
   if (triangles <= 3 * vertices) return;
-  source.fail(std::to_string(triangles) + " triangles on " + std::to_string(vertices) +
-              " vertices are more than three for each: a surface has about two, so these cannot be one");
+  source.fail(
+      std::to_string(triangles) + " triangles on " + std::to_string(vertices) +
+      " vertices are more than three for each: a surface has about two, so these cannot be one");
 }
 
 std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup) {
   constexpr auto kMost = static_cast<std::size_t>(kMostPoints);
-  if (soup.corners.size() > kMost || soup.points.size() > kMost) source.fail("more than 2^31 corners or vertices");
+  if (soup.corners.size() > kMost || soup.points.size() > kMost)
+    source.fail("more than 2^31 corners or vertices");
   std::vector<SoupTriangle> triangles;
   triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.face_count()));
   std::vector<int> sorted;
@@ -133,13 +151,16 @@ std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSo
     check_corners(source, soup, face, sorted);
     const std::span<const int> corners = soup.face(face);
     const std::optional<std::size_t> apex = corners.size() == 3 ? 0 : fan_apex(soup, corners);
-    if (!apex) soup.fail_at_face(source, face, "is a polygon that no fan of triangles covers once: cut it into triangles");
+    if (!apex)
+      soup.fail_at_face(source, face,
+                        "is a polygon that no fan of triangles covers once: cut it into triangles");
     append_fan(corners, *apex, static_cast<int>(face), triangles);
   }
   return triangles;
 }
 
-void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles) {
+void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup,
+                       const std::vector<SoupTriangle>& triangles) {
   struct Entry {
     std::array<int, 3> corners;
     int face;
@@ -147,14 +168,16 @@ void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup, const 
   };
   std::vector<Entry> entries;
   entries.reserve(triangles.size());
-  for (const SoupTriangle& triangle : triangles) entries.push_back({sorted_corners(triangle), triangle.face});
+  for (const SoupTriangle& triangle : triangles)
+    entries.push_back({sorted_corners(triangle), triangle.face});
   const auto lowest = [](const Entry& entry) { return static_cast<std::size_t>(entry.corners[0]); };
   entries = sorted_in_buckets(entries, soup.points.size(), lowest, std::less<Entry>());
   const auto same = [](const Entry& a, const Entry& b) { return a.corners == b.corners; };
   const auto found = std::adjacent_find(entries.begin(), entries.end(), same);
   if (found == entries.end()) return;
-  soup.fail_at_face(source, static_cast<std::size_t>((found + 1)->face),
-                    "has the corners of face " + std::to_string(found->face + soup.first_number) + " again");
+  soup.fail_at_face(
+      source, static_cast<std::size_t>((found + 1)->face),
+      "has the corners of face " + std::to_string(found->face + soup.first_number) + " again");
 }
 
 std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& triangles) {

@@ -22,7 +22,8 @@ const std::string kEstimate = "estimate";
 /// The kind of every cell, or nothing where the file does not tell.
 std::vector<std::string> kinds_of(VtpFile& file, const VtpPiece& piece) {
   for (const VtpArray& array : piece.cell_arrays) {
-    if (array.name == "kind_name") return file.numbers().texts(array, piece.cells(), "array \"kind_name\" of the cells");
+    if (array.name == "kind_name")
+      return file.numbers().texts(array, piece.cells(), "array \"kind_name\" of the cells");
   }
   return {};
 }
@@ -46,7 +47,8 @@ Lines lines_of(const MeshSource& source) {
   VtpFile file(source);
   Lines made;
   for (const VtpPiece& piece : file.pieces()) {
-    if (piece.lines.count == 0 && piece.cells() > 0) source.fail("holds no lines, so it is no boundary");
+    if (piece.lines.count == 0 && piece.cells() > 0)
+      source.fail("holds no lines, so it is no boundary");
     const std::vector<std::string> kinds = kinds_of(file, piece);
     const auto first = static_cast<int>(made.points.size());
     file.append_points(piece, made.points);
@@ -78,22 +80,26 @@ BoundaryFile read_boundary_vtp(const std::filesystem::path& path, const Surface&
     Ring& ring = rings.emplace_back();
     for (const int point : line) {
       std::string fault;
-      const std::optional<SurfacePoint> place = landing.place(found.points[static_cast<std::size_t>(point)], fault);
+      const std::optional<SurfacePoint> place =
+          landing.place(found.points[static_cast<std::size_t>(point)], fault);
       if (!place) source.fail("point " + std::to_string(point) + " of the boundary: " + fault);
       ring.push_back(chart_place(surface, *place));
     }
     points_read += ring.size();
   }
   BoundaryFile boundary{region_of(source, rings), {}};
-  if (!rings.empty() && boundary.region.empty()) source.fail("no area is inside its " + std::to_string(rings.size()) + " closed lines");
+  if (!rings.empty() && boundary.region.empty())
+    source.fail("no area is inside its " + std::to_string(rings.size()) + " closed lines");
   if (rings.empty() && !found.other_kinds.empty()) {
-    boundary.warnings.push_back(path.string() + ": no line is of the kind \"" + kEstimate + "\", only of \"" + *found.other_kinds.begin() +
+    boundary.warnings.push_back(path.string() + ": no line is of the kind \"" + kEstimate +
+                                "\", only of \"" + *found.other_kinds.begin() +
                                 "\": taken for a boundary around nothing.");
   }
   if (landing.moved() > 0) {
-    boundary.warnings.push_back(path.string() + ": " + std::to_string(landing.moved()) + " of " + std::to_string(points_read) +
-                                " points of the boundary lay off the surface, by up to " + text_of(landing.farthest_m()) +
-                                " m, and were taken to its closest points.");
+    boundary.warnings.push_back(
+        path.string() + ": " + std::to_string(landing.moved()) + " of " +
+        std::to_string(points_read) + " points of the boundary lay off the surface, by up to " +
+        text_of(landing.farthest_m()) + " m, and were taken to its closest points.");
   }
   return boundary;
 }

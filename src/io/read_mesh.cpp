@@ -36,13 +36,15 @@ std::string_view first_word(std::string_view bytes) {
 }
 
 bool is_off_header(std::string_view word) {
-  constexpr std::array<std::string_view, 13> kHeaders = {"OFF",    "COFF",    "NOFF", "CNOFF", "NCOFF", "STOFF", "STCOFF",
-                                                         "STNOFF", "STCNOFF", "4OFF", "nOFF",  "4nOFF", "C4OFF"};
+  constexpr std::array<std::string_view, 13> kHeaders = {
+      "OFF",    "COFF",    "NOFF", "CNOFF", "NCOFF", "STOFF", "STCOFF",
+      "STNOFF", "STCNOFF", "4OFF", "nOFF",  "4nOFF", "C4OFF"};
   return std::find(kHeaders.begin(), kHeaders.end(), word) != kHeaders.end();
 }
 
 bool begins_like_obj(std::string_view word) {
-  constexpr std::array<std::string_view, 14> kWords = {"v", "vt", "vn", "vp", "f", "fo", "g", "o", "s", "l", "p", "mtllib", "usemtl", "mg"};
+  constexpr std::array<std::string_view, 14> kWords = {
+      "v", "vt", "vn", "vp", "f", "fo", "g", "o", "s", "l", "p", "mtllib", "usemtl", "mg"};
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
@@ -51,22 +53,28 @@ enum class Format { Obj, Off, AsciiStl, BinaryStl, Ply, Vtp };
 /// "ply" by itself on the first line.
 bool begins_like_ply(std::string_view bytes) {
   bytes = bytes.substr(0, kLongestPreamble);
-  const std::string_view line = bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  const std::string_view line =
+      bytes.substr(0, std::min(bytes.find_first_of("\r\n"), bytes.size()));
   return line.substr(0, 3) == "ply" && line.find_first_not_of(" \t", 3) == std::string_view::npos;
 }
 
 /// What other files say at their beginning, that the reason is told and not its consequence.
 void refuse_other_kinds(const MeshSource& source) {
-  const auto begins = [&](std::string_view mark) { return source.bytes.substr(0, mark.size()) == mark; };
+  const auto begins = [&](std::string_view mark) {
+    return source.bytes.substr(0, mark.size()) == mark;
+  };
   if (begins("\x1F\x8B") || begins("PK\3\4") || begins("BZh") ||
       begins("\xFD"
              "7zXZ"))
     source.fail_at_byte(0, "the file is compressed: unpack it first");
-  if (begins("\xFF\xFE") || begins("\xFE\xFF")) source.fail_at_byte(0, "the file is text in UTF-16: save it as UTF-8 or ASCII");
-  if (begins("# vtk DataFile")) source.fail_at_line(1, "VTK's legacy format is not read: write it as VTP or PLY");
+  if (begins("\xFF\xFE") || begins("\xFE\xFF"))
+    source.fail_at_byte(0, "the file is text in UTF-16: save it as UTF-8 or ASCII");
+  if (begins("# vtk DataFile"))
+    source.fail_at_line(1, "VTK's legacy format is not read: write it as VTP or PLY");
 }
 
-/// Recognizes the format by content. Binary STL has no mark but its size, and may begin with "solid" like its ASCII cousin.
+/// Recognizes the format by content. Binary STL has no mark but its size, and may begin with
+/// "solid" like its ASCII cousin.
 Format format_of(const MeshSource& source) {
   const std::string_view bytes = source.bytes;
   const std::string_view word = first_word(bytes);
@@ -74,7 +82,9 @@ Format format_of(const MeshSource& source) {
   if (has_size_of_binary_stl(bytes)) return Format::BinaryStl;
   refuse_other_kinds(source);
   // A binary STL cut short has NUL bytes in its title or count.
-  if (lower_case(word) == "solid") return bytes.substr(0, 84).find('\0') == std::string_view::npos ? Format::AsciiStl : Format::BinaryStl;
+  if (lower_case(word) == "solid")
+    return bytes.substr(0, 84).find('\0') == std::string_view::npos ? Format::AsciiStl
+                                                                    : Format::BinaryStl;
   if (is_off_header(word)) return Format::Off;
   if (!word.empty() && word[0] == '<') return Format::Vtp;
   if (begins_like_obj(word)) return Format::Obj;
@@ -107,19 +117,24 @@ void warn_of_extension(const MeshSource& source, PolygonSoup& soup) {
   constexpr std::array<std::string_view, 5> kExtensions = {".obj", ".off", ".stl", ".ply", ".vtp"};
   if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) return;
   if (lower_case(soup.format).find(extension.substr(1)) != std::string::npos) return;
-  soup.warn("The file is named " + extension + " but holds " + soup.format + ": it was read as what it holds.",
+  soup.warn("The file is named " + extension + " but holds " + soup.format +
+                ": it was read as what it holds.",
             "Rename it: other programs may go by the name.");
 }
 
-TriangleMesh in_metres(const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles, LengthUnit unit) {
+TriangleMesh in_metres(const PolygonSoup& soup, const std::vector<SoupTriangle>& triangles,
+                       LengthUnit unit) {
   TriangleMesh mesh;
   mesh.vertices.resize(static_cast<Eigen::Index>(soup.points.size()), 3);
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    mesh.vertices.row(static_cast<Eigen::Index>(i)) = soup.points[i].unaryExpr([unit](double value) { return to_metres(value, unit); });
+    mesh.vertices.row(static_cast<Eigen::Index>(i)) =
+        soup.points[i].unaryExpr([unit](double value) { return to_metres(value, unit); });
   }
   mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) mesh.triangles(static_cast<Eigen::Index>(t), i) = triangles[t].corners[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3; ++i)
+      mesh.triangles(static_cast<Eigen::Index>(t), i) =
+          triangles[t].corners[static_cast<std::size_t>(i)];
   }
   return mesh;
 }
@@ -131,7 +146,9 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
   warn_of_extension(source, soup);
   if (repair.weld_equal_vertices) {
     const std::int64_t welded = weld_equal_points(soup);
-    if (welded > 0) soup.warn(std::to_string(welded) + " vertices were joined with another at the same place.", "As was asked for.");
+    if (welded > 0)
+      soup.warn(std::to_string(welded) + " vertices were joined with another at the same place.",
+                "As was asked for.");
   }
   refuse_crowds(source, soup);
   std::vector<SoupTriangle> triangles = triangles_of(source, soup);
@@ -144,17 +161,21 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
   }
   const std::int64_t equal = warn_of_close_points(soup);
   warn_of_slivers(soup, triangles);
-  return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format), equal};
+  return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format),
+          equal};
 }
 
 struct NamedUnit {
   const char* name;
   LengthUnit unit;
 };
-constexpr std::array<NamedUnit, 3> kUnits = {{{"mm", LengthUnit::Millimetre}, {"cm", LengthUnit::Centimetre}, {"m", LengthUnit::Metre}}};
+constexpr std::array<NamedUnit, 3> kUnits = {
+    {{"mm", LengthUnit::Millimetre}, {"cm", LengthUnit::Centimetre}, {"m", LengthUnit::Metre}}};
 
 std::string name_of(LengthUnit unit) {
-  return std::find_if(kUnits.begin(), kUnits.end(), [unit](const NamedUnit& named) { return named.unit == unit; })->name;
+  return std::find_if(kUnits.begin(), kUnits.end(),
+                      [unit](const NamedUnit& named) { return named.unit == unit; })
+      ->name;
 }
 
 /// The units under which the size would be that of tissue, as a question.
@@ -163,7 +184,8 @@ std::string suggestion(double extent_m_as_read, LengthUnit unit) {
   std::string names;
   for (const NamedUnit& named : kUnits) {
     const double size_m = extent / units_per_metre(named.unit);
-    if (size_m >= kSmallestTissue && size_m <= kLargestTissue) names += (names.empty() ? "" : " or ") + std::string(named.name);
+    if (size_m >= kSmallestTissue && size_m <= kLargestTissue)
+      names += (names.empty() ? "" : " or ") + std::string(named.name);
   }
   return names.empty() ? "no known unit makes it so" : "is its unit " + names + "?";
 }
@@ -182,13 +204,16 @@ MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit, const Mes
   const double size_m = extent_m(file.mesh);
   if (size_m >= kSmallestTissue && size_m <= kLargestTissue) return file;
   throw IoError(path.string() + ": read in " + name_of(unit) + " the mesh is " + text_of(size_m) +
-                " m long, but tissue is between 0.001 m and 2 m across; " + suggestion(size_m, unit));
+                " m long, but tissue is between 0.001 m and 2 m across; " +
+                suggestion(size_m, unit));
 }
 
-MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair) {
+MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit unit,
+                               const MeshRepair& repair) {
   const std::string bytes = read_file(path);
   // To the count in a binary STL every byte matters.
-  const std::string_view content = has_size_of_binary_stl(bytes) ? bytes : without_byte_order_mark(bytes);
+  const std::string_view content =
+      has_size_of_binary_stl(bytes) ? bytes : without_byte_order_mark(bytes);
   const MeshSource source{path, content, bytes.size() - content.size()};
   if (source.bytes.empty()) source.fail("the file is empty: no vertices");
   return assembled(source, unit, repair);

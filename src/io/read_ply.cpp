@@ -108,10 +108,13 @@ class HeaderReader {
   }
 
  private:
-  /// Header lines all end like the first: after CR alone, a line feed may be the first byte of binary data.
+  /// Header lines all end like the first: after CR alone, a line feed may be the first byte of
+  /// binary data.
   void next_line() {
-    const std::size_t end = source_.bytes.find_first_of(line_ == 0 ? "\r\n" : line_end_.substr(0, 1), position_);
-    if (line_ == 0 && end != std::string_view::npos) line_end_ = source_.bytes.substr(end, source_.bytes.substr(end, 2) == "\r\n" ? 2 : 1);
+    const std::size_t end =
+        source_.bytes.find_first_of(line_ == 0 ? "\r\n" : line_end_.substr(0, 1), position_);
+    if (line_ == 0 && end != std::string_view::npos)
+      line_end_ = source_.bytes.substr(end, source_.bytes.substr(end, 2) == "\r\n" ? 2 : 1);
     ++line_;
     if (end == std::string_view::npos || source_.bytes.substr(end, line_end_.size()) != line_end_) {
       fail("the header ends without a line \"end_header\", or its line ends are mixed");
@@ -119,7 +122,8 @@ class HeaderReader {
     if (end - position_ > kLongestHeaderLine) fail("a header line has more than 4096 bytes");
     const std::string_view line = source_.bytes.substr(position_, end - position_);
     if (line.find('\0') != std::string_view::npos) fail("a NUL byte in the header");
-    if (line.find_first_of("\r\n") != std::string_view::npos) fail("the header's line ends are mixed");
+    if (line.find_first_of("\r\n") != std::string_view::npos)
+      fail("the header's line ends are mixed");
     split_words(line, words_);
     position_ = end + line_end_.size();
   }
@@ -140,7 +144,8 @@ class HeaderReader {
   }
 
   void take_format() {
-    if (words_.size() != 3 || words_[2] != "1.0" || has_format_) fail("one line \"format <encoding> 1.0\" is expected");
+    if (words_.size() != 3 || words_[2] != "1.0" || has_format_)
+      fail("one line \"format <encoding> 1.0\" is expected");
     has_format_ = true;
     if (words_[1] == "ascii") {
       header_.encoding = Encoding::Ascii;
@@ -149,7 +154,8 @@ class HeaderReader {
     } else if (words_[1] == "binary_big_endian") {
       header_.encoding = Encoding::Big;
     } else {
-      fail(in_quotes(words_[1]) + " is no encoding: ascii, binary_little_endian or binary_big_endian");
+      fail(in_quotes(words_[1]) +
+           " is no encoding: ascii, binary_little_endian or binary_big_endian");
     }
   }
 
@@ -163,18 +169,21 @@ class HeaderReader {
       if (element.name == name) fail("element " + in_quotes(name) + " appears twice");
     }
     // They would be faces, left out without a word.
-    if (name == "tristrips" && *count > 0) fail("strips of triangles are not read: write them as faces");
+    if (name == "tristrips" && *count > 0)
+      fail("strips of triangles are not read: write them as faces");
     header_.elements.push_back({name, *count, {}, line_});
   }
 
   void take_property() {
     if (header_.elements.empty()) fail("a property before the first element");
     Element& element = header_.elements.back();
-    if (element.properties.size() == kMostProperties) fail("more than 256 properties of element " + in_quotes(element.name));
+    if (element.properties.size() == kMostProperties)
+      fail("more than 256 properties of element " + in_quotes(element.name));
     Property property;
     if (words_.size() == 5 && words_[1] == "list") {
       property = {std::string(words_[4]), type_of(words_[3]), type_of(words_[2])};
-      if (is_real(*property.count_type)) fail("a list's count must be a whole number, not " + in_quotes(words_[2]));
+      if (is_real(*property.count_type))
+        fail("a list's count must be a whole number, not " + in_quotes(words_[2]));
     } else if (words_.size() == 3) {
       property = {std::string(words_[2]), type_of(words_[1]), std::nullopt};
     } else {
@@ -182,7 +191,8 @@ class HeaderReader {
     }
     for (const Property& other : element.properties) {
       if (other.name == property.name)
-        fail("property " + in_quotes(property.name) + " of element " + in_quotes(element.name) + " appears twice");
+        fail("property " + in_quotes(property.name) + " of element " + in_quotes(element.name) +
+             " appears twice");
     }
     element.properties.push_back(property);
   }
@@ -209,9 +219,13 @@ class HeaderReader {
 class BinaryBody {
  public:
   BinaryBody(const MeshSource& source, const Header& header)
-      : source_(source), position_(header.size), order_(header.encoding == Encoding::Big ? ByteOrder::Big : ByteOrder::Little) {}
+      : source_(source),
+        position_(header.size),
+        order_(header.encoding == Encoding::Big ? ByteOrder::Big : ByteOrder::Little) {}
 
-  std::int64_t bytes_left() const { return static_cast<std::int64_t>(source_.bytes.size() - position_); }
+  std::int64_t bytes_left() const {
+    return static_cast<std::int64_t>(source_.bytes.size() - position_);
+  }
   static std::int64_t least_size(Scalar type) { return static_cast<std::int64_t>(size_of(type)); }
   static constexpr PlaceKind kPlaceKind = PlaceKind::Byte;
   std::int64_t place() const { return static_cast<std::int64_t>(position_); }
@@ -245,7 +259,9 @@ class BinaryBody {
   void skip(Scalar type, std::string_view what) { take(type, what); }
 
   void expect_end() const {
-    if (bytes_left() > 0) source_.fail_at_byte(position_, std::to_string(bytes_left()) + " bytes more than the header announces");
+    if (bytes_left() > 0)
+      source_.fail_at_byte(position_,
+                           std::to_string(bytes_left()) + " bytes more than the header announces");
   }
 
   /// At the number read last.
@@ -254,13 +270,15 @@ class BinaryBody {
  private:
   double real_number(Scalar type, std::string_view what) {
     const std::string_view bytes = take(type, what);
-    return type == Scalar::Float32 ? double{number_from<float>(bytes, order_)} : number_from<double>(bytes, order_);
+    return type == Scalar::Float32 ? double{number_from<float>(bytes, order_)}
+                                   : number_from<double>(bytes, order_);
   }
 
   std::string_view take(Scalar type, std::string_view what) {
     const std::size_t size = size_of(type);
     last_ = position_;
-    if (source_.bytes.size() - position_ < size) fail("the file ends where " + std::string(what) + " is expected");
+    if (source_.bytes.size() - position_ < size)
+      fail("the file ends where " + std::string(what) + " is expected");
     position_ += size;
     return source_.bytes.substr(position_ - size, size);
   }
@@ -274,7 +292,8 @@ class BinaryBody {
 /// The same for an ASCII body, where every record has a line of its own.
 class AsciiBody {
  public:
-  AsciiBody(const MeshSource& source, const Header& header) : source_(source), words_(source.bytes.substr(header.size), header.lines + 1) {
+  AsciiBody(const MeshSource& source, const Header& header)
+      : source_(source), words_(source.bytes.substr(header.size), header.lines + 1) {
     source.refuse_nul_bytes();
   }
 
@@ -290,8 +309,10 @@ class AsciiBody {
     if (!is_real(type)) return static_cast<double>(integer(type, what));
     const std::string_view word = next(what);
     const ParsedNumber number = parse_number(word);
-    if (number.status == NumberStatus::NotANumber) fail(std::string(what) + " = " + in_quotes(word) + " is not a number");
-    if (number.status == NumberStatus::TooLarge) fail(std::string(what) + " = " + in_quotes(word) + " is too large for a double");
+    if (number.status == NumberStatus::NotANumber)
+      fail(std::string(what) + " = " + in_quotes(word) + " is not a number");
+    if (number.status == NumberStatus::TooLarge)
+      fail(std::string(what) + " = " + in_quotes(word) + " is too large for a double");
     if (number.status == NumberStatus::Underflow) ++underflows_;
     return number.value;
   }
@@ -299,20 +320,25 @@ class AsciiBody {
   std::int64_t integer(Scalar type, std::string_view what) {
     const std::string_view word = next(what);
     const std::optional<std::int64_t> value = parse_integer(word);
-    if (!value || !holds(type, *value)) fail(std::string(what) + " = " + in_quotes(word) + " is not a whole number that fits its type");
+    if (!value || !holds(type, *value))
+      fail(std::string(what) + " = " + in_quotes(word) +
+           " is not a whole number that fits its type");
     return *value;
   }
 
   void skip(Scalar, std::string_view what) {
     const std::string_view word = next(what);
-    if (parse_number(word).status == NumberStatus::NotANumber) fail(std::string(what) + " = " + in_quotes(word) + " is not a number");
+    if (parse_number(word).status == NumberStatus::NotANumber)
+      fail(std::string(what) + " = " + in_quotes(word) + " is not a number");
   }
 
   void expect_end() {
     if (words_.next()) fail("more numbers than the header announces");
   }
 
-  [[noreturn]] void fail(const std::string& what) const { source_.fail_at_line(words_.line(), what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    source_.fail_at_line(words_.line(), what);
+  }
 
  private:
   std::string_view next(std::string_view what) {
@@ -322,7 +348,8 @@ class AsciiBody {
     if (is_first_of_record_ && line_before == words_.line() && !is_first_of_all_)
       fail("more numbers on the line than the header announces");
     if (!is_first_of_record_ && line_before != words_.line())
-      source_.fail_at_line(line_before, "the line ends where " + std::string(what) + " is expected");
+      source_.fail_at_line(line_before,
+                           "the line ends where " + std::string(what) + " is expected");
     is_first_of_record_ = is_first_of_all_ = false;
     return *word;
   }
@@ -336,7 +363,8 @@ class AsciiBody {
 template <typename Body>
 class BodyReader {
  public:
-  BodyReader(const MeshSource& source, const Header& header) : source_(source), header_(header), body_(source, header) {
+  BodyReader(const MeshSource& source, const Header& header)
+      : source_(source), header_(header), body_(source, header) {
     soup_.place_kind = Body::kPlaceKind;
   }
 
@@ -357,13 +385,16 @@ class BodyReader {
   }
 
  private:
-  /// Before anything is allocated: as many records as announced must fit into the bytes that are left.
+  /// Before anything is allocated: as many records as announced must fit into the bytes that are
+  /// left.
   void check_count(const Element& element) const {
     std::int64_t least = 0;
-    for (const Property& property : element.properties) least += Body::least_size(property.count_type.value_or(property.type));
+    for (const Property& property : element.properties)
+      least += Body::least_size(property.count_type.value_or(property.type));
     const bool fits = least == 0 || element.count <= body_.bytes_left() / least;
     if (fits && element.count <= std::numeric_limits<int>::max()) return;
-    source_.fail_at_line(element.line, std::to_string(element.count) + " of element " + in_quotes(element.name) + " do not fit into the " +
+    source_.fail_at_line(element.line, std::to_string(element.count) + " of element " +
+                                           in_quotes(element.name) + " do not fit into the " +
                                            std::to_string(body_.bytes_left()) + " bytes left");
   }
 
@@ -372,15 +403,16 @@ class BodyReader {
     std::vector<int> component(element.properties.size(), -1);
     for (int axis = 0; axis < 3; ++axis) {
       const std::string name(1, "xyz"[axis]);
-      const auto found =
-          std::find_if(element.properties.begin(), element.properties.end(), [&](const Property& p) { return p.name == name; });
+      const auto found = std::find_if(element.properties.begin(), element.properties.end(),
+                                      [&](const Property& p) { return p.name == name; });
       if (found == element.properties.end() || found->count_type) {
         source_.fail_at_line(element.line, "element \"vertex\" has no number \"" + name + "\"");
       }
       component[static_cast<std::size_t>(found - element.properties.begin())] = axis;
     }
     soup_.points.reserve(static_cast<std::size_t>(element.count));
-    for (std::int64_t vertex = 0; vertex < element.count; ++vertex) read_vertex(element, component, vertex);
+    for (std::int64_t vertex = 0; vertex < element.count; ++vertex)
+      read_vertex(element, component, vertex);
   }
 
   void read_vertex(const Element& element, const std::vector<int>& component, std::int64_t vertex) {
@@ -394,20 +426,26 @@ class BodyReader {
       }
       const double value = body_.real(property.type, property.name);
       if (!std::isfinite(value))
-        body_.fail("vertex " + std::to_string(vertex) + ": " + property.name + " = " + text_of(value) + " is not finite");
+        body_.fail("vertex " + std::to_string(vertex) + ": " + property.name + " = " +
+                   text_of(value) + " is not finite");
       point[component[i]] = value;
     }
     soup_.points.push_back(point);
   }
 
   void read_faces(const Element& element) {
-    const auto is_corner_list = [](const Property& p) { return p.name == "vertex_indices" || p.name == "vertex_index"; };
-    const auto found = std::find_if(element.properties.begin(), element.properties.end(), is_corner_list);
+    const auto is_corner_list = [](const Property& p) {
+      return p.name == "vertex_indices" || p.name == "vertex_index";
+    };
+    const auto found =
+        std::find_if(element.properties.begin(), element.properties.end(), is_corner_list);
     if (found == element.properties.end() || !found->count_type || is_real(found->type)) {
-      source_.fail_at_line(element.line, "element \"face\" has no list of whole numbers \"vertex_indices\"");
+      source_.fail_at_line(element.line,
+                           "element \"face\" has no list of whole numbers \"vertex_indices\"");
     }
     if (std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) > 1)
-      source_.fail_at_line(element.line, "element \"face\" has both \"vertex_indices\" and \"vertex_index\"");
+      source_.fail_at_line(element.line,
+                           "element \"face\" has both \"vertex_indices\" and \"vertex_index\"");
     for (std::int64_t face = 0; face < element.count; ++face) {
       body_.begin_record();
       for (const Property& property : element.properties) {
@@ -428,7 +466,8 @@ class BodyReader {
     for (std::int64_t i = 0; i < count; ++i) {
       const std::int64_t index = body_.integer(property.type, "a vertex index");
       if (index < 0 || index > std::numeric_limits<int>::max()) {
-        body_.fail("face " + std::to_string(soup_.face_count() - 1) + ": vertex index " + std::to_string(index) + " is out of range 0 to " +
+        body_.fail("face " + std::to_string(soup_.face_count() - 1) + ": vertex index " +
+                   std::to_string(index) + " is out of range 0 to " +
                    std::to_string(static_cast<std::int64_t>(soup_.points.size()) - 1));
       }
       soup_.corners.push_back(static_cast<int>(index));
@@ -439,8 +478,9 @@ class BodyReader {
   std::int64_t list_length(const Property& property) {
     const std::int64_t count = body_.integer(*property.count_type, "the length of a list");
     if (count < 0 || count > body_.bytes_left() / Body::least_size(property.type)) {
-      body_.fail("a list " + in_quotes(property.name) + " of " + std::to_string(count) + " numbers does not fit into the " +
-                 std::to_string(body_.bytes_left()) + " bytes left");
+      body_.fail("a list " + in_quotes(property.name) + " of " + std::to_string(count) +
+                 " numbers does not fit into the " + std::to_string(body_.bytes_left()) +
+                 " bytes left");
     }
     return count;
   }

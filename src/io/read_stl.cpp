@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kHeader = 84;
 constexpr std::size_t kFacet = 50;
 
-/// Counts the facets whose normal looks to the other side than the order of their corners. Normals may be zero, or no number.
+/// Counts the facets whose normal looks to the other side than the order of their corners. Normals
+/// may be zero, or no number.
 class NormalCheck {
  public:
   void take(const Vec3& normal, const PolygonSoup& soup) {
@@ -24,8 +25,10 @@ class NormalCheck {
   }
   void warn(PolygonSoup& soup) const {
     if (opposed_ == 0) return;
-    soup.warn(std::to_string(opposed_) + " facets have a normal that contradicts the order of their corners: the order counts.",
-              "Look at the mesh in a viewer: if it shows its inside, flip all faces in a mesh editor.");
+    soup.warn(
+        std::to_string(opposed_) +
+            " facets have a normal that contradicts the order of their corners: the order counts.",
+        "Look at the mesh in a viewer: if it shows its inside, flip all faces in a mesh editor.");
   }
 
  private:
@@ -41,7 +44,8 @@ void push_corner(PolygonSoup& soup, const Vec3& point) {
 
 class AsciiStlReader {
  public:
-  explicit AsciiStlReader(const MeshSource& source) : source_(source), words_(source.bytes), coordinates_(source) {
+  explicit AsciiStlReader(const MeshSource& source)
+      : source_(source), words_(source.bytes), coordinates_(source) {
     soup_.format = "ASCII STL";
     soup_.place_kind = PlaceKind::Line;
   }
@@ -49,7 +53,8 @@ class AsciiStlReader {
   PolygonSoup read() {
     source_.refuse_nul_bytes();
     while (const std::optional<std::string_view> word = words_.next()) {
-      if (lower_case(*word) != "solid") source_.fail_at_line(words_.line(), "\"solid\" is expected, not " + in_quotes(*word));
+      if (lower_case(*word) != "solid")
+        source_.fail_at_line(words_.line(), "\"solid\" is expected, not " + in_quotes(*word));
       skip_name();
       read_solid();
       ++solids_;
@@ -57,8 +62,9 @@ class AsciiStlReader {
     soup_.warn_of_underflows(coordinates_.underflows());
     normals_.warn(soup_);
     if (solids_ > 1) {
-      soup_.warn("The file holds " + std::to_string(solids_) + " solids, which were read as one mesh.",
-                 "Harmless if all of them are tissue. Otherwise delete the others from the file.");
+      soup_.warn(
+          "The file holds " + std::to_string(solids_) + " solids, which were read as one mesh.",
+          "Harmless if all of them are tissue. Otherwise delete the others from the file.");
     }
     weld_equal_points(soup_);
     return std::move(soup_);
@@ -69,16 +75,21 @@ class AsciiStlReader {
     while (true) {
       const std::string word = lower_case(next_word("facet or endsolid"));
       if (word == "endsolid") break;
-      if (word != "facet") source_.fail_at_line(words_.line(), "\"facet\" or \"endsolid\" is expected, not " + in_quotes(word));
+      if (word != "facet")
+        source_.fail_at_line(words_.line(),
+                             "\"facet\" or \"endsolid\" is expected, not " + in_quotes(word));
       read_facet();
     }
     skip_name();
   }
 
-  /// What is left of the line of solid or endsolid is a name, unless writers forgot to end the line.
+  /// What is left of the line of solid or endsolid is a name, unless writers forgot to end the
+  /// line.
   void skip_name() {
     if (words_.skip_line().find("facet normal") == std::string_view::npos) return;
-    source_.fail_at_line(words_.line(), "a facet stands where the name of the solid ends with its line: break the line in front of it");
+    source_.fail_at_line(words_.line(),
+                         "a facet stands where the name of the solid ends with its line: break the "
+                         "line in front of it");
   }
 
   void read_facet() {
@@ -98,7 +109,8 @@ class AsciiStlReader {
     const std::string_view word = next_word("a normal");
     const ParsedNumber number = parse_number(word);
     if (number.status == NumberStatus::NotANumber)
-      source_.fail_at_line(words_.line(), in_facet("its normal has " + in_quotes(word) + ", which is no number"));
+      source_.fail_at_line(words_.line(),
+                           in_facet("its normal has " + in_quotes(word) + ", which is no number"));
     return number.value;
   }
 
@@ -108,25 +120,31 @@ class AsciiStlReader {
     std::array<std::string_view, 3> numbers;
     for (std::string_view& number : numbers) {
       number = next_word("a coordinate");
-      if (words_.line() != line) source_.fail_at_line(line, in_facet("a vertex has 3 coordinates on its line"));
+      if (words_.line() != line)
+        source_.fail_at_line(line, in_facet("a vertex has 3 coordinates on its line"));
     }
-    push_corner(soup_, coordinates_.point(numbers, static_cast<std::int64_t>(soup_.points.size()), line));
+    push_corner(soup_,
+                coordinates_.point(numbers, static_cast<std::int64_t>(soup_.points.size()), line));
   }
 
   std::string_view next_word(const std::string& what) {
     const std::optional<std::string_view> word = words_.next();
-    if (!word) source_.fail_at_line(words_.line(), in_facet("the file ends where " + what + " is expected"));
+    if (!word)
+      source_.fail_at_line(words_.line(), in_facet("the file ends where " + what + " is expected"));
     return *word;
   }
 
   void expect(const std::string& keyword) {
     const std::string_view word = next_word(keyword);
     if (lower_case(word) != keyword)
-      source_.fail_at_line(words_.line(), in_facet("\"" + keyword + "\" is expected, not " + in_quotes(word)));
+      source_.fail_at_line(words_.line(),
+                           in_facet("\"" + keyword + "\" is expected, not " + in_quotes(word)));
   }
 
   std::string in_facet(const std::string& what) const {
-    return soup_.face_count() == 0 ? what : "facet " + std::to_string(soup_.face_count() - 1) + ": " + what;
+    return soup_.face_count() == 0
+               ? what
+               : "facet " + std::to_string(soup_.face_count() - 1) + ": " + what;
   }
 
   const MeshSource& source_;
@@ -137,12 +155,15 @@ class AsciiStlReader {
   int solids_ = 0;
 };
 
-std::uint32_t facet_count(std::string_view bytes) { return number_from<std::uint32_t>(bytes.substr(80), ByteOrder::Little); }
+std::uint32_t facet_count(std::string_view bytes) {
+  return number_from<std::uint32_t>(bytes.substr(80), ByteOrder::Little);
+}
 
 Vec3 binary_vector(const MeshSource& source, std::size_t byte) {
   Vec3 vector;
   for (std::size_t i = 0; i < 3; ++i)
-    vector[static_cast<Eigen::Index>(i)] = double{number_from<float>(source.bytes.substr(byte + 4 * i), ByteOrder::Little)};
+    vector[static_cast<Eigen::Index>(i)] =
+        double{number_from<float>(source.bytes.substr(byte + 4 * i), ByteOrder::Little)};
   return vector;
 }
 
@@ -152,8 +173,8 @@ Vec3 binary_corner(const MeshSource& source, std::size_t byte, std::size_t facet
     const std::size_t at = byte + 4 * static_cast<std::size_t>(component);
     const auto value = number_from<float>(source.bytes.substr(at), ByteOrder::Little);
     if (!std::isfinite(value)) {
-      source.fail_at_byte(at,
-                          "facet " + std::to_string(facet) + ": " + "xyz"[component] + " = " + text_of(double{value}) + " is not finite");
+      source.fail_at_byte(at, "facet " + std::to_string(facet) + ": " + "xyz"[component] + " = " +
+                                  text_of(double{value}) + " is not finite");
     }
     point[component] = double{value};
   }
@@ -163,22 +184,26 @@ Vec3 binary_corner(const MeshSource& source, std::size_t byte, std::size_t facet
 }  // namespace
 
 bool has_size_of_binary_stl(std::string_view bytes) {
-  return bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * std::size_t{facet_count(bytes)};
+  return bytes.size() >= kHeader &&
+         bytes.size() == kHeader + kFacet * std::size_t{facet_count(bytes)};
 }
 
 PolygonSoup read_ascii_stl(const MeshSource& source) { return AsciiStlReader(source).read(); }
 
 PolygonSoup read_binary_stl(const MeshSource& source) {
   if (source.bytes.size() < kHeader) {
-    source.fail_at_byte(source.bytes.size(), "the file ends inside the header of a binary STL, which is 84 bytes long");
+    source.fail_at_byte(source.bytes.size(),
+                        "the file ends inside the header of a binary STL, which is 84 bytes long");
   }
   const std::size_t count = facet_count(source.bytes);
   if (!has_size_of_binary_stl(source.bytes)) {
     const std::size_t needed = kHeader + kFacet * count;
     source.fail_at_byte(
-        80, std::to_string(count) + " facets make " + std::to_string(needed) + " bytes, but the file has " +
-                std::to_string(source.bytes.size()) +
-                (count > 0 && needed < source.bytes.size() ? ": cut off what follows them, if it is some program's own addition" : ""));
+        80, std::to_string(count) + " facets make " + std::to_string(needed) +
+                " bytes, but the file has " + std::to_string(source.bytes.size()) +
+                (count > 0 && needed < source.bytes.size()
+                     ? ": cut off what follows them, if it is some program's own addition"
+                     : ""));
   }
   PolygonSoup soup;
   soup.format = "binary STL";
@@ -189,7 +214,8 @@ PolygonSoup read_binary_stl(const MeshSource& source) {
   for (std::size_t facet = 0; facet < count; ++facet) {
     const std::size_t byte = kHeader + kFacet * facet;
     soup.begin_face(static_cast<std::int64_t>(byte));
-    for (std::size_t corner = 0; corner < 3; ++corner) push_corner(soup, binary_corner(source, byte + 12 * (corner + 1), facet));
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      push_corner(soup, binary_corner(source, byte + 12 * (corner + 1), facet));
     normals.take(binary_vector(source, byte), soup);
   }
   normals.warn(soup);

@@ -80,7 +80,8 @@ std::optional<std::int64_t> fitting(std::int64_t value, VtpType type) {
 
 /// Every word of an array that is written as text.
 template <typename Take>
-void each_word(const MeshSource& source, const VtpArray& array, std::int64_t count, const std::string& what, Take take) {
+void each_word(const MeshSource& source, const VtpArray& array, std::int64_t count,
+               const std::string& what, Take take) {
   WordCursor words(array.text);
   std::int64_t found = 0;
   for (std::optional<std::string_view> word = words.next(); word; word = words.next()) {
@@ -92,7 +93,8 @@ void each_word(const MeshSource& source, const VtpArray& array, std::int64_t cou
     take(*word, fail);
   }
   if (found == count) return;
-  source.fail_at_byte(array.place, what + ": " + std::to_string(found) + " numbers, not " + std::to_string(count));
+  source.fail_at_byte(
+      array.place, what + ": " + std::to_string(found) + " numbers, not " + std::to_string(count));
 }
 
 template <typename Fail>
@@ -107,18 +109,19 @@ double real_of(std::string_view word, std::int64_t& underflows, Fail fail) {
 template <typename Fail>
 std::int64_t integer_of(std::string_view word, VtpType type, Fail fail) {
   const std::optional<std::int64_t> number = parse_integer(word);
-  if (!number || !fitting(*number, type)) fail(in_quotes(word) + " is no whole number that fits the array's type");
+  if (!number || !fitting(*number, type))
+    fail(in_quotes(word) + " is no whole number that fits the array's type");
   return *number;
 }
 
-std::uint64_t count_attribute(const MeshSource& source, const XmlTag& tag, std::string_view name, std::int64_t most,
-                              std::int64_t otherwise) {
+std::uint64_t count_attribute(const MeshSource& source, const XmlTag& tag, std::string_view name,
+                              std::int64_t most, std::int64_t otherwise) {
   const std::optional<std::string> text = tag.attribute(name);
   if (!text) return static_cast<std::uint64_t>(otherwise);
   const std::optional<std::int64_t> value = parse_integer(without_blanks_around(*text));
   if (value && *value >= 0 && *value <= most) return static_cast<std::uint64_t>(*value);
-  source.fail_at_byte(tag.place,
-                      std::string(name) + " = " + in_quotes(*text) + " must be a whole number from 0 to " + std::to_string(most));
+  source.fail_at_byte(tag.place, std::string(name) + " = " + in_quotes(*text) +
+                                     " must be a whole number from 0 to " + std::to_string(most));
 }
 
 VtpFormat format_of(const MeshSource& source, const XmlTag& tag) {
@@ -126,7 +129,8 @@ VtpFormat format_of(const MeshSource& source, const XmlTag& tag) {
   // VTK goes by the offset, whatever the format says.
   const bool known = format == "ascii" || format == "binary" || format == "appended";
   if (!known || tag.attribute("offset").has_value() != (format == "appended")) {
-    source.fail_at_byte(tag.place, "an array's format must be ascii, binary, or appended with an offset");
+    source.fail_at_byte(tag.place,
+                        "an array's format must be ascii, binary, or appended with an offset");
   }
   if (format == "ascii") return VtpFormat::Ascii;
   return format == "binary" ? VtpFormat::Binary : VtpFormat::Appended;
@@ -139,22 +143,29 @@ VtpArray vtp_array(const MeshSource& source, const XmlTag& tag) {
   array.place = tag.place;
   array.name = tag.attribute("Name").value_or("");
   array.format = format_of(source, tag);
-  array.components = static_cast<std::int64_t>(count_attribute(source, tag, "NumberOfComponents", kMostComponents, 1));
-  array.offset = count_attribute(source, tag, "offset", std::numeric_limits<std::int64_t>::max(), 0);
+  array.components = static_cast<std::int64_t>(
+      count_attribute(source, tag, "NumberOfComponents", kMostComponents, 1));
+  array.offset =
+      count_attribute(source, tag, "offset", std::numeric_limits<std::int64_t>::max(), 0);
   const std::string type = tag.attribute("type").value_or("");
-  const auto found = std::find_if(kTypes.begin(), kTypes.end(), [&](const NamedType& named) { return named.name == type; });
+  const auto found = std::find_if(kTypes.begin(), kTypes.end(),
+                                  [&](const NamedType& named) { return named.name == type; });
   if (found == kTypes.end()) {
-    source.fail_at_byte(tag.place, "array " + in_quotes(array.name) + ": " + in_quotes(type) + " is no type of an array in a VTK file");
+    source.fail_at_byte(tag.place, "array " + in_quotes(array.name) + ": " + in_quotes(type) +
+                                       " is no type of an array in a VTK file");
   }
   array.type = found->type;
   return array;
 }
 
-void VtpNumbers::each_real(const VtpArray& array, std::int64_t count, const std::string& what, const std::function<void(double)>& take) {
-  if (array.type == VtpType::Bit || array.type == VtpType::String) source_.fail_at_byte(array.place, what + ": must be numbers");
+void VtpNumbers::each_real(const VtpArray& array, std::int64_t count, const std::string& what,
+                           const std::function<void(double)>& take) {
+  if (array.type == VtpType::Bit || array.type == VtpType::String)
+    source_.fail_at_byte(array.place, what + ": must be numbers");
   if (array.format == VtpFormat::Ascii) {
     return each_word(source_, array, count, what, [&](std::string_view word, auto fail) {
-      take(is_real(array.type) ? real_of(word, underflows_, fail) : static_cast<double>(integer_of(word, array.type, fail)));
+      take(is_real(array.type) ? real_of(word, underflows_, fail)
+                               : static_cast<double>(integer_of(word, array.type, fail)));
     });
   }
   check_size(array, count, what);
@@ -172,7 +183,9 @@ void VtpNumbers::each_integer(const VtpArray& array, std::int64_t count, const s
   if (is_real(array.type) || array.type == VtpType::Bit || array.type == VtpType::String)
     source_.fail_at_byte(array.place, what + ": must be whole numbers");
   if (array.format == VtpFormat::Ascii) {
-    return each_word(source_, array, count, what, [&](std::string_view word, auto fail) { take(integer_of(word, array.type, fail)); });
+    return each_word(source_, array, count, what, [&](std::string_view word, auto fail) {
+      take(integer_of(word, array.type, fail));
+    });
   }
   check_size(array, count, what);
   spend(array, static_cast<std::uint64_t>(count));
@@ -183,15 +196,18 @@ void VtpNumbers::each_integer(const VtpArray& array, std::int64_t count, const s
       const Number value = number_from<Number>(numbers.substr(at), layout_.order);
       if constexpr (std::numeric_limits<Number>::is_integer) {
         if (!std::in_range<std::int64_t>(value))
-          source_.fail_at_byte(array.place, what + ": " + std::to_string(value) + " is out of range");
+          source_.fail_at_byte(array.place,
+                               what + ": " + std::to_string(value) + " is out of range");
         take(static_cast<std::int64_t>(value));
       }
     }
   });
 }
 
-/// Texts are written one after the other, each with a NUL behind it; as ASCII, each character is its number.
-std::vector<std::string> VtpNumbers::texts(const VtpArray& array, std::int64_t count, const std::string& what) {
+/// Texts are written one after the other, each with a NUL behind it; as ASCII, each character is
+/// its number.
+std::vector<std::string> VtpNumbers::texts(const VtpArray& array, std::int64_t count,
+                                           const std::string& what) {
   if (array.type != VtpType::String) source_.fail_at_byte(array.place, what + ": must be texts");
   std::vector<std::string> texts;
   std::string text;
@@ -201,26 +217,31 @@ std::vector<std::string> VtpNumbers::texts(const VtpArray& array, std::int64_t c
       continue;
     }
     if (static_cast<std::int64_t>(texts.size()) == count)
-      source_.fail_at_byte(array.place, what + ": more texts than the " + std::to_string(count) + " expected");
+      source_.fail_at_byte(array.place,
+                           what + ": more texts than the " + std::to_string(count) + " expected");
     texts.push_back(std::move(text));
     text.clear();
   }
   if (static_cast<std::int64_t>(texts.size()) != count || !text.empty())
-    source_.fail_at_byte(array.place, what + ": " + std::to_string(texts.size()) + " texts, not " + std::to_string(count));
+    source_.fail_at_byte(array.place, what + ": " + std::to_string(texts.size()) + " texts, not " +
+                                          std::to_string(count));
   return texts;
 }
 
-void VtpNumbers::check_size(const VtpArray& array, std::int64_t count, const std::string& what) const {
+void VtpNumbers::check_size(const VtpArray& array, std::int64_t count,
+                            const std::string& what) const {
   if (array.format == VtpFormat::Ascii) {
     if (count <= static_cast<std::int64_t>(array.text.size() / 2 + 1)) return;
-    source_.fail_at_byte(array.place,
-                         what + ": " + std::to_string(array.text.size()) + " characters cannot hold " + std::to_string(count) + " numbers");
+    source_.fail_at_byte(array.place, what + ": " + std::to_string(array.text.size()) +
+                                          " characters cannot hold " + std::to_string(count) +
+                                          " numbers");
   }
   const std::uint64_t size = bytes_of(array, what).size();
   if (size == size_of(array.type, static_cast<std::uint64_t>(count))) return;
-  source_.fail_at_byte(array.place, what + ": " + std::to_string(size) + " bytes, but " + std::to_string(count) +
-                                        " numbers of its type have " +
-                                        std::to_string(size_of(array.type, static_cast<std::uint64_t>(count))));
+  source_.fail_at_byte(array.place,
+                       what + ": " + std::to_string(size) + " bytes, but " + std::to_string(count) +
+                           " numbers of its type have " +
+                           std::to_string(size_of(array.type, static_cast<std::uint64_t>(count))));
 }
 
 void VtpNumbers::check(const VtpArray& array, std::int64_t count, const std::string& what) {
@@ -242,20 +263,26 @@ void VtpNumbers::check(const VtpArray& array, std::int64_t count, const std::str
 }
 
 VtpBytes VtpNumbers::bytes_of(const VtpArray& array, const std::string& what) const {
-  if (array.format == VtpFormat::Binary) return VtpBytes(source_, layout_, array.text, /*is_base64=*/true, /*is_whole=*/true);
-  if (!layout_.appended) source_.fail_at_byte(array.place, what + ": the file has no appended data");
+  if (array.format == VtpFormat::Binary)
+    return VtpBytes(source_, layout_, array.text, /*is_base64=*/true, /*is_whole=*/true);
+  if (!layout_.appended)
+    source_.fail_at_byte(array.place, what + ": the file has no appended data");
   if (array.offset >= layout_.appended->size()) {
-    source_.fail_at_byte(array.place, what + ": offset " + std::to_string(array.offset) + " points behind the " +
-                                          std::to_string(layout_.appended->size()) + " bytes of appended data");
+    source_.fail_at_byte(array.place,
+                         what + ": offset " + std::to_string(array.offset) + " points behind the " +
+                             std::to_string(layout_.appended->size()) + " bytes of appended data");
   }
-  return VtpBytes(source_, layout_, layout_.appended->substr(array.offset), layout_.appended_is_base64, /*is_whole=*/false);
+  return VtpBytes(source_, layout_, layout_.appended->substr(array.offset),
+                  layout_.appended_is_base64, /*is_whole=*/false);
 }
 
 void VtpNumbers::spend(const VtpArray& array, std::uint64_t numbers) {
   spent_ += numbers;
   if (spent_ <= kFreeNumbers + source_.bytes.size()) return;
-  source_.fail_at_byte(array.place, "unpacked, the file holds more than " + std::to_string(kFreeNumbers + source_.bytes.size()) +
-                                        " numbers, too many for its size: write it without compression");
+  source_.fail_at_byte(array.place,
+                       "unpacked, the file holds more than " +
+                           std::to_string(kFreeNumbers + source_.bytes.size()) +
+                           " numbers, too many for its size: write it without compression");
 }
 
 std::string VtpNumbers::characters_of(const VtpArray& array, const std::string& what) {

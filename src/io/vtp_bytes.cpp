@@ -22,13 +22,16 @@ constexpr std::uint64_t kLargestBlock = std::numeric_limits<std::int32_t>::max()
 constexpr std::array<signed char, 256> base64_values() {
   std::array<signed char, 256> values{};
   values.fill(-1);
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < kDigits.size(); ++i) values[static_cast<unsigned char>(kDigits[i])] = static_cast<signed char>(i);
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (std::size_t i = 0; i < kDigits.size(); ++i)
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<signed char>(i);
   return values;
 }
 constexpr std::array<signed char, 256> kBase64Values = base64_values();
 
-/// The first `size` bytes that base64 text stands for; fewer where the text is too short or is none.
+/// The first `size` bytes that base64 text stands for; fewer where the text is too short or is
+/// none.
 std::string base64_bytes(std::string_view text, std::uint64_t size) {
   std::string bytes;
   bytes.reserve(std::min<std::uint64_t>(size, text.size()));
@@ -54,7 +57,8 @@ vtkSmartPointer<vtkDataCompressor> compressor_of(VtpCompressor kind) {
 
 }  // namespace
 
-VtpBytes::VtpBytes(const MeshSource& source, const VtpLayout& layout, std::string_view text, bool is_base64, bool is_whole)
+VtpBytes::VtpBytes(const MeshSource& source, const VtpLayout& layout, std::string_view text,
+                   bool is_base64, bool is_whole)
     : source_(source), layout_(layout), text_(text), is_base64_(is_base64) {
   // An array without entries may have no text at all.
   if (is_whole && text.empty()) return;
@@ -63,7 +67,8 @@ VtpBytes::VtpBytes(const MeshSource& source, const VtpLayout& layout, std::strin
   } else {
     read_block_header();
   }
-  if (is_whole && used_ != text_.size()) fail(std::to_string(text_.size() - used_) + " characters more than the array's sizes announce");
+  if (is_whole && used_ != text_.size())
+    fail(std::to_string(text_.size() - used_) + " characters more than the array's sizes announce");
 }
 
 std::string_view VtpBytes::unpacked() {
@@ -74,7 +79,8 @@ std::string_view VtpBytes::unpacked() {
     return std::string_view(storage_).substr(layout_.word);
   }
   const std::string_view body = text_.substr(header_written_);
-  const std::uint64_t packed = std::accumulate(packed_sizes_.begin(), packed_sizes_.end(), std::uint64_t{0});
+  const std::uint64_t packed =
+      std::accumulate(packed_sizes_.begin(), packed_sizes_.end(), std::uint64_t{0});
   if (is_base64_) {
     uncompress(bytes_in(body, packed));
   } else {
@@ -87,19 +93,21 @@ std::string_view VtpBytes::unpacked() {
 void VtpBytes::read_plain_header() {
   size_ = words_of_header(0, leading_bytes(layout_.word));
   if (size_ > text_.size())
-    fail("a size of " + std::to_string(size_) + " bytes does not fit into the " + std::to_string(text_.size()) + " that follow");
+    fail("a size of " + std::to_string(size_) + " bytes does not fit into the " +
+         std::to_string(text_.size()) + " that follow");
   take(layout_.word + size_);
 }
 
-/// How many blocks, their size unpacked, the size of the last if it is smaller, and the size of each packed. In base64 the header is padded
-/// by itself.
+/// How many blocks, their size unpacked, the size of the last if it is smaller, and the size of
+/// each packed. In base64 the header is padded by itself.
 void VtpBytes::read_block_header() {
   const std::string start = leading_bytes(3 * layout_.word);
   const std::uint64_t blocks = words_of_header(0, start), last = words_of_header(2, start);
   block_size_ = words_of_header(1, start);
-  if (blocks > text_.size() / layout_.word || block_size_ > kLargestBlock || last > block_size_ || (blocks == 0 && last > 0)) {
-    fail("sizes that do not go together: " + std::to_string(blocks) + " blocks of " + std::to_string(block_size_) + " bytes, the last of " +
-         std::to_string(last));
+  if (blocks > text_.size() / layout_.word || block_size_ > kLargestBlock || last > block_size_ ||
+      (blocks == 0 && last > 0)) {
+    fail("sizes that do not go together: " + std::to_string(blocks) + " blocks of " +
+         std::to_string(block_size_) + " bytes, the last of " + std::to_string(last));
   }
   const std::uint64_t header_size = (3 + blocks) * layout_.word;
   const std::string header = leading_bytes(header_size);
@@ -109,8 +117,8 @@ void VtpBytes::read_block_header() {
   for (std::uint64_t i = 0; i < blocks; ++i) {
     packed_sizes_.push_back(words_of_header(3 + i, header));
     if (packed_sizes_.back() > std::min<std::uint64_t>(kLargestBlock, text_.size() - packed)) {
-      fail("a block of " + std::to_string(packed_sizes_.back()) + " bytes does not fit into the " + std::to_string(text_.size()) +
-           " that follow");
+      fail("a block of " + std::to_string(packed_sizes_.back()) + " bytes does not fit into the " +
+           std::to_string(text_.size()) + " that follow");
     }
     packed += packed_sizes_.back();
   }
@@ -120,7 +128,8 @@ void VtpBytes::read_block_header() {
 
 std::uint64_t VtpBytes::words_of_header(std::uint64_t index, const std::string& header) const {
   const std::string_view bytes = std::string_view(header).substr(index * layout_.word);
-  return layout_.word == 8 ? number_from<std::uint64_t>(bytes, layout_.order) : number_from<std::uint32_t>(bytes, layout_.order);
+  return layout_.word == 8 ? number_from<std::uint64_t>(bytes, layout_.order)
+                           : number_from<std::uint32_t>(bytes, layout_.order);
 }
 
 std::string VtpBytes::leading_bytes(std::uint64_t size) const {
@@ -129,13 +138,15 @@ std::string VtpBytes::leading_bytes(std::uint64_t size) const {
 }
 
 /// How many characters bytes take that are written by themselves.
-std::uint64_t VtpBytes::written_size(std::uint64_t bytes) const { return is_base64_ ? (bytes + 2) / 3 * 4 : bytes; }
+std::uint64_t VtpBytes::written_size(std::uint64_t bytes) const {
+  return is_base64_ ? (bytes + 2) / 3 * 4 : bytes;
+}
 
 void VtpBytes::take(std::uint64_t bytes) {
   const std::uint64_t written = written_size(bytes);
   if (written > text_.size() - used_) {
-    fail("sizes of " + std::to_string(bytes) + " bytes do not fit into the " + std::to_string(text_.size() - used_) +
-         " characters that follow");
+    fail("sizes of " + std::to_string(bytes) + " bytes do not fit into the " +
+         std::to_string(text_.size() - used_) + " characters that follow");
   }
   used_ += written;
 }

@@ -1,4 +1,5 @@
-/// The bytes of one array of a VTP file: in base64 or as they are, compressed in blocks or not, behind a header that tells their size.
+/// The bytes of one array of a VTP file: in base64 or as they are, compressed in blocks or not,
+/// behind a header that tells their size.
 ///
 /// The header is reconciled with the bytes there are before anything is allocated.
 #pragma once
@@ -27,9 +28,10 @@ struct VtpLayout {
 
 class VtpBytes {
  public:
-  /// `text` begins with the header. Throws IoError naming the byte unless it holds what the header announces, and if `is_whole` nothing
-  /// else.
-  VtpBytes(const MeshSource& source, const VtpLayout& layout, std::string_view text, bool is_base64, bool is_whole);
+  /// `text` begins with the header. Throws IoError naming the byte unless it holds what the header
+  /// announces, and if `is_whole` nothing else.
+  VtpBytes(const MeshSource& source, const VtpLayout& layout, std::string_view text, bool is_base64,
+           bool is_whole);
 
   /// How many bytes there are once they are unpacked.
   std::uint64_t size() const { return size_; }

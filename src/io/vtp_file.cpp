@@ -18,11 +18,14 @@ constexpr std::size_t kMostPieces = 10'000;
 /// Walks through the elements of a file and notes what its arrays say.
 class StructureReader {
  public:
-  StructureReader(const MeshSource& source, VtpLayout& layout) : source_(source), layout_(layout), xml_(source) {}
+  StructureReader(const MeshSource& source, VtpLayout& layout)
+      : source_(source), layout_(layout), xml_(source) {}
 
   std::vector<VtpPiece> read() {
     const std::optional<XmlTag> root = xml_.enter_child();
-    if (!root || root->name != "VTKFile") source_.fail_at_byte(root ? root->place : 0, "<VTKFile> is expected: this XML is no file of VTK");
+    if (!root || root->name != "VTKFile")
+      source_.fail_at_byte(root ? root->place : 0,
+                           "<VTKFile> is expected: this XML is no file of VTK");
     take_root(*root);
     while (const std::optional<XmlTag> child = xml_.enter_child()) {
       if (child->name == "PolyData") {
@@ -43,18 +46,22 @@ class StructureReader {
     const std::string type = tag.attribute("type").value_or("");
     if (type != "PolyData") {
       source_.fail_at_byte(tag.place,
-                           "the file holds " + in_quotes(type) + ", and only \"PolyData\" is read: save the surface of it as VTP");
+                           "the file holds " + in_quotes(type) +
+                               ", and only \"PolyData\" is read: save the surface of it as VTP");
     }
     const std::string version = tag.attribute("version").value_or("1.0");
     if (version.substr(0, version.find('.')).find_first_not_of("012") != std::string::npos)
-      source_.fail_at_byte(tag.place, "version " + in_quotes(version) + " of the format is not known");
+      source_.fail_at_byte(tag.place,
+                           "version " + in_quotes(version) + " of the format is not known");
     const std::string order = tag.attribute("byte_order").value_or("LittleEndian");
     if (order != "LittleEndian" && order != "BigEndian")
-      source_.fail_at_byte(tag.place, "byte_order " + in_quotes(order) + " must be LittleEndian or BigEndian");
+      source_.fail_at_byte(tag.place,
+                           "byte_order " + in_quotes(order) + " must be LittleEndian or BigEndian");
     layout_.order = order == "BigEndian" ? ByteOrder::Big : ByteOrder::Little;
     const std::string word = tag.attribute("header_type").value_or("UInt32");
     if (word != "UInt32" && word != "UInt64")
-      source_.fail_at_byte(tag.place, "header_type " + in_quotes(word) + " must be UInt32 or UInt64");
+      source_.fail_at_byte(tag.place,
+                           "header_type " + in_quotes(word) + " must be UInt32 or UInt64");
     layout_.word = word == "UInt64" ? 8 : 4;
     const std::string compressor = tag.attribute("compressor").value_or("");
     if (compressor == "vtkZLibDataCompressor") {
@@ -73,13 +80,15 @@ class StructureReader {
     if (layout_.appended) source_.fail_at_byte(tag.place, "a second element <AppendedData>");
     const std::string encoding = tag.attribute("encoding").value_or("");
     if (encoding != "raw" && encoding != "base64")
-      source_.fail_at_byte(tag.place, "encoding " + in_quotes(encoding) + " of appended data must be raw or base64");
+      source_.fail_at_byte(
+          tag.place, "encoding " + in_quotes(encoding) + " of appended data must be raw or base64");
     layout_.appended_is_base64 = encoding == "base64";
     const std::size_t end = source_.bytes.rfind("</AppendedData");
     if (end == std::string_view::npos || end < xml_.position())
       source_.fail_at_byte(source_.bytes.size(), "the file ends inside <AppendedData>");
     const std::size_t mark = source_.bytes.find_first_not_of(" \t\r\n", xml_.position());
-    if (source_.bytes[mark] != '_') source_.fail_at_byte(mark, "appended data must begin with \"_\"");
+    if (source_.bytes[mark] != '_')
+      source_.fail_at_byte(mark, "appended data must begin with \"_\"");
     layout_.appended = source_.bytes.substr(mark + 1, end - std::min(end, mark + 1));
     xml_.jump_to(end);
     if (xml_.enter_child()) source_.fail_at_byte(end, "appended data must end here");
@@ -98,15 +107,20 @@ class StructureReader {
   }
 
   void take_piece(const XmlTag& tag) {
-    if (pieces_.size() == kMostPieces) source_.fail_at_byte(tag.place, "more than " + std::to_string(kMostPieces) + " pieces");
+    if (pieces_.size() == kMostPieces)
+      source_.fail_at_byte(tag.place, "more than " + std::to_string(kMostPieces) + " pieces");
     VtpPiece& piece = pieces_.emplace_back();
     piece.place = tag.place;
     piece.points = count_of(tag, "NumberOfPoints");
-    const std::array<std::pair<const char*, VtpCells*>, 4> kinds = {
-        {{"Verts", &piece.verts}, {"Lines", &piece.lines}, {"Strips", &piece.strips}, {"Polys", &piece.polys}}};
-    for (const auto& [kind, cells] : kinds) *cells = {kind, count_of(tag, std::string("NumberOf") + kind), {}, {}, tag.place};
+    const std::array<std::pair<const char*, VtpCells*>, 4> kinds = {{{"Verts", &piece.verts},
+                                                                     {"Lines", &piece.lines},
+                                                                     {"Strips", &piece.strips},
+                                                                     {"Polys", &piece.polys}}};
+    for (const auto& [kind, cells] : kinds)
+      *cells = {kind, count_of(tag, std::string("NumberOf") + kind), {}, {}, tag.place};
     while (const std::optional<XmlTag> child = xml_.enter_child()) {
-      const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return child->name == kind.first; });
+      const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                      [&](const auto& kind) { return child->name == kind.first; });
       if (found != kinds.end()) {
         take_cells(*child, *found->second);
       } else if (child->name == "Points") {
@@ -125,7 +139,8 @@ class StructureReader {
     const std::string text = tag.attribute(name).value_or("0");
     const std::optional<std::int64_t> count = parse_integer(without_blanks_around(text));
     if (count && *count >= 0 && *count <= std::numeric_limits<int>::max()) return *count;
-    source_.fail_at_byte(tag.place, name + " = " + in_quotes(text) + " must be a whole number from 0 to 2147483647");
+    source_.fail_at_byte(
+        tag.place, name + " = " + in_quotes(text) + " must be a whole number from 0 to 2147483647");
   }
 
   void take_positions(const XmlTag& tag, VtpPiece& piece) {
@@ -135,22 +150,27 @@ class StructureReader {
       ++arrays;
       piece.positions = std::move(array);
     });
-    if (arrays != 1 && (arrays > 1 || piece.points > 0)) source_.fail_at_byte(tag.place, "<Points> must hold one array");
+    if (arrays != 1 && (arrays > 1 || piece.points > 0))
+      source_.fail_at_byte(tag.place, "<Points> must hold one array");
     if (piece.positions && piece.positions->components != 3) {
-      source_.fail_at_byte(piece.positions->place, "points must have three components, not " + std::to_string(piece.positions->components));
+      source_.fail_at_byte(piece.positions->place, "points must have three components, not " +
+                                                       std::to_string(piece.positions->components));
     }
   }
 
   void take_cells(const XmlTag& tag, VtpCells& cells) {
-    if (cells.connectivity || cells.offsets) source_.fail_at_byte(tag.place, "a second element <" + cells.kind + "> of a piece");
+    if (cells.connectivity || cells.offsets)
+      source_.fail_at_byte(tag.place, "a second element <" + cells.kind + "> of a piece");
     each_array([&](VtpArray array) {
       if (array.name == "connectivity" && !cells.connectivity) {
         cells.connectivity = std::move(array);
       } else if (array.name == "offsets" && !cells.offsets) {
         cells.offsets = std::move(array);
       } else {
-        source_.fail_at_byte(array.place,
-                             "<" + cells.kind + "> must hold one array \"connectivity\" and one \"offsets\", not " + in_quotes(array.name));
+        source_.fail_at_byte(
+            array.place, "<" + cells.kind +
+                             "> must hold one array \"connectivity\" and one \"offsets\", not " +
+                             in_quotes(array.name));
       }
     });
   }
@@ -169,13 +189,15 @@ class StructureReader {
     }
   }
 
-  /// The numbers may stand before, between or behind what else an array may hold (keys with information on it), in one stretch.
+  /// The numbers may stand before, between or behind what else an array may hold (keys with
+  /// information on it), in one stretch.
   std::string_view text_of_array() {
     std::string_view text;
     while (true) {
       const std::optional<XmlTag> child = xml_.enter_child();
       const std::string_view here = xml_.text_before();
-      if (!here.empty() && !text.empty()) source_.fail_at_byte(xml_.position(), "an array's numbers must stand in one place");
+      if (!here.empty() && !text.empty())
+        source_.fail_at_byte(xml_.position(), "an array's numbers must stand in one place");
       if (!here.empty()) text = here;
       if (!child) return text;
       xml_.skip_content();
@@ -190,21 +212,25 @@ class StructureReader {
 };
 
 /// Numbers that follow each other may not decrease, which makes the last the largest.
-std::vector<std::int64_t> ends_of(const MeshSource& source, VtpNumbers& numbers, const VtpCells& cells) {
+std::vector<std::int64_t> ends_of(const MeshSource& source, VtpNumbers& numbers,
+                                  const VtpCells& cells) {
   std::vector<std::int64_t> ends;
-  numbers.each_integer(*cells.offsets, cells.count, "offsets of " + cells.kind, [&](std::int64_t end) {
-    if (end < (ends.empty() ? 0 : ends.back())) {
-      source.fail_at_byte(cells.offsets->place, "offsets of " + cells.kind + " must not decrease, but that of cell " +
-                                                    std::to_string(ends.size()) + " is " + std::to_string(end));
-    }
-    ends.push_back(end);
-  });
+  numbers.each_integer(
+      *cells.offsets, cells.count, "offsets of " + cells.kind, [&](std::int64_t end) {
+        if (end < (ends.empty() ? 0 : ends.back())) {
+          source.fail_at_byte(cells.offsets->place,
+                              "offsets of " + cells.kind + " must not decrease, but that of cell " +
+                                  std::to_string(ends.size()) + " is " + std::to_string(end));
+        }
+        ends.push_back(end);
+      });
   return ends;
 }
 
 }  // namespace
 
-VtpFile::VtpFile(const MeshSource& source) : source_(source), pieces_(StructureReader(source, layout_).read()), numbers_(source, layout_) {
+VtpFile::VtpFile(const MeshSource& source)
+    : source_(source), pieces_(StructureReader(source, layout_).read()), numbers_(source, layout_) {
   for (const VtpPiece& piece : pieces_) check_arrays(piece);
 }
 
@@ -216,7 +242,8 @@ void VtpFile::append_points(const VtpPiece& piece, std::vector<Vec3>& points) {
   int component = 0;
   numbers_.each_real(*piece.positions, 3 * piece.points, "points", [&](double coordinate) {
     if (!std::isfinite(coordinate)) {
-      source_.fail_at_byte(piece.positions->place, "vertex " + std::to_string(points.size()) + ": " + "xyz"[component] + " = " +
+      source_.fail_at_byte(piece.positions->place, "vertex " + std::to_string(points.size()) +
+                                                       ": " + "xyz"[component] + " = " +
                                                        text_of(coordinate) + " is not finite");
     }
     point[component++] = coordinate;
@@ -226,7 +253,8 @@ void VtpFile::append_points(const VtpPiece& piece, std::vector<Vec3>& points) {
   });
 }
 
-void VtpFile::each_cell(const VtpPiece& piece, const VtpCells& cells, const std::function<void(const std::vector<int>&)>& take) {
+void VtpFile::each_cell(const VtpPiece& piece, const VtpCells& cells,
+                        const std::function<void(const std::vector<int>&)>& take) {
   if (cells.count == 0) return;
   const std::vector<std::int64_t> ends = ends_of(source_, numbers_, cells);
   std::size_t cell = 0;
@@ -239,32 +267,41 @@ void VtpFile::each_cell(const VtpPiece& piece, const VtpCells& cells, const std:
     }
   };
   pass_on();
-  numbers_.each_integer(*cells.connectivity, ends.back(), "connectivity of " + cells.kind, [&](std::int64_t index) {
-    if (index < 0 || index >= piece.points) {
-      source_.fail_at_byte(cells.connectivity->place, "cell " + std::to_string(cell) + " of " + cells.kind + ": vertex index " +
-                                                          std::to_string(index) + " is out of range 0 to " +
-                                                          std::to_string(piece.points - 1));
-    }
-    corners.push_back(static_cast<int>(index));
-    ++taken;
-    pass_on();
-  });
+  numbers_.each_integer(
+      *cells.connectivity, ends.back(), "connectivity of " + cells.kind, [&](std::int64_t index) {
+        if (index < 0 || index >= piece.points) {
+          source_.fail_at_byte(cells.connectivity->place,
+                               "cell " + std::to_string(cell) + " of " + cells.kind +
+                                   ": vertex index " + std::to_string(index) +
+                                   " is out of range 0 to " + std::to_string(piece.points - 1));
+        }
+        corners.push_back(static_cast<int>(index));
+        ++taken;
+        pass_on();
+      });
 }
 
 void VtpFile::check_arrays(const VtpPiece& piece) {
   if (piece.points > 0 && !piece.positions)
-    source_.fail_at_byte(piece.place, std::to_string(piece.points) + " points are announced, but there is no element <Points>");
+    source_.fail_at_byte(
+        piece.place,
+        std::to_string(piece.points) + " points are announced, but there is no element <Points>");
   for (const VtpCells* cells : {&piece.verts, &piece.lines, &piece.strips, &piece.polys}) {
     if (cells->count > 0 && (!cells->offsets || !cells->connectivity)) {
-      source_.fail_at_byte(cells->place, std::to_string(cells->count) + " " + cells->kind + " are announced, but <" + cells->kind +
+      source_.fail_at_byte(cells->place, std::to_string(cells->count) + " " + cells->kind +
+                                             " are announced, but <" + cells->kind +
                                              "> has no arrays \"connectivity\" and \"offsets\"");
     }
-    if (cells->count == 0 && cells->offsets) numbers_.check(*cells->offsets, 0, "offsets of " + cells->kind);
-    if (cells->count == 0 && cells->connectivity) numbers_.check(*cells->connectivity, 0, "connectivity of " + cells->kind);
+    if (cells->count == 0 && cells->offsets)
+      numbers_.check(*cells->offsets, 0, "offsets of " + cells->kind);
+    if (cells->count == 0 && cells->connectivity)
+      numbers_.check(*cells->connectivity, 0, "connectivity of " + cells->kind);
   }
-  const auto check = [&](const std::vector<VtpArray>& arrays, std::int64_t count, const std::string& where) {
+  const auto check = [&](const std::vector<VtpArray>& arrays, std::int64_t count,
+                         const std::string& where) {
     for (const VtpArray& array : arrays) {
-      if (array.name.empty()) source_.fail_at_byte(array.place, "an array of the " + where + " has no name");
+      if (array.name.empty())
+        source_.fail_at_byte(array.place, "an array of the " + where + " has no name");
       const std::string name = "array " + in_quotes(array.name) + " of the " + where;
       if (array.components == 0) source_.fail_at_byte(array.place, name + " has no components");
       numbers_.check(array, array.components * count, name);

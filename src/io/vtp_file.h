@@ -1,7 +1,8 @@
-/// VTK's own poly data files (VTP), read without trust: the structure of the file is checked against its counts before a number is read.
+/// VTK's own poly data files (VTP), read without trust: the structure of the file is checked
+/// against its counts before a number is read.
 ///
-/// What VTK's parser takes in silence is refused: a count of cells or points that the arrays do not have, arrays of points and cells that
-/// are too short, too long, or without a name.
+/// What VTK's parser takes in silence is refused: a count of cells or points that the arrays do not
+/// have, arrays of points and cells that are too short, too long, or without a name.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,8 @@ struct VtpPiece {
 
 class VtpFile {
  public:
-  /// Reads the structure and looks whether all arrays of points and cells hold what the counts promise. Throws IoError.
+  /// Reads the structure and looks whether all arrays of points and cells hold what the counts
+  /// promise. Throws IoError.
   explicit VtpFile(const MeshSource& source);
 
   VtpFile(const VtpFile&) = delete;
@@ -48,7 +50,8 @@ class VtpFile {
   /// Appends the finite positions of a piece's points. Throws IoError.
   void append_points(const VtpPiece& piece, std::vector<Vec3>& points);
   /// Calls for each cell with its corners, all in [0, points of the piece). Throws IoError.
-  void each_cell(const VtpPiece& piece, const VtpCells& cells, const std::function<void(const std::vector<int>&)>& take);
+  void each_cell(const VtpPiece& piece, const VtpCells& cells,
+                 const std::function<void(const std::vector<int>&)>& take);
 
  private:
   void check_arrays(const VtpPiece& piece);

@@ -18,7 +18,9 @@ namespace {
 
 constexpr double kFarthest_m = 1e9;  // as Region has it
 
-void append_point(std::string& text, const Vec2& point) { text += text_of(point.x()) + " " + text_of(point.y()); }
+void append_point(std::string& text, const Vec2& point) {
+  text += text_of(point.x()) + " " + text_of(point.y());
+}
 
 /// The first point is written again at the end.
 void append_ring(std::string& text, const Ring& ring) {
@@ -44,7 +46,8 @@ struct PlacedPolygon {
   std::size_t byte = 0;
 };
 
-/// The grammar nests three deep at most, so each level is a function of its own and nothing recurses.
+/// The grammar nests three deep at most, so each level is a function of its own and nothing
+/// recurses.
 class WktParser {
  public:
   explicit WktParser(const MeshSource& source) : source_(source) {}
@@ -55,7 +58,8 @@ class WktParser {
     const std::string_view word = take_word();
     const std::string kind = lower_case(word);
     if (kind != "polygon" && kind != "multipolygon")
-      source_.fail_at_byte(start, "POLYGON or MULTIPOLYGON is expected, not " + (word.empty() ? found() : in_quotes(word)));
+      source_.fail_at_byte(start, "POLYGON or MULTIPOLYGON is expected, not " +
+                                      (word.empty() ? found() : in_quotes(word)));
     std::vector<PlacedPolygon> polygons;
     if (!take_empty()) {
       if (kind == "polygon") {
@@ -96,29 +100,36 @@ class WktParser {
       const double x = coordinate();
       ring.emplace_back(x, coordinate());
     } while (take(','));
-    if (!take(')')) fail("\",\" or \")\" is expected behind a point of two coordinates, not " + found());
+    if (!take(')'))
+      fail("\",\" or \")\" is expected behind a point of two coordinates, not " + found());
     if (ring.size() < 4)
-      source_.fail_at_byte(start, "a ring of " + std::to_string(ring.size()) + " points: it has at least 4, the last like the first");
-    if (ring.front() != ring.back()) source_.fail_at_byte(start, "the ring does not end where it began");
+      source_.fail_at_byte(start, "a ring of " + std::to_string(ring.size()) +
+                                      " points: it has at least 4, the last like the first");
+    if (ring.front() != ring.back())
+      source_.fail_at_byte(start, "the ring does not end where it began");
     ring.pop_back();
     return ring;
   }
 
   double coordinate() {
     const std::size_t start = skip_blanks();
-    const std::size_t end = std::min(source_.bytes.find_first_of(" \t\r\n,()", start), source_.bytes.size());
+    const std::size_t end =
+        std::min(source_.bytes.find_first_of(" \t\r\n,()", start), source_.bytes.size());
     const std::string_view word = source_.bytes.substr(start, end - start);
     const ParsedNumber number = parse_number(word);
     if (word.empty()) fail("a number is expected, not " + found());
     if (number.status == NumberStatus::NotANumber) fail(in_quotes(word) + " is not a number");
-    if (number.status == NumberStatus::TooLarge || !std::isfinite(number.value)) fail(in_quotes(word) + " is not finite");
-    if (std::abs(number.value) > kFarthest_m) fail(in_quotes(word) + " is more than 1e9 m from the origin");
+    if (number.status == NumberStatus::TooLarge || !std::isfinite(number.value))
+      fail(in_quotes(word) + " is not finite");
+    if (std::abs(number.value) > kFarthest_m)
+      fail(in_quotes(word) + " is more than 1e9 m from the origin");
     position_ = end;
     return number.value;
   }
 
   std::size_t skip_blanks() {
-    position_ = std::min(source_.bytes.find_first_not_of(" \t\r\n", position_), source_.bytes.size());
+    position_ =
+        std::min(source_.bytes.find_first_not_of(" \t\r\n", position_), source_.bytes.size());
     return position_;
   }
 
@@ -155,7 +166,8 @@ class WktParser {
 
   /// What stands where something else is expected.
   std::string found() const {
-    return position_ >= source_.bytes.size() ? "the end of the file" : in_quotes(source_.bytes.substr(position_, 20));
+    return position_ >= source_.bytes.size() ? "the end of the file"
+                                             : in_quotes(source_.bytes.substr(position_, 20));
   }
 
   [[noreturn]] void fail(const std::string& what) const { source_.fail_at_byte(position_, what); }
@@ -175,14 +187,16 @@ std::string without_function(const std::string& words) {
   return words.starts_with(kFunction) ? words.substr(kFunction.size()) : words;
 }
 
-std::vector<std::string> warnings_of(const MeshSource& source, std::span<const PolygonWithHoles> polygons) {
+std::vector<std::string> warnings_of(const MeshSource& source,
+                                     std::span<const PolygonWithHoles> polygons) {
   std::vector<std::string> warnings = repairs_of(polygons).words();
   for (std::string& warning : warnings) warning = source.path.string() + ": " + warning;
   return warnings;
 }
 
 /// Says which of the polygons is at fault, if one of them is by itself.
-[[noreturn]] void refuse(const MeshSource& source, std::span<const PlacedPolygon> placed, const InvalidInput& error) {
+[[noreturn]] void refuse(const MeshSource& source, std::span<const PlacedPolygon> placed,
+                         const InvalidInput& error) {
   for (const PlacedPolygon& one : placed) {
     try {
       const Region region(std::span(&one.polygon, 1));
@@ -199,7 +213,8 @@ std::string to_wkt(const Region& region) {
   const std::vector<PolygonWithHoles> polygons = region.polygons();
   if (polygons.empty()) return "MULTIPOLYGON EMPTY";
   std::string text = "MULTIPOLYGON (";
-  for (std::size_t i = 0; i < polygons.size(); ++i) append_polygon(i == 0 ? text : text += ", ", polygons[i]);
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    append_polygon(i == 0 ? text : text += ", ", polygons[i]);
   return text + ")";
 }
 
@@ -211,7 +226,8 @@ BoundaryFile read_wkt(const std::filesystem::path& path) {
     const std::vector<PolygonWithHoles> polygons = polygons_of(placed);
     const Region region(polygons);
     if (region.empty() && !placed.empty())
-      source.fail_at_byte(placed.front().byte, "no area is inside: MULTIPOLYGON EMPTY says so without doubt");
+      source.fail_at_byte(placed.front().byte,
+                          "no area is inside: MULTIPOLYGON EMPTY says so without doubt");
     return {region, warnings_of(source, polygons)};
   } catch (const InvalidInput& error) {
     refuse(source, placed, error);

@@ -32,15 +32,19 @@ void append_vertex(std::string& text, const ScaledMesh& mesh, Eigen::Index verte
 }
 
 void append_triangle(std::string& text, const ScaledMesh& mesh, Eigen::Index triangle, int first) {
-  for (int i = 0; i < 3; ++i) text.append(" ").append(std::to_string(mesh.triangles(triangle, i) + first));
+  for (int i = 0; i < 3; ++i)
+    text.append(" ").append(std::to_string(mesh.triangles(triangle, i) + first));
   text += '\n';
 }
 
 std::string ply_of(const ScaledMesh& mesh) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.rows()) +
-                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " + std::to_string(mesh.triangles.rows()) +
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(mesh.vertices.rows()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                      std::to_string(mesh.triangles.rows()) +
                       "\nproperty list uchar int vertex_indices\nend_header\n";
-  bytes.reserve(bytes.size() + 24 * static_cast<std::size_t>(mesh.vertices.rows()) + 13 * static_cast<std::size_t>(mesh.triangles.rows()));
+  bytes.reserve(bytes.size() + 24 * static_cast<std::size_t>(mesh.vertices.rows()) +
+                13 * static_cast<std::size_t>(mesh.triangles.rows()));
   for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex) {
     for (int i = 0; i < 3; ++i) append_little_endian(bytes, mesh.vertices(vertex, i));
   }
@@ -53,16 +57,22 @@ std::string ply_of(const ScaledMesh& mesh) {
 
 std::string obj_of(const ScaledMesh& mesh) {
   // The only counts that an OBJ file can have, by which a reader may see that it was cut.
-  std::string text = "# " + std::to_string(mesh.vertices.rows()) + " vertices, " + std::to_string(mesh.triangles.rows()) + " faces\n";
-  for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex) append_vertex(text += "v ", mesh, vertex);
-  for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle) append_triangle(text += "f", mesh, triangle, 1);
+  std::string text = "# " + std::to_string(mesh.vertices.rows()) + " vertices, " +
+                     std::to_string(mesh.triangles.rows()) + " faces\n";
+  for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex)
+    append_vertex(text += "v ", mesh, vertex);
+  for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle)
+    append_triangle(text += "f", mesh, triangle, 1);
   return text;
 }
 
 std::string off_of(const ScaledMesh& mesh) {
-  std::string text = "OFF\n" + std::to_string(mesh.vertices.rows()) + " " + std::to_string(mesh.triangles.rows()) + " 0\n";
-  for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex) append_vertex(text, mesh, vertex);
-  for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle) append_triangle(text += "3", mesh, triangle, 0);
+  std::string text = "OFF\n" + std::to_string(mesh.vertices.rows()) + " " +
+                     std::to_string(mesh.triangles.rows()) + " 0\n";
+  for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex)
+    append_vertex(text, mesh, vertex);
+  for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle)
+    append_triangle(text += "3", mesh, triangle, 0);
   return text;
 }
 
@@ -74,7 +84,9 @@ std::string stl_of(const ScaledMesh& mesh) {
   std::string bytes(80, ' ');
   append_little_endian(bytes, static_cast<std::uint32_t>(mesh.triangles.rows()));
   for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle) {
-    const auto corner = [&](int i) -> Vec3 { return mesh.vertices.row(mesh.triangles(triangle, i)); };
+    const auto corner = [&](int i) -> Vec3 {
+      return mesh.vertices.row(mesh.triangles(triangle, i));
+    };
     append_floats(bytes, (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized());
     for (int i = 0; i < 3; ++i) append_floats(bytes, corner(i));
     bytes.append(2, '\0');
@@ -84,9 +96,12 @@ std::string stl_of(const ScaledMesh& mesh) {
 
 ScaledMesh scaled(const TriangleMesh& mesh, LengthUnit unit) {
   require(mesh.vertices.allFinite(), "write_mesh", "mesh", "must have finite vertices");
-  const bool in_range = mesh.triangles.size() == 0 || (mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.vertices.rows());
+  const bool in_range =
+      mesh.triangles.size() == 0 ||
+      (mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.vertices.rows());
   require(in_range, "write_mesh", "mesh", "must have triangles that point at its vertices");
-  return {mesh.vertices.unaryExpr([unit](double value_m) { return from_metres(value_m, unit); }), mesh.triangles};
+  return {mesh.vertices.unaryExpr([unit](double value_m) { return from_metres(value_m, unit); }),
+          mesh.triangles};
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ void remember_message(vtkObject*, unsigned long, void* message, void* text) {
 void ignore_message(vtkObject*, unsigned long, void*, void*) {}
 
 // Whoever listens to an object's messages keeps VTK from printing them.
-void listen(vtkObject& speaker, void (*callback)(vtkObject*, unsigned long, void*, void*), std::string& message) {
+void listen(vtkObject& speaker, void (*callback)(vtkObject*, unsigned long, void*, void*),
+            std::string& message) {
   vtkNew<vtkCallbackCommand> listener;
   listener->SetCallback(callback);
   listener->SetClientData(&message);
@@ -41,8 +42,9 @@ void listen(vtkObject& speaker, void (*callback)(vtkObject*, unsigned long, void
   speaker.AddObserver(vtkCommand::WarningEvent, listener);
 }
 
-// VTK's error code is the system's last error, which on a full disk is that of cleaning up, so the message counts. It comes on several
-// lines, after the place in VTK's source and the object that speaks.
+// VTK's error code is the system's last error, which on a full disk is that of cleaning up, so the
+// message counts. It comes on several lines, after the place in VTK's source and the object that
+// speaks.
 std::string reason_of(const std::string& message) {
   const std::size_t object_end = message.find("): ");
   if (object_end == std::string::npos) return "the disk is full or failing";
@@ -50,8 +52,8 @@ std::string reason_of(const std::string& message) {
   return message.substr(begin, message.find('\n', begin) - begin);
 }
 
-// VTK's writer reports success even where the file could not be opened: what counts is the error code. Its messages are caught, or it would
-// print them.
+// VTK's writer reports success even where the file could not be opened: what counts is the error
+// code. Its messages are caught, or it would print them.
 void write_polydata(const fs::path& path, vtkPolyData& polydata) {
   write_atomically(path, [&](const fs::path& temporary) {
     std::string message;
@@ -99,10 +101,12 @@ vtkSmartPointer<vtkDoubleArray> array_of(const std::string& name, const Field& f
   return array;
 }
 
-void check_fields(const Surface& surface, const std::vector<std::pair<std::string, Field>>& fields) {
+void check_fields(const Surface& surface,
+                  const std::vector<std::pair<std::string, Field>>& fields) {
   std::set<std::string> names;
   for (const auto& [name, field] : fields) {
-    require(!name.empty() && names.insert(name).second, "write_surface_vtp", "field '" + name + "'", "needs a name of its own");
+    require(!name.empty() && names.insert(name).second, "write_surface_vtp", "field '" + name + "'",
+            "needs a name of its own");
     require(field.size() == surface.vertex_count(), "write_surface_vtp",
             "field '" + name + "' with " + std::to_string(field.size()) + " values",
             "must have one a vertex, " + std::to_string(surface.vertex_count()));
@@ -116,10 +120,13 @@ void check_curves(const Surface& surface, std::span<const BoundaryCurve> curves)
   const Vec3 highest = vertices.colwise().maxCoeff().transpose().array() + slack_m;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::string curve = "curve " + std::to_string(i);
-    require(curves[i].points.size() >= 2, "write_boundary_vtp", curve, "must have at least two points");
-    const bool near = std::all_of(curves[i].points.begin(), curves[i].points.end(), [&](const Vec3& point) {
-      return (point.array() >= lowest.array()).all() && (point.array() <= highest.array()).all();
-    });
+    require(curves[i].points.size() >= 2, "write_boundary_vtp", curve,
+            "must have at least two points");
+    const bool near =
+        std::all_of(curves[i].points.begin(), curves[i].points.end(), [&](const Vec3& point) {
+          return (point.array() >= lowest.array()).all() &&
+                 (point.array() <= highest.array()).all();
+        });
     require(near, "write_boundary_vtp", curve, "must lie on the surface");
   }
 }
@@ -127,12 +134,14 @@ void check_curves(const Surface& surface, std::span<const BoundaryCurve> curves)
 void add_polyline(vtkPoints& points, vtkCellArray& lines, const BoundaryCurve& curve) {
   lines.InsertNextCell(static_cast<int>(curve.points.size()) + 1);
   const vtkIdType first = points.GetNumberOfPoints();
-  for (const Vec3& point : curve.points) lines.InsertCellPoint(points.InsertNextPoint(point.data()));
+  for (const Vec3& point : curve.points)
+    lines.InsertCellPoint(points.InsertNextPoint(point.data()));
   lines.InsertCellPoint(first);
 }
 
 template <typename Value>
-vtkSmartPointer<vtkIntArray> int_array(const char* name, std::span<const BoundaryCurve> curves, Value value_of) {
+vtkSmartPointer<vtkIntArray> int_array(const char* name, std::span<const BoundaryCurve> curves,
+                                       Value value_of) {
   auto array = vtkSmartPointer<vtkIntArray>::New();
   array->SetName(name);
   for (const BoundaryCurve& curve : curves) array->InsertNextValue(value_of(curve));
@@ -174,17 +183,21 @@ std::string name_of(CurveKind kind) {
     case CurveKind::Cut:
       return "cut";
   }
-  throw InvalidInput("name_of: curve kind " + std::to_string(static_cast<int>(kind)) + " does not exist");
+  throw InvalidInput("name_of: curve kind " + std::to_string(static_cast<int>(kind)) +
+                     " does not exist");
 }
 
-void write_surface_vtp(const fs::path& path, const Surface& surface, const std::vector<std::pair<std::string, Field>>& fields) {
+void write_surface_vtp(const fs::path& path, const Surface& surface,
+                       const std::vector<std::pair<std::string, Field>>& fields) {
   check_fields(surface, fields);
   const vtkSmartPointer<vtkPolyData> polydata = triangles_of(surface);
-  for (const auto& [name, field] : fields) polydata->GetPointData()->AddArray(array_of(name, field));
+  for (const auto& [name, field] : fields)
+    polydata->GetPointData()->AddArray(array_of(name, field));
   write_polydata(path, *polydata);
 }
 
-void write_boundary_vtp(const fs::path& path, const Surface& surface, std::span<const BoundaryCurve> curves) {
+void write_boundary_vtp(const fs::path& path, const Surface& surface,
+                        std::span<const BoundaryCurve> curves) {
   check_curves(surface, curves);
   const vtkSmartPointer<vtkPoints> points = vtk_points(0);
   vtkNew<vtkCellArray> lines;
@@ -198,17 +211,22 @@ void write_boundary_vtp(const fs::path& path, const Surface& surface, std::span<
   polydata->SetPoints(points);
   polydata->SetLines(lines);
   vtkCellData* cells = polydata->GetCellData();
-  cells->AddArray(int_array("kind", curves, [](const BoundaryCurve& curve) { return static_cast<int>(curve.kind); }));
+  cells->AddArray(int_array(
+      "kind", curves, [](const BoundaryCurve& curve) { return static_cast<int>(curve.kind); }));
   cells->AddArray(names);
   cells->AddArray(int_array("part", curves, [](const BoundaryCurve& curve) { return curve.part; }));
-  cells->AddArray(int_array("hole", curves, [](const BoundaryCurve& curve) { return curve.hole ? 1 : 0; }));
+  cells->AddArray(
+      int_array("hole", curves, [](const BoundaryCurve& curve) { return curve.hole ? 1 : 0; }));
   write_polydata(path, *polydata);
 }
 
 void write_pvd(const fs::path& path, const std::vector<std::string>& files) {
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n  <Collection>\n";
   for (std::size_t step = 0; step < files.size(); ++step) {
-    xml += "    <DataSet timestep=\"" + std::to_string(step) + "\" group=\"\" part=\"0\" file=\"" + escaped(files[step]) + "\"/>\n";
+    xml += "    <DataSet timestep=\"" + std::to_string(step) + "\" group=\"\" part=\"0\" file=\"" +
+           escaped(files[step]) + "\"/>\n";
   }
   write_atomically(path, xml + "  </Collection>\n</VTKFile>\n");
 }

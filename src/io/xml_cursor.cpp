@@ -15,17 +15,21 @@ constexpr std::string_view kBlank = " \t\r\n";
 bool is_blank(char c) { return kBlank.find(c) != std::string_view::npos; }
 
 bool is_name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == ':';
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '.' || c == ':';
 }
 
 struct Entity {
   std::string_view name;
   char character;
 };
-constexpr std::array<Entity, 5> kEntities = {{{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+constexpr std::array<Entity, 5> kEntities = {
+    {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
 
 const Entity* entity_at(std::string_view text) {
-  const auto found = std::find_if(kEntities.begin(), kEntities.end(), [&](const Entity& entity) { return text.starts_with(entity.name); });
+  const auto found = std::find_if(kEntities.begin(), kEntities.end(), [&](const Entity& entity) {
+    return text.starts_with(entity.name);
+  });
   return found == kEntities.end() ? nullptr : &*found;
 }
 
@@ -33,11 +37,14 @@ const Entity* entity_at(std::string_view text) {
 
 std::string_view without_blanks_around(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
-  return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+  return first == std::string_view::npos
+             ? std::string_view()
+             : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
 std::optional<std::string> XmlTag::attribute(std::string_view wanted) const {
-  const auto found = std::find_if(attributes.begin(), attributes.end(), [&](const auto& attribute) { return attribute.first == wanted; });
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [&](const auto& attribute) { return attribute.first == wanted; });
   if (found == attributes.end()) return std::nullopt;
   std::string value;
   for (std::string_view rest = found->second; !rest.empty();) {
@@ -77,15 +84,18 @@ void XmlCursor::expect_end() {
   }
 }
 
-/// Up to the next tag, over comments and processing instructions, of which text may be on one side only.
+/// Up to the next tag, over comments and processing instructions, of which text may be on one side
+/// only.
 void XmlCursor::take_text() {
   text_ = {};
   while (true) {
     const std::size_t start = position_;
     position_ = source_.bytes.find('<', start);
     if (position_ == std::string_view::npos) fail_at_end();
-    const std::string_view text = without_blanks_around(source_.bytes.substr(start, position_ - start));
-    if (!text.empty() && !text_.empty()) source_.fail_at_byte(position_, "a comment divides a text");
+    const std::string_view text =
+        without_blanks_around(source_.bytes.substr(start, position_ - start));
+    if (!text.empty() && !text_.empty())
+      source_.fail_at_byte(position_, "a comment divides a text");
     if (!text.empty()) text_ = text;
     const std::string_view rest = source_.bytes.substr(position_);
     if (!rest.starts_with("<!") && !rest.starts_with("<?")) return;
@@ -110,7 +120,9 @@ void XmlCursor::end_tag() {
   position_ = std::min(source_.bytes.find_first_not_of(kBlank, position_), source_.bytes.size());
   if (position_ == source_.bytes.size()) fail_at_end();
   if (open_.empty() || name != open_.back() || source_.bytes[position_] != '>') {
-    source_.fail_at_byte(place, "an end tag " + (open_.empty() ? "closes nothing" : "must be </" + std::string(open_.back()) + ">"));
+    source_.fail_at_byte(
+        place, "an end tag " + (open_.empty() ? "closes nothing"
+                                              : "must be </" + std::string(open_.back()) + ">"));
   }
   ++position_;
   open_.pop_back();
@@ -133,14 +145,16 @@ std::optional<XmlTag> XmlCursor::start_tag() {
     take_attribute(tag);
   }
   position_ += last_was_empty_ ? 2 : 1;
-  if (open_.size() == kDeepest) source_.fail_at_byte(tag.place, "elements are nested deeper than " + std::to_string(kDeepest));
+  if (open_.size() == kDeepest)
+    source_.fail_at_byte(tag.place, "elements are nested deeper than " + std::to_string(kDeepest));
   open_.push_back(tag.name);
   return tag;
 }
 
 std::string_view XmlCursor::name_at_position() {
   const std::size_t first = position_;
-  while (position_ < source_.bytes.size() && is_name_character(source_.bytes[position_])) ++position_;
+  while (position_ < source_.bytes.size() && is_name_character(source_.bytes[position_]))
+    ++position_;
   return source_.bytes.substr(first, position_ - first);
 }
 
@@ -156,25 +170,32 @@ void XmlCursor::take_attribute(XmlTag& tag) {
   skip_blanks();
   if (position_ == source_.bytes.size()) fail_at_end();
   const char quote = source_.bytes[position_];
-  if (name.empty() || !has_value || (quote != '"' && quote != '\'')) source_.fail_at_byte(place, "an attribute must be name=\"value\"");
+  if (name.empty() || !has_value || (quote != '"' && quote != '\''))
+    source_.fail_at_byte(place, "an attribute must be name=\"value\"");
   const std::size_t end = source_.bytes.find(quote, position_ + 1);
   if (end == std::string_view::npos) fail_at_end();
   const std::string_view value = source_.bytes.substr(position_ + 1, end - position_ - 1);
-  for (std::size_t at = value.find('&'); at != std::string_view::npos; at = value.find('&', at + 1)) {
-    if (entity_at(value.substr(at)) == nullptr) source_.fail_at_byte(position_ + 1 + at, "entities but those of XML itself are not read");
+  for (std::size_t at = value.find('&'); at != std::string_view::npos;
+       at = value.find('&', at + 1)) {
+    if (entity_at(value.substr(at)) == nullptr)
+      source_.fail_at_byte(position_ + 1 + at, "entities but those of XML itself are not read");
   }
-  if (value.find('<') != std::string_view::npos) source_.fail_at_byte(position_, "a value with \"<\" in it");
+  if (value.find('<') != std::string_view::npos)
+    source_.fail_at_byte(position_, "a value with \"<\" in it");
   for (const auto& other : tag.attributes) {
-    if (other.first == name) source_.fail_at_byte(place, "attribute " + in_quotes(name) + " appears twice");
+    if (other.first == name)
+      source_.fail_at_byte(place, "attribute " + in_quotes(name) + " appears twice");
   }
-  if (tag.attributes.size() == kMostAttributes) source_.fail_at_byte(place, "more than " + std::to_string(kMostAttributes) + " attributes");
+  if (tag.attributes.size() == kMostAttributes)
+    source_.fail_at_byte(place, "more than " + std::to_string(kMostAttributes) + " attributes");
   tag.attributes.emplace_back(name, value);
   position_ = end + 1;
 }
 
 void XmlCursor::fail_at_end() const {
-  source_.fail_at_byte(source_.bytes.size(), open_.empty() ? "the file ends before its first element"
-                                                           : "the file ends inside <" + std::string(open_.back()) + ">");
+  source_.fail_at_byte(source_.bytes.size(),
+                       open_.empty() ? "the file ends before its first element"
+                                     : "the file ends inside <" + std::string(open_.back()) + ">");
 }
 
 }  // namespace palpation

@@ -1,7 +1,8 @@
 /// The tags of an XML file in turn, and the text between them: as much of XML as VTK's files need.
 ///
-/// Whatever could hide or multiply text (document types, CDATA, entities but the five of XML itself) is refused, and so is nesting deeper
-/// than a file of VTK has: time and memory stay within the bytes of the file.
+/// Whatever could hide or multiply text (document types, CDATA, entities but the five of XML
+/// itself) is refused, and so is nesting deeper than a file of VTK has: time and memory stay within
+/// the bytes of the file.
 #pragma once
 
 #include <optional>
@@ -17,8 +18,9 @@ namespace palpation {
 /// A start tag: <Name attribute="value" ...>. Views stay valid as long as the file's bytes.
 struct XmlTag {
   std::string_view name;
-  std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< values with their entities replaced are `attribute`'s
-  std::size_t place = 0;                                                  ///< byte of its '<'
+  std::vector<std::pair<std::string_view, std::string_view>>
+      attributes;         ///< values with their entities replaced are `attribute`'s
+  std::size_t place = 0;  ///< byte of its '<'
 
   std::optional<std::string> attribute(std::string_view name) const;
 };
@@ -27,8 +29,9 @@ class XmlCursor {
  public:
   explicit XmlCursor(const MeshSource& source) : source_(source) {}
 
-  /// Enters the next child of the element that was entered last and returns its tag. At the end of that element, leaves it and returns
-  /// nothing. Throws IoError naming the byte where the file is no XML or ends too early.
+  /// Enters the next child of the element that was entered last and returns its tag. At the end of
+  /// that element, leaves it and returns nothing. Throws IoError naming the byte where the file is
+  /// no XML or ends too early.
   std::optional<XmlTag> enter_child();
   /// Leaves the element that was entered last, with all that is still in it.
   void skip_content();

@@ -8,8 +8,9 @@
 
 namespace palpation::tool {
 
-/// Loops of { field >= level }. Parts are numbered by falling area of their outer loop in the chart; a hole bears the number of the part
-/// around it.
-std::vector<BoundaryCurve> boundary_curves(const Surface& surface, const Field& field, double level, CurveKind kind);
+/// Loops of { field >= level }. Parts are numbered by falling area of their outer loop in the
+/// chart; a hole bears the number of the part around it.
+std::vector<BoundaryCurve> boundary_curves(const Surface& surface, const Field& field, double level,
+                                           CurveKind kind);
 
 }  // namespace palpation::tool

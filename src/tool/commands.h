@@ -18,7 +18,8 @@ struct SceneArguments {
 };
 
 struct InfoArguments {
-  std::filesystem::path file;          ///< a mesh, or a scene (.json), whose tissue is looked at as it is cut out and refined
+  std::filesystem::path
+      file;  ///< a mesh, or a scene (.json), whose tissue is looked at as it is cut out and refined
   std::string unit;                    ///< of a mesh: it must be given
   std::vector<std::string> overrides;  ///< of a scene
 };
@@ -56,7 +57,8 @@ void simulate(const SceneArguments& arguments);
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements);
 void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements);
 void replay(const SceneArguments& arguments, const std::vector<std::filesystem::path>& recordings);
-void compare_boundaries(const SceneArguments& arguments, const std::filesystem::path& a, const std::filesystem::path& b);
+void compare_boundaries(const SceneArguments& arguments, const std::filesystem::path& a,
+                        const std::filesystem::path& b);
 void info(const InfoArguments& arguments);
 void make_mesh(const MeshArguments& arguments);
 /// The phantoms that there are.

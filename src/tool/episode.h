@@ -1,4 +1,5 @@
-/// A whole run over a scene, against a world that answers touches: what `simulate`, `replay` and the experiments share.
+/// A whole run over a scene, against a world that answers touches: what `simulate`, `replay` and
+/// the experiments share.
 #pragma once
 
 #include <functional>
@@ -14,7 +15,8 @@
 
 namespace palpation::tool {
 
-/// Places that a run may touch: more would take hours and gigabytes, since the model's cost grows with their third power.
+/// Places that a run may touch: more would take hours and gigabytes, since the model's cost grows
+/// with their third power.
 inline constexpr int kMostPlaces = 10'000;
 
 /// What answers, and what is known to be true of it.
@@ -44,19 +46,24 @@ struct Episode {
   Trace trace{};
   std::vector<int> stops{};         ///< all planned stops, in the order of travel
   std::vector<SurfacePoint> way{};  ///< the places between them
-  std::vector<int> legs{};          ///< the stop that each of these leads to, by its place among the stops
+  std::vector<int> legs{};  ///< the stop that each of these leads to, by its place among the stops
   double path_m = 0.0;
   double cut_risk = 0.05;  ///< of the cut line
   double band_probability = 0.95;
   double level_fraction = 0.5;
-  std::optional<double> assumed_contrast{};  ///< of tumours that must not be missed, in reading units
-  double start_seconds = 0.0;                ///< until the field could take readings: an intrinsic one finds the surface's waves
-  std::vector<double> batch_seconds{};       ///< planning and updating, the boundary and its error included
-  std::vector<double> batch_cpu_seconds{};   ///< the same, of this thread's processor
+  std::optional<double>
+      assumed_contrast{};  ///< of tumours that must not be missed, in reading units
+  double start_seconds =
+      0.0;  ///< until the field could take readings: an intrinsic one finds the surface's waves
+  std::vector<double>
+      batch_seconds{};  ///< planning and updating, the boundary and its error included
+  std::vector<double> batch_cpu_seconds{};  ///< the same, of this thread's processor
   std::optional<std::string> coarse_stop_reason{};
 
   /// Why nothing more is to be touched.
-  const std::string& stop_reason() const { return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason(); }
+  const std::string& stop_reason() const {
+    return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason();
+  }
 };
 
 using AfterBatch = std::function<void(const Episode&)>;
@@ -64,21 +71,27 @@ using AfterBatch = std::function<void(const Episode&)>;
 /// Whether the scene asks for a classical scan in place of batches.
 bool is_scan(const Scene& scene);
 
-/// Runs the scene's plan to its end. Pictures of intermediate states are the caller's, by after_batch.
-Episode run_episode(const Scene& scene, const Surface& surface, const World& world, const AfterBatch& after_batch = {});
+/// Runs the scene's plan to its end. Pictures of intermediate states are the caller's, by
+/// after_batch.
+Episode run_episode(const Scene& scene, const Surface& surface, const World& world,
+                    const AfterBatch& after_batch = {});
 
 /// What is believed after measurements that were made elsewhere.
-Episode episode_from(const Scene& scene, const Surface& surface, std::span<const Palpation> palpations);
+Episode episode_from(const Scene& scene, const Surface& surface,
+                     std::span<const Palpation> palpations);
 
 Snapshot snapshot(const Episode& episode);
 
-/// The least diameter of a tumour that would have been found, with the band's probability: wherever on the tissue where nothing was found,
-/// else outside of what was found. Its contrast is the assumed one, else four times the scatter of the readings, or that of what was found.
-/// Nothing without readings, where no size can be ruled out, or where something stiff is hidden by the probe's tip.
+/// The least diameter of a tumour that would have been found, with the band's probability: wherever
+/// on the tissue where nothing was found, else outside of what was found. Its contrast is the
+/// assumed one, else four times the scatter of the readings, or that of what was found. Nothing
+/// without readings, where no size can be ruled out, or where something stiff is hidden by the
+/// probe's tip.
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
 /// Those that are not set aside, the trend taken off.
 std::vector<double> readings_that_count(const Exploration& exploration);
-/// Their standard deviation, or that of a noise that is given, if it is greater; 0 where all are alike.
+/// Their standard deviation, or that of a noise that is given, if it is greater; 0 where all are
+/// alike.
 double scatter(const Exploration& exploration);
 
 }  // namespace palpation::tool

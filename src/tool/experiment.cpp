@@ -25,20 +25,25 @@ Scene base_scene(const ExperimentArguments& arguments, const json& standard) {
 }
 
 bool is_chosen(const std::string& name, const ExperimentArguments& arguments) {
-  return std::ranges::all_of(arguments.only, [&](const std::string& text) { return name.find(text) != std::string::npos; });
+  return std::ranges::all_of(arguments.only, [&](const std::string& text) {
+    return name.find(text) != std::string::npos;
+  });
 }
 
 void refuse_no_cell(std::size_t cells, const ExperimentArguments& arguments) {
   if (cells > 0) return;
   std::string texts;
-  for (const std::string& text : arguments.only) texts += (texts.empty() ? "'" : " and '") + text + "'";
-  throw WrongUsage("experiment " + arguments.name + ": no cell has " + texts + " in its name; --print-scene names them all");
+  for (const std::string& text : arguments.only)
+    texts += (texts.empty() ? "'" : " and '") + text + "'";
+  throw WrongUsage("experiment " + arguments.name + ": no cell has " + texts +
+                   " in its name; --print-scene names them all");
 }
 
 bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& arguments) {
   if (!arguments.print_scene) return false;
   json all = json::array();
-  for (const Cell& cell : cells) all.push_back({{"cell", cell.name}, {"scene", cell.scene.given()}});
+  for (const Cell& cell : cells)
+    all.push_back({{"cell", cell.name}, {"scene", cell.scene.given()}});
   std::printf("%s\n", all.dump(2, ' ', false, json::error_handler_t::replace).c_str());
   return true;
 }
@@ -62,12 +67,14 @@ void for_trials(std::size_t cells, const ExperimentArguments& arguments, const T
 Errors run_trials(std::span<const Cell> cells, const ExperimentArguments& arguments) {
   const Tissue tissue = tissue_of(cells.front().scene);
   const Surface& surface = tissue.surface;
-  Errors errors(cells.size(), std::vector<std::vector<double>>(static_cast<std::size_t>(arguments.trials)));
+  Errors errors(cells.size(),
+                std::vector<std::vector<double>>(static_cast<std::size_t>(arguments.trials)));
   for_trials(cells.size(), arguments, [&](std::size_t cell, std::size_t trial, std::uint64_t seed) {
     const Scene scene = cells[cell].scene.with("seed", seed);
     const Episode episode = run_episode(scene, surface, simulated_world(scene, surface));
     for (const TraceRow& row : episode.trace) {
-      errors[cell][trial].push_back(row.error ? 100.0 * row.error->symmetric_difference_m2 / surface.area() : 100.0);
+      errors[cell][trial].push_back(
+          row.error ? 100.0 * row.error->symmetric_difference_m2 / surface.area() : 100.0);
     }
   });
   return errors;
@@ -98,15 +105,19 @@ double median(std::vector<double> values) {
 
 std::string in_words(const Statistics& result) {
   char words[64];
-  std::snprintf(words, sizeof words, "%7.3f +- %-5s", result.mean, result.standard_error ? fixed(*result.standard_error, 3).c_str() : "-");
+  std::snprintf(words, sizeof words, "%7.3f +- %-5s", result.mean,
+                result.standard_error ? fixed(*result.standard_error, 3).c_str() : "-");
   return words;
 }
 
-std::string or_dash(const std::optional<double>& value) { return value ? fixed(*value, 3) : "  -  "; }
+std::string or_dash(const std::optional<double>& value) {
+  return value ? fixed(*value, 3) : "  -  ";
+}
 
 std::string or_empty(const std::optional<double>& value) { return value ? text_of(*value) : ""; }
 
-void write_table(const ExperimentArguments& arguments, const std::string& name, const std::string& csv) {
+void write_table(const ExperimentArguments& arguments, const std::string& name,
+                 const std::string& csv) {
   if (!arguments.out.empty()) write_atomically(arguments.out / (name + ".csv"), csv);
 }
 

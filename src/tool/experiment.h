@@ -1,5 +1,6 @@
-/// What the experiments share: cells of a table, trials in parallel, means with their standard errors. Each experiment is one function in a
-/// file of its own, experiment_<name>.cpp, entered in the table of experiment_command.cpp.
+/// What the experiments share: cells of a table, trials in parallel, means with their standard
+/// errors. Each experiment is one function in a file of its own, experiment_<name>.cpp, entered in
+/// the table of experiment_command.cpp.
 #pragma once
 
 #include <functional>
@@ -24,7 +25,8 @@ void curved(const ExperimentArguments& arguments);
 void acquisitions(const ExperimentArguments& arguments);
 void tradeoff(const ExperimentArguments& arguments);
 
-/// The search area of Garg et al. 2016, section VII, with vertices half a millimetre apart and no tumour yet; all else is as by default.
+/// The search area of Garg et al. 2016, section VII, with vertices half a millimetre apart and no
+/// tumour yet; all else is as by default.
 nlohmann::json random_tumours_scene();
 
 /// The scene that was given, or this one, with the overrides.
@@ -42,10 +44,12 @@ bool is_chosen(const std::string& name, const ExperimentArguments& arguments);
 /// Refuses a choice that leaves no cell.
 void refuse_no_cell(std::size_t cells, const ExperimentArguments& arguments);
 
-/// Where --print-scene was asked for, prints all scenes and returns true: nothing is to be run then.
+/// Where --print-scene was asked for, prints all scenes and returns true: nothing is to be run
+/// then.
 bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& arguments);
 
-/// Runs `run(cell, trial, seed)` for every trial of every cell, several at once, and shows how far it has come.
+/// Runs `run(cell, trial, seed)` for every trial of every cell, several at once, and shows how far
+/// it has come.
 using Trial = std::function<void(std::size_t cell, std::size_t trial, std::uint64_t seed)>;
 void for_trials(std::size_t cells, const ExperimentArguments& arguments, const Trial& run);
 
@@ -73,6 +77,7 @@ std::string or_dash(const std::optional<double>& value);
 std::string or_empty(const std::optional<double>& value);
 
 /// Writes a table to the folder for results, if there is one.
-void write_table(const ExperimentArguments& arguments, const std::string& name, const std::string& csv);
+void write_table(const ExperimentArguments& arguments, const std::string& name,
+                 const std::string& csv);
 
 }  // namespace palpation::tool

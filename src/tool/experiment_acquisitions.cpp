@@ -1,4 +1,5 @@
-// experiment acquisitions: which criterion the default should be. The level is unknown to all of them.
+// experiment acquisitions: which criterion the default should be. The level is unknown to all of
+// them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +12,8 @@
 namespace palpation::tool {
 namespace {
 
-constexpr std::array kCriteria = {"auto", "straddle", "randomized-straddle", "expected-error", "ils-ucb", "ucb", "evr", "random"};
+constexpr std::array kCriteria = {
+    "auto", "straddle", "randomized-straddle", "expected-error", "ils-ucb", "ucb", "evr", "random"};
 constexpr std::array kPercents = {1, 5, 10, 25};
 
 }  // namespace
@@ -24,17 +26,23 @@ void acquisitions(const ExperimentArguments& arguments) {
       for (const int percent : kPercents) {
         cells.push_back(
             {std::string(criterion) + ", " + shape + ", noise " + std::to_string(percent) + " %",
-             base.with("plan.acquisition", criterion).with("probe.tumours", paper_tumour(shape)).with("probe.noise", percent / 100.0)});
+             base.with("plan.acquisition", criterion)
+                 .with("probe.tumours", paper_tumour(shape))
+                 .with("probe.noise", percent / 100.0)});
       }
     }
   }
   if (printed_scenes(cells, arguments)) return;
   const Errors errors = run_trials(cells, arguments);
 
-  std::printf("\nSymmetric difference, %% of the search area, level unknown: mean +- standard error of %d trials\n", arguments.trials);
+  std::printf(
+      "\nSymmetric difference, %% of the search area, level unknown: mean +- standard error of %d "
+      "trials\n",
+      arguments.trials);
   std::printf("%-22s", "");
   for (const std::string& shape : kPaperShapes) {
-    for (const int percent : kPercents) std::printf("%-17s", (shape + " " + std::to_string(percent) + " %").c_str());
+    for (const int percent : kPercents)
+      std::printf("%-17s", (shape + " " + std::to_string(percent) + " %").c_str());
   }
   std::printf("over auto's\n");
   std::string csv = "acquisition,shape,noise_percent,trials,error_percent,standard_error\n";
@@ -49,8 +57,9 @@ void acquisitions(const ExperimentArguments& arguments) {
       log_ratio += std::log(result.mean / of_auto[column]) / static_cast<double>(columns);
       std::printf("%-17s", in_words(result).c_str());
       csv += std::string(kCriteria[row]) + "," + kPaperShapes[column / kPercents.size()] + "," +
-             std::to_string(kPercents[column % kPercents.size()]) + "," + std::to_string(arguments.trials) + "," + text_of(result.mean) +
-             "," + or_empty(result.standard_error) + "\n";
+             std::to_string(kPercents[column % kPercents.size()]) + "," +
+             std::to_string(arguments.trials) + "," + text_of(result.mean) + "," +
+             or_empty(result.standard_error) + "\n";
     }
     std::printf("%.2f\n", std::exp(log_ratio));
   }

@@ -35,8 +35,11 @@ void experiment(const ExperimentArguments& arguments) {
   const auto* found = std::ranges::find(kExperiments, arguments.name, &Experiment::name);
   require(found != std::end(kExperiments), "experiment", arguments.name, "is none");
   if (!arguments.only.empty() && !found->cells_stand_alone)
-    throw WrongUsage("experiment " + arguments.name + ": --only chooses among the cells of table1, table2 and curved, not of this one");
-  if (!arguments.out.empty() && !arguments.print_scene) make_folder(arguments.out);  // before hours of work, not after them
+    throw WrongUsage(
+        "experiment " + arguments.name +
+        ": --only chooses among the cells of table1, table2 and curved, not of this one");
+  if (!arguments.out.empty() && !arguments.print_scene)
+    make_folder(arguments.out);  // before hours of work, not after them
   ExperimentArguments complete = arguments;
   if (complete.trials == 0) complete.trials = found->trials;
   found->run(complete);

@@ -1,4 +1,5 @@
-// experiment curved: tumours on curved tissue, by each metric of the field; which to choose, and what it costs.
+// experiment curved: tumours on curved tissue, by each metric of the field; which to choose, and
+// what it costs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,14 +59,18 @@ Sheeted folded(double gap_mm) {
 }
 
 std::vector<Sheeted> tissues() {
-  return {{"plane", flat_mesh, {11.492, 30.0, 0.0}, {9.492, 20.0, 0.0}},
-          {"cylinder", [] { return mesh_of(cylinder_sheet()); }, {11.492, 30.0, 0.0}, {9.492, 20.0, -0.305}},
-          {"dome", [] { return mesh_of(dome_sheet()); }, {3.0, 4.0, -0.505}, {-3.5, 0.0, -0.246}},
-          {"saddle", [] { return mesh_of(saddle_sheet()); }, {-1.0, 5.0, -0.48}, {-3.0, -5.0, -0.32}},
-          {"wave", [] { return mesh_of(wave_sheet()); }, {11.492, 30.0, 0.0}, {9.492, 20.0, 0.0}},
-          folded(3.0),
-          folded(1.5),
-          folded(0.75)};
+  return {
+      {"plane", flat_mesh, {11.492, 30.0, 0.0}, {9.492, 20.0, 0.0}},
+      {"cylinder",
+       [] { return mesh_of(cylinder_sheet()); },
+       {11.492, 30.0, 0.0},
+       {9.492, 20.0, -0.305}},
+      {"dome", [] { return mesh_of(dome_sheet()); }, {3.0, 4.0, -0.505}, {-3.5, 0.0, -0.246}},
+      {"saddle", [] { return mesh_of(saddle_sheet()); }, {-1.0, 5.0, -0.48}, {-3.0, -5.0, -0.32}},
+      {"wave", [] { return mesh_of(wave_sheet()); }, {11.492, 30.0, 0.0}, {9.492, 20.0, 0.0}},
+      folded(3.0),
+      folded(1.5),
+      folded(0.75)};
 }
 
 json tumour_at(const std::string& shape, const Vec3& centre_mm) {
@@ -103,7 +108,8 @@ double seconds_to_prepare(const TriangleMesh& mesh, const Scene& scene) {
   const Surface fresh(mesh);
   const FieldModel field = field_of(scene);
   const Stopwatch watch;
-  const LengthRange lengths = field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
+  const LengthRange lengths =
+      field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
   Kernel kernel = field.kernel;
   kernel.length_m = field.length_median_m;
   const Prior prior(fresh, field.metric, kernel, field.constant, {}, lengths);
@@ -113,7 +119,8 @@ double seconds_to_prepare(const TriangleMesh& mesh, const Scene& scene) {
 Outcome outcome_of(const Scene& scene, const Surface& surface) {
   const Episode episode = run_episode(scene, surface, simulated_world(scene, surface));
   Outcome outcome;
-  for (const TraceRow& row : episode.trace) outcome.errors_m2.push_back(row.error ? row.error->symmetric_difference_m2 : surface.area());
+  for (const TraceRow& row : episode.trace)
+    outcome.errors_m2.push_back(row.error ? row.error->symmetric_difference_m2 : surface.area());
   outcome.error_m2 = outcome.errors_m2.back();
   if (episode.error) outcome.mean_distance_m = episode.error->mean_distance_m;
   outcome.batch_s = median(episode.batch_seconds);
@@ -141,12 +148,14 @@ std::vector<double> batches_of(const std::vector<Outcome>& trials) {
 }
 
 /// How the error falls on one tissue, a curve per metric.
-void draw(const ExperimentArguments& arguments, const std::string& tissue, const std::vector<Row>& rows, std::size_t first,
+void draw(const ExperimentArguments& arguments, const std::string& tissue,
+          const std::vector<Row>& rows, std::size_t first,
           const std::vector<std::vector<Outcome>>& outcomes) {
   std::string csv = "readings";
   for (const std::string& metric : kMetrics) csv += "," + metric + "," + metric + "_se";
   csv += "\n";
-  const int initial = rows[first].scene.integer("plan.initial.count"), batch = rows[first].scene.integer("plan.batch");
+  const int initial = rows[first].scene.integer("plan.initial.count"),
+            batch = rows[first].scene.integer("plan.batch");
   for (std::size_t step = 0; step < outcomes[first].front().errors_m2.size(); ++step) {
     csv += std::to_string(initial + batch * static_cast<int>(step));
     for (std::size_t metric = 0; metric < kMetrics.size(); ++metric) {
@@ -162,9 +171,10 @@ void draw(const ExperimentArguments& arguments, const std::string& tissue, const
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == ' ' || c == ','; }, '_');
   write_table(arguments, name, csv);
-  const auto no_picture =
-      run_draw({"--curves", (arguments.out / (name + ".csv")).string(), (arguments.out / (name + ".png")).string(), "--log-y", "--title",
-                tissue + ", disk, noise 5 %", "--x-label", "readings", "--y-label", "wrong area on the tissue, mm2"});
+  const auto no_picture = run_draw({"--curves", (arguments.out / (name + ".csv")).string(),
+                                    (arguments.out / (name + ".png")).string(), "--log-y",
+                                    "--title", tissue + ", disk, noise 5 %", "--x-label",
+                                    "readings", "--y-label", "wrong area on the tissue, mm2"});
   if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
 }
 
@@ -181,7 +191,8 @@ void curved(const ExperimentArguments& arguments) {
         const std::string name = all[tissue].name + ", " + shape + ", " + metric;
         if (!is_chosen(name, arguments)) continue;
         const Vec3 centre_mm = shape == "disk" ? all[tissue].disk_mm : all[tissue].horseshoe_mm;
-        const Scene scene = base.with("field.metric", metric).with("probe.tumours", tumour_at(shape, centre_mm));
+        const Scene scene =
+            base.with("field.metric", metric).with("probe.tumours", tumour_at(shape, centre_mm));
         rows.push_back({tissue, shape, metric, scene});
         cells.push_back({name, scene});
       }
@@ -196,39 +207,51 @@ void curved(const ExperimentArguments& arguments) {
     meshes.push_back(tissue.mesh());
     surfaces.emplace_back(meshes.back());
   }
-  std::vector<std::vector<Outcome>> outcomes(rows.size(), std::vector<Outcome>(static_cast<std::size_t>(arguments.trials)));
+  std::vector<std::vector<Outcome>> outcomes(
+      rows.size(), std::vector<Outcome>(static_cast<std::size_t>(arguments.trials)));
   for_trials(rows.size(), arguments, [&](std::size_t row, std::size_t trial, std::uint64_t seed) {
-    outcomes[row][trial] = outcome_of(rows[row].scene.with("seed", seed), surfaces[rows[row].tissue]);
+    outcomes[row][trial] =
+        outcome_of(rows[row].scene.with("seed", seed), surfaces[rows[row].tissue]);
   });
 
-  std::printf("\nWrong area on the tissue after %d readings, noise 5 %%: mean +- standard error of %d trials\n",
-              base.integer("plan.initial.count") + base.integer("plan.batch") * base.integer("plan.batches"), arguments.trials);
-  std::printf("%-20s%-11s%-11s%16s%10s%10s%10s%10s   %s\n", "tissue", "shape", "metric", "mm2", "of flat", "mm apart", "ready s", "batch s",
-              "laid flat");
+  std::printf(
+      "\nWrong area on the tissue after %d readings, noise 5 %%: mean +- standard error of %d "
+      "trials\n",
+      base.integer("plan.initial.count") +
+          base.integer("plan.batch") * base.integer("plan.batches"),
+      arguments.trials);
+  std::printf("%-20s%-11s%-11s%16s%10s%10s%10s%10s   %s\n", "tissue", "shape", "metric", "mm2",
+              "of flat", "mm apart", "ready s", "batch s", "laid flat");
   std::string csv =
-      "tissue,shape,metric,trials,error_mm2,standard_error,of_flat,mean_distance_mm,prepare_s,batch_s,least_stretch,greatest_stretch\n";
+      "tissue,shape,metric,trials,error_mm2,standard_error,of_flat,mean_distance_mm,prepare_s,"
+      "batch_s,least_stretch,greatest_stretch\n";
   std::array<std::optional<double>, 2> flat{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     const std::size_t shape = row.shape == kPaperShapes[0] ? 0 : 1;
     const Statistics error = statistics(errors_of(outcomes[i]));
     if (row.tissue == 0 && row.metric == "chart") flat[shape] = error.mean;
-    const std::optional<double> of_flat = flat[shape] ? std::optional(error.mean / *flat[shape]) : std::nullopt;
-    const double distance = statistics(distances_of(outcomes[i])).mean, batch_s = median(batches_of(outcomes[i]));
+    const std::optional<double> of_flat =
+        flat[shape] ? std::optional(error.mean / *flat[shape]) : std::nullopt;
+    const double distance = statistics(distances_of(outcomes[i])).mean,
+                 batch_s = median(batches_of(outcomes[i]));
     const double prepare_s = seconds_to_prepare(meshes[row.tissue], row.scene);
     const Distortion& distortion = surfaces[row.tissue].chart().distortion;
-    std::printf("%-20s%-11s%-11s%s%10s%10.3f%10.2f%10.3f   %s\n", all[row.tissue].name.c_str(), row.shape.c_str(), row.metric.c_str(),
-                in_words(error).c_str(), or_dash(of_flat).c_str(), distance, prepare_s, batch_s,
+    std::printf("%-20s%-11s%-11s%s%10s%10.3f%10.2f%10.3f   %s\n", all[row.tissue].name.c_str(),
+                row.shape.c_str(), row.metric.c_str(), in_words(error).c_str(),
+                or_dash(of_flat).c_str(), distance, prepare_s, batch_s,
                 row.metric == "chart" ? stretch_words(distortion).c_str() : "");
-    csv += "\"" + all[row.tissue].name + "\"," + row.shape + "," + row.metric + "," + std::to_string(arguments.trials) + "," +
-           text_of(error.mean) + "," + or_empty(error.standard_error) + "," + or_empty(of_flat) + "," + text_of(distance) + "," +
-           text_of(prepare_s) + "," + text_of(batch_s) + "," + text_of(distortion.least_stretch) + "," +
-           text_of(distortion.greatest_stretch) + "\n";
+    csv += "\"" + all[row.tissue].name + "\"," + row.shape + "," + row.metric + "," +
+           std::to_string(arguments.trials) + "," + text_of(error.mean) + "," +
+           or_empty(error.standard_error) + "," + or_empty(of_flat) + "," + text_of(distance) +
+           "," + text_of(prepare_s) + "," + text_of(batch_s) + "," +
+           text_of(distortion.least_stretch) + "," + text_of(distortion.greatest_stretch) + "\n";
   }
   write_table(arguments, "curved", csv);
   if (arguments.out.empty() || !arguments.only.empty()) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].shape == kPaperShapes[0] && rows[i].metric == kMetrics[0]) draw(arguments, all[rows[i].tissue].name, rows, i, outcomes);
+    if (rows[i].shape == kPaperShapes[0] && rows[i].metric == kMetrics[0])
+      draw(arguments, all[rows[i].tissue].name, rows, i, outcomes);
   }
 }
 

@@ -1,5 +1,5 @@
-// experiment detection: healthy tissue holds nothing, a tumour of the size that was ruled out is not missed, and a small one beside a large
-// one is found.
+// experiment detection: healthy tissue holds nothing, a tumour of the size that was ruled out is
+// not missed, and a small one beside a large one is found.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,19 +34,26 @@ struct Run {
   bool good = false;                    ///< nothing found, found, both found
 };
 
-Episode episode_of(const Scene& scene, const Surface& surface) { return run_episode(scene, surface, simulated_world(scene, surface)); }
+Episode episode_of(const Scene& scene, const Surface& surface) {
+  return run_episode(scene, surface, simulated_world(scene, surface));
+}
 
-json disk_at(const Vec2& centre_m, double radius_m) { return disk_mm(centre_m.x() * 1e3, centre_m.y() * 1e3, radius_m * 1e3)[0]; }
+json disk_at(const Vec2& centre_m, double radius_m) {
+  return disk_mm(centre_m.x() * 1e3, centre_m.y() * 1e3, radius_m * 1e3)[0];
+}
 
 Vec2 random_place(Random& random, const Surface& surface, double margin_m) {
-  const Vec2 least = surface.chart().uv.colwise().minCoeff().transpose(), most = surface.chart().uv.colwise().maxCoeff().transpose();
+  const Vec2 least = surface.chart().uv.colwise().minCoeff().transpose(),
+             most = surface.chart().uv.colwise().maxCoeff().transpose();
   const Vec2 room = (most - least).array() - 2.0 * margin_m;
   const double right = random.uniform(), up = random.uniform();
   return least + Vec2(margin_m + right * room.x(), margin_m + up * room.y());
 }
 
-bool overlaps(const Surface& surface, const Episode& episode, const json& disk, double least_share) {
-  const Vec3 centre = Vec3(disk["centre_mm"][0].get<double>(), disk["centre_mm"][1].get<double>(), 0.0) / 1000.0;
+bool overlaps(const Surface& surface, const Episode& episode, const json& disk,
+              double least_share) {
+  const Vec3 centre =
+      Vec3(disk["centre_mm"][0].get<double>(), disk["centre_mm"][1].get<double>(), 0.0) / 1000.0;
   const double radius = disk["radius_mm"].get<double>() / 1000.0;
   const std::vector<Tumour> tumour = {Disk{.centre_m = centre, .radius_m = radius}};
   const Region region = superlevel_region(surface, signed_distance(surface, tumour), 0.0);
@@ -55,17 +62,21 @@ bool overlaps(const Surface& surface, const Episode& episode, const json& disk, 
 }
 
 /// Healthy tissue, and the same run with a tumour of the diameter that it ruled out.
-std::array<Run, 2> healthy_and_planted(const Scene& base, const Surface& surface, std::uint64_t seed) {
+std::array<Run, 2> healthy_and_planted(const Scene& base, const Surface& surface,
+                                       std::uint64_t seed) {
   const Scene scene = base.with("seed", seed);
   const Episode healthy = episode_of(scene, surface);
-  std::array<Run, 2> runs = {Run{.row = "healthy", .seed = seed, .noise = base.number("probe.noise")},
-                             Run{.row = "planted", .seed = seed, .noise = base.number("probe.noise")}};
+  std::array<Run, 2> runs = {
+      Run{.row = "healthy", .seed = seed, .noise = base.number("probe.noise")},
+      Run{.row = "planted", .seed = seed, .noise = base.number("probe.noise")}};
   runs[0].good = healthy.estimate.empty();
   if (runs[0].good) runs[0].ruled_out_m = runs[1].ruled_out_m = diameter_ruled_out_m(healthy);
   if (!runs[0].ruled_out_m) return runs;
   Random random(seed ^ kPlaceStream);
-  const json disks = json::array({disk_at(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});
-  runs[1].good = overlaps(surface, episode_of(scene.with("probe.tumours", disks), surface), disks[0], 0.0);
+  const json disks =
+      json::array({disk_at(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});
+  runs[1].good =
+      overlaps(surface, episode_of(scene.with("probe.tumours", disks), surface), disks[0], 0.0);
   return runs;
 }
 
@@ -94,8 +105,10 @@ void report(const std::vector<Run>& runs, const std::string& row, const std::str
       if (run.ruled_out_m) diameters.push_back(*run.ruled_out_m * 1e3);
     }
     if (count == 0) continue;
-    std::printf("  noise %2.0f %%: %d of %d, %.1f %%", 100.0 * noise, good, count, 100.0 * good / count);
-    if (!diameters.empty()) std::printf("; diameter %.1f mm on average", statistics(diameters).mean);
+    std::printf("  noise %2.0f %%: %d of %d, %.1f %%", 100.0 * noise, good, count,
+                100.0 * good / count);
+    if (!diameters.empty())
+      std::printf("; diameter %.1f mm on average", statistics(diameters).mean);
     std::printf("\n");
   }
 }
@@ -104,7 +117,8 @@ std::string csv_of(const std::vector<Run>& runs) {
   std::string csv = "row,seed,noise,diameter_mm,good\n";
   for (const Run& run : runs) {
     csv += run.row + "," + std::to_string(run.seed) + "," + text_of(run.noise) + "," +
-           (run.ruled_out_m ? text_of(*run.ruled_out_m * 1e3) : "") + "," + (run.good ? "1" : "0") + "\n";
+           (run.ruled_out_m ? text_of(*run.ruled_out_m * 1e3) : "") + "," + (run.good ? "1" : "0") +
+           "\n";
   }
   return csv;
 }
@@ -114,15 +128,21 @@ std::string csv_of(const std::vector<Run>& runs) {
 void detection(const ExperimentArguments& arguments) {
   const Scene base = base_scene(arguments, random_tumours_scene());
   const Tissue tissue = tissue_of(base);
-  // The paper's search area, unless a scene is given: 155 touches of a larger one leave gaps as wide as the small tumour.
+  // The paper's search area, unless a scene is given: 155 touches of a larger one leave gaps as
+  // wide as the small tumour.
   const Scene longer =
-      (arguments.scene.empty() ? base.with("surface.plane.size_mm", {25, 50}).with("surface.plane.vertices", {51, 101}) : base)
+      (arguments.scene.empty()
+           ? base.with("surface.plane.size_mm", {25, 50}).with("surface.plane.vertices", {51, 101})
+           : base)
           .with("plan.initial.count", 15)
           .with("plan.batches", kBatchesOfTwo);
   const Tissue tissue_of_two = tissue_of(longer);
   std::vector<Cell> cells;
-  for (const double noise : kNoises) cells.push_back({"healthy and planted, noise " + text_of(noise), base.with("probe.noise", noise)});
-  for (const double noise : kNoisesOfTwo) cells.push_back({"two tumours, noise " + text_of(noise), longer.with("probe.noise", noise)});
+  for (const double noise : kNoises)
+    cells.push_back(
+        {"healthy and planted, noise " + text_of(noise), base.with("probe.noise", noise)});
+  for (const double noise : kNoisesOfTwo)
+    cells.push_back({"two tumours, noise " + text_of(noise), longer.with("probe.noise", noise)});
   if (printed_scenes(cells, arguments)) return;
   std::vector<std::vector<Run>> found(cells.size() * static_cast<std::size_t>(arguments.trials));
   for_trials(cells.size(), arguments, [&](std::size_t cell, std::size_t trial, std::uint64_t seed) {
@@ -139,7 +159,8 @@ void detection(const ExperimentArguments& arguments) {
   for (const std::vector<Run>& some : found) runs.insert(runs.end(), some.begin(), some.end());
   report(runs, "healthy", "Healthy tissue: nothing found");
   report(runs, "planted", "A tumour of the diameter that was ruled out: found");
-  report(runs, "two", "Two tumours, of radius 6 and 3 mm, 155 readings: both found, half of each at least");
+  report(runs, "two",
+         "Two tumours, of radius 6 and 3 mm, 155 readings: both found, half of each at least");
   write_table(arguments, "detection", csv_of(runs));
 }
 

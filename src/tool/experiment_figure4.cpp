@@ -16,7 +16,8 @@ std::vector<Cell> cells_of(const Scene& base, bool keep_tumours) {
   std::vector<Cell> cells;
   for (const std::string& percent : kNoisePercents) {
     for (const std::string& algorithm : kPaperAlgorithms) {
-      Scene scene = base.with("probe.noise", std::stod(percent) / 100.0).with("plan.acquisition", algorithm);
+      Scene scene =
+          base.with("probe.noise", std::stod(percent) / 100.0).with("plan.acquisition", algorithm);
       if (!keep_tumours) scene = scene.with("probe.tumours", paper_tumour("horseshoe"));
       cells.push_back({percent + ", horseshoe, " + algorithm + ", level known", scene});
     }
@@ -25,9 +26,11 @@ std::vector<Cell> cells_of(const Scene& base, bool keep_tumours) {
 }
 
 /// The mean errors after every batch, a row each.
-std::string curves(std::span<const std::vector<std::vector<double>>> panel, int initial, int batch) {
+std::string curves(std::span<const std::vector<std::vector<double>>> panel, int initial,
+                   int batch) {
   std::string csv = "readings";
-  for (const std::string& algorithm : kPaperAlgorithms) csv += "," + algorithm + "," + algorithm + "_se";
+  for (const std::string& algorithm : kPaperAlgorithms)
+    csv += "," + algorithm + "," + algorithm + "_se";
   csv += "\n";
   for (std::size_t step = 0; step < panel.front().front().size(); ++step) {
     csv += std::to_string(initial + batch * static_cast<int>(step));
@@ -44,10 +47,13 @@ std::string curves(std::span<const std::vector<std::vector<double>>> panel, int 
   return csv;
 }
 
-void draw(const ExperimentArguments& arguments, const std::string& name, const std::string& percent) {
-  const auto no_picture = run_draw({"--curves", (arguments.out / (name + ".csv")).string(), (arguments.out / (name + ".png")).string(),
-                                    "--log-y", "--title", "Horseshoe, noise " + percent + " % of the range", "--x-label", "readings",
-                                    "--y-label", "symmetric difference, % of the search area"});
+void draw(const ExperimentArguments& arguments, const std::string& name,
+          const std::string& percent) {
+  const auto no_picture =
+      run_draw({"--curves", (arguments.out / (name + ".csv")).string(),
+                (arguments.out / (name + ".png")).string(), "--log-y", "--title",
+                "Horseshoe, noise " + percent + " % of the range", "--x-label", "readings",
+                "--y-label", "symmetric difference, % of the search area"});
   if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
 }
 
@@ -60,10 +66,13 @@ void figure4(const ExperimentArguments& arguments) {
   const Errors errors = run_trials(cells, arguments);
   for (std::size_t panel = 0; panel < kNoisePercents.size(); ++panel) {
     const std::string& percent = kNoisePercents[panel];
-    const std::string csv = curves(std::span(errors).subspan(panel * kPaperAlgorithms.size(), kPaperAlgorithms.size()),
-                                   base.integer("plan.initial.count"), base.integer("plan.batch"));
-    std::printf("\nHorseshoe, noise %s %%: symmetric difference in %% of the search area, mean of %d trials\n%s", percent.c_str(),
-                arguments.trials, csv.c_str());
+    const std::string csv =
+        curves(std::span(errors).subspan(panel * kPaperAlgorithms.size(), kPaperAlgorithms.size()),
+               base.integer("plan.initial.count"), base.integer("plan.batch"));
+    std::printf(
+        "\nHorseshoe, noise %s %%: symmetric difference in %% of the search area, mean of %d "
+        "trials\n%s",
+        percent.c_str(), arguments.trials, csv.c_str());
     write_table(arguments, "figure4_noise_" + percent, csv);
     if (!arguments.out.empty()) draw(arguments, "figure4_noise_" + percent, percent);
   }

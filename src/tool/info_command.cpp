@@ -1,4 +1,5 @@
-// info: what a mesh is, or the tissue that a scene makes of one, what is wrong with it, and what to do.
+// info: what a mesh is, or the tissue that a scene makes of one, what is wrong with it, and what to
+// do.
 #include <cstdio>
 #include <optional>
 
@@ -23,7 +24,8 @@ constexpr double kMostCountable_m = 1e60;
 void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
 
 std::string counts_and_size(const TriangleMesh& mesh) {
-  return std::to_string(mesh.vertices.rows()) + " vertices, " + std::to_string(mesh.triangles.rows()) + " triangles, " + size_words(mesh);
+  return std::to_string(mesh.vertices.rows()) + " vertices, " +
+         std::to_string(mesh.triangles.rows()) + " triangles, " + size_words(mesh);
 }
 
 /// A file that is there but holds no mesh: what to do is the same whatever broke it.
@@ -33,7 +35,9 @@ MeshFile read(const InfoArguments& arguments, const MeshRepair& repair = {}) {
   } catch (const IoError& error) {
     const std::string message = error.what();
     if (message.find(": cannot read: ") != std::string::npos) throw;
-    throw IoError(message + "\n  Mend the file at that place, or export it again from the program that made it: PLY is the safest choice.");
+    throw IoError(message +
+                  "\n  Mend the file at that place, or export it again from the program that made "
+                  "it: PLY is the safest choice.");
   }
 }
 
@@ -53,63 +57,79 @@ Attempt attempt(const TriangleMesh& mesh) {
 
 std::string kind_words(const Surface& surface) {
   const Topology topology = surface.topology();
-  return "a surface of " + std::to_string(topology.components) + (topology.components == 1 ? " component" : " components") +
+  return "a surface of " + std::to_string(topology.components) +
+         (topology.components == 1 ? " component" : " components") +
          (topology.is_closed() ? ", closed"
-                               : " with " + std::to_string(topology.borders) + (topology.borders == 1 ? " border" : " borders"));
+                               : " with " + std::to_string(topology.borders) +
+                                     (topology.borders == 1 ? " border" : " borders"));
 }
 
 /// Tries what welding would do for a mesh with seams.
 std::string weld_words(const InfoArguments& arguments) {
   try {
     const Attempt welded = attempt(read(arguments, {.weld_equal_vertices = true}).mesh);
-    if (welded.surface) return "Welded, it is " + kind_words(*welded.surface) + ": set surface.weld to true in a scene.\n";
+    if (welded.surface)
+      return "Welded, it is " + kind_words(*welded.surface) +
+             ": set surface.weld to true in a scene.\n";
     return "Welding its vertices would not make it a surface: " + welded.reason + "\n";
   } catch (const IoError& error) {
     return "Welding its vertices would not make it a surface: " + std::string(error.what()) + "\n";
   }
 }
 
-bool is_plausible(double extent_m) { return extent_m >= kLeastExtent_m && extent_m <= kMostExtent_m; }
+bool is_plausible(double extent_m) {
+  return extent_m >= kLeastExtent_m && extent_m <= kMostExtent_m;
+}
 
 void print_file(const InfoArguments& arguments, const MeshFile& file) {
   print(arguments.file.string() + ": " + file.format + ", " + counts_and_size(file.mesh) + "\n");
   if (!is_plausible(extent_m(file.mesh))) {
     print("Implausible size: tissue is between 1 mm and 2 m across. Is --unit right?\n");
   }
-  for (const MeshWarning& warning : file.warnings) print("Warning: " + warning.text + "\n  " + warning.advice + "\n");
+  for (const MeshWarning& warning : file.warnings)
+    print("Warning: " + warning.text + "\n  " + warning.advice + "\n");
 }
 
 void info_on_tissue(const InfoArguments& arguments) {
-  if (!arguments.unit.empty()) throw WrongUsage("info: --unit is of a mesh; of a scene's, surface.unit says it");
+  if (!arguments.unit.empty())
+    throw WrongUsage("info: --unit is of a mesh; of a scene's, surface.unit says it");
   const Tissue tissue = tissue_of(Scene::read(arguments.file, arguments.overrides));
-  print("The tissue of " + arguments.file.string() + ": " + counts_and_size(tissue.surface.mesh()) + "\n");
+  print("The tissue of " + arguments.file.string() + ": " + counts_and_size(tissue.surface.mesh()) +
+        "\n");
   for (const std::string& warning : tissue.warnings) print("Warning: " + warning + "\n");
   print(surface_words(tissue.surface, "Next: palpate simulate or palpate plan on this scene.\n"));
 }
 
 void info_on_mesh(const InfoArguments& arguments) {
   if (arguments.unit.empty()) throw WrongUsage("info: of a mesh, --unit is needed: mm, cm or m");
-  if (!arguments.overrides.empty()) throw WrongUsage("info: --set is of a scene (.json), and '" + arguments.file.string() + "' is none");
+  if (!arguments.overrides.empty())
+    throw WrongUsage("info: --set is of a scene (.json), and '" + arguments.file.string() +
+                     "' is none");
   const MeshFile file = read(arguments);
   print_file(arguments, file);
   const Attempt mesh = attempt(file.mesh);
   const double extent = extent_m(file.mesh);
   if (mesh.surface) {
-    print(surface_words(*mesh.surface, is_plausible(extent)
-                                           ? "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate "
-                                             "simulate or palpate plan.\n"
-                                           : "Next: run this again with the unit that makes it as large as it is.\n"));
+    print(surface_words(
+        *mesh.surface,
+        is_plausible(extent)
+            ? "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate "
+              "simulate or palpate plan.\n"
+            : "Next: run this again with the unit that makes it as large as it is.\n"));
   } else if (extent > kLeastCountable_m && extent < kMostCountable_m) {
     print(fault_words(file.mesh, mesh.reason));
   } else {
     print("Not a surface to plan on: " + mesh.reason + "\n");
   }
   if (file.equal_vertices > 0) print(weld_words(arguments));
-  if (!mesh.surface) print("Next: mend it in a mesh editor at the places named, and run this again.\n");
+  if (!mesh.surface)
+    print("Next: mend it in a mesh editor at the places named, and run this again.\n");
 }
 
 }  // namespace
 
-void info(const InfoArguments& arguments) { arguments.file.extension() == ".json" ? info_on_tissue(arguments) : info_on_mesh(arguments); }
+void info(const InfoArguments& arguments) {
+  arguments.file.extension() == ".json" ? info_on_tissue(arguments) : info_on_mesh(arguments);
+}
 
 }  // namespace palpation::tool

@@ -22,20 +22,27 @@ constexpr double kMostSeed = 9007199254740991.0;  // as in a scene
 constexpr double kMostTrials = 1e6;
 
 /// A number in a range; what is no number is in none.
-CLI::Validator number_among(const std::string& characters, const std::string& kind, double least, double most) {
+CLI::Validator number_among(const std::string& characters, const std::string& kind, double least,
+                            double most) {
   const std::string range = text_of(least) + " to " + text_of(most);
   const auto fault = [=](std::string& text) {
     double value = 0.0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_one =
-        status == std::errc{} && end == text.data() + text.size() && text.find_first_not_of(characters) == std::string::npos;
-    return is_one && value >= least && value <= most ? std::string() : "is " + text + ", but must be a " + kind + " from " + range;
+    const bool is_one = status == std::errc{} && end == text.data() + text.size() &&
+                        text.find_first_not_of(characters) == std::string::npos;
+    return is_one && value >= least && value <= most
+               ? std::string()
+               : "is " + text + ", but must be a " + kind + " from " + range;
   };
   return CLI::Validator(fault, range);
 }
 
-CLI::Validator number(double least, double most) { return number_among("0123456789+-.eE", "number", least, most); }
-CLI::Validator whole(double least, double most) { return number_among("0123456789", "whole number", least, most); }
+CLI::Validator number(double least, double most) {
+  return number_among("0123456789+-.eE", "number", least, most);
+}
+CLI::Validator whole(double least, double most) {
+  return number_among("0123456789", "whole number", least, most);
+}
 
 struct Arguments {
   SceneArguments scene;
@@ -48,39 +55,59 @@ struct Arguments {
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
-CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& name, const std::string& what) {
+CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& name,
+                        const std::string& what) {
   CLI::App* command = app.add_subcommand(name, what);
-  command->add_option("SCENE", arguments.scene.scene, "what to work on, a JSON file (see: palpate help scene)")->required();
-  command->add_option("--out", arguments.scene.out, "folder for the results; without it they are only told");
   command
-      ->add_option("--set", arguments.scene.overrides, "override a value of the scene, such as plan.acquisition=evr; once for each value")
+      ->add_option("SCENE", arguments.scene.scene,
+                   "what to work on, a JSON file (see: palpate help scene)")
+      ->required();
+  command->add_option("--out", arguments.scene.out,
+                      "folder for the results; without it they are only told");
+  command
+      ->add_option(
+          "--set", arguments.scene.overrides,
+          "override a value of the scene, such as plan.acquisition=evr; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("--seed", arguments.scene.seed, "override the scene's seed")->check(whole(0, kMostSeed));
-  command->add_option("--threads", arguments.threads, "how many threads to use; the results do not depend on it")->check(whole(1, 1024));
-  command->add_flag("--quiet", arguments.scene.quiet, "no progress and no words but warnings and errors");
+  command->add_option("--seed", arguments.scene.seed, "override the scene's seed")
+      ->check(whole(0, kMostSeed));
+  command
+      ->add_option("--threads", arguments.threads,
+                   "how many threads to use; the results do not depend on it")
+      ->check(whole(1, 1024));
+  command->add_flag("--quiet", arguments.scene.quiet,
+                    "no progress and no words but warnings and errors");
   return command;
 }
 
 void add_scene_commands(CLI::App& app, Arguments& arguments) {
-  scene_command(app, arguments, "simulate", "Run the whole plan on a simulated phantom")->callback([&] { simulate(arguments.scene); });
+  scene_command(app, arguments, "simulate", "Run the whole plan on a simulated phantom")
+      ->callback([&] { simulate(arguments.scene); });
 
-  CLI::App* planning = scene_command(app, arguments, "plan", "Where to touch next, from what was measured so far");
+  CLI::App* planning =
+      scene_command(app, arguments, "plan", "Where to touch next, from what was measured so far");
   planning
       ->add_option("--measurements", arguments.measurements,
-                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever robot.from_tissue says")
+                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
+                   "robot.from_tissue says")
       ->required();
   planning->callback([&] { plan(arguments.scene, arguments.measurements); });
 
-  CLI::App* bounding = scene_command(app, arguments, "boundary", "Where the tumour ends, from what was measured");
+  CLI::App* bounding =
+      scene_command(app, arguments, "boundary", "Where the tumour ends, from what was measured");
   bounding
       ->add_option("--measurements", arguments.measurements,
-                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever robot.from_tissue says")
+                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
+                   "robot.from_tissue says")
       ->required();
   bounding->callback([&] { boundary(arguments.scene, arguments.measurements); });
 
-  CLI::App* replaying = scene_command(app, arguments, "replay", "Run the whole plan, each touch answered from dense recordings");
-  replaying->add_option("--recording", arguments.recordings, "CSV with columns x,y,z,reading [m]; one for each direction of travel")
+  CLI::App* replaying = scene_command(
+      app, arguments, "replay", "Run the whole plan, each touch answered from dense recordings");
+  replaying
+      ->add_option("--recording", arguments.recordings,
+                   "CSV with columns x,y,z,reading [m]; one for each direction of travel")
       ->required()
       ->allow_extra_args(false);
   replaying->callback([&] { replay(arguments.scene, arguments.recordings); });
@@ -92,41 +119,68 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
 }
 
 void add_mesh_commands(CLI::App& app, Arguments& arguments) {
-  CLI::App* telling = app.add_subcommand("info", "What a mesh is, what it supports, and what to do next; or the tissue of a scene");
+  CLI::App* telling = app.add_subcommand(
+      "info", "What a mesh is, what it supports, and what to do next; or the tissue of a scene");
   telling
-      ->add_option("FILE", arguments.info.file, "a mesh (OBJ, OFF, STL, PLY or VTP); or a scene (.json): its tissue, cut out and refined")
+      ->add_option(
+          "FILE", arguments.info.file,
+          "a mesh (OBJ, OFF, STL, PLY or VTP); or a scene (.json): its tissue, cut out and refined")
       ->required();
-  telling->add_option("--unit", arguments.info.unit, "of a mesh' coordinates, which must be given: mm, cm or m")
+  telling
+      ->add_option("--unit", arguments.info.unit,
+                   "of a mesh' coordinates, which must be given: mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  telling->add_option("--set", arguments.info.overrides, "override a value of the scene; once for each value")
+  telling
+      ->add_option("--set", arguments.info.overrides,
+                   "override a value of the scene; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   telling->callback([&] { info(arguments.info); });
 
   CLI::App* making = app.add_subcommand("mesh", "Make a phantom");
-  making->add_option("KIND", arguments.mesh.kind, "which")->required()->check(CLI::IsMember(mesh_kinds()));
-  making->add_option("OUT", arguments.mesh.output, "file to write: .ply, .obj, .off or .stl")->required();
-  CLI::Option* size = making->add_option("--size-mm", arguments.mesh.size_mm, "along x (of a cylinder: along its arc) and y")
+  making->add_option("KIND", arguments.mesh.kind, "which")
+      ->required()
+      ->check(CLI::IsMember(mesh_kinds()));
+  making->add_option("OUT", arguments.mesh.output, "file to write: .ply, .obj, .off or .stl")
+      ->required();
+  CLI::Option* size = making
+                          ->add_option("--size-mm", arguments.mesh.size_mm,
+                                       "along x (of a cylinder: along its arc) and y")
                           ->expected(2)
                           ->check(number(1e-3, 1e6));
   CLI::Option* vertices =
-      making->add_option("--vertices", arguments.mesh.vertices, "of a plane, along x and y")->expected(2)->check(whole(2, 20000));
-  making->add_option("--jitter", arguments.mesh.jitter, "move inner vertices by up to this fraction of a cell")->check(number(0.0, 0.45));
-  making->add_option("--around", arguments.mesh.around, "a plane that spans this recording instead of --size-mm")->excludes(size, vertices);
-  making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording")->check(number(0.0, 1e6));
-  making->add_option("--edge-mm", arguments.mesh.edge_mm, "length of the cells, but of a plane that is given by --vertices")
+      making->add_option("--vertices", arguments.mesh.vertices, "of a plane, along x and y")
+          ->expected(2)
+          ->check(whole(2, 20000));
+  making
+      ->add_option("--jitter", arguments.mesh.jitter,
+                   "move inner vertices by up to this fraction of a cell")
+      ->check(number(0.0, 0.45));
+  making
+      ->add_option("--around", arguments.mesh.around,
+                   "a plane that spans this recording instead of --size-mm")
+      ->excludes(size, vertices);
+  making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording")
+      ->check(number(0.0, 1e6));
+  making
+      ->add_option("--edge-mm", arguments.mesh.edge_mm,
+                   "length of the cells, but of a plane that is given by --vertices")
       ->check(number(1e-3, 1e6));
   const auto shape = [&](const char* name, std::optional<double>& length_mm, const char* meaning) {
     making->add_option(name, length_mm, meaning)->check(number(1e-3, 1e6));
   };
-  shape("--radius-mm", arguments.mesh.radius_mm, "of a cylinder (15), a dome's sphere (25), or a saddle's curvature in its middle (25)");
-  shape("--reach-mm", arguments.mesh.reach_mm, "of a dome, from its top to its border along the surface (20.5)");
+  shape("--radius-mm", arguments.mesh.radius_mm,
+        "of a cylinder (15), a dome's sphere (25), or a saddle's curvature in its middle (25)");
+  shape("--reach-mm", arguments.mesh.reach_mm,
+        "of a dome, from its top to its border along the surface (20.5)");
   shape("--amplitude-mm", arguments.mesh.amplitude_mm, "of a wave (2)");
   shape("--wavelength-mm", arguments.mesh.wavelength_mm, "of a wave, along y (20)");
   shape("--gap-mm", arguments.mesh.gap_mm, "between the flanks of a folded sheet (1.5)");
-  shape("--flank-mm", arguments.mesh.flank_mm, "how long each of its flanks is (20); --size-mm's second number is how wide (25)");
+  shape("--flank-mm", arguments.mesh.flank_mm,
+        "how long each of its flanks is (20); --size-mm's second number is how wide (25)");
   making->add_option("--seed", arguments.mesh.seed, "of the jitter")->check(whole(0, kMostSeed));
-  making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m")->check(CLI::IsMember({"mm", "cm", "m"}));
+  making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m")
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
   making->callback([&, size, vertices] {
     arguments.mesh.gives_size = size->count() > 0;
     arguments.mesh.gives_vertices = vertices->count() > 0;
@@ -136,20 +190,35 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
 
 void add_experiment_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials");
-  command->add_option("NAME", arguments.experiment.name, "which")->required()->check(CLI::IsMember(experiment_names()));
+  command->add_option("NAME", arguments.experiment.name, "which")
+      ->required()
+      ->check(CLI::IsMember(experiment_names()));
   command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
-  command->add_option("--trials", arguments.experiment.trials, "per cell; left out: 5, of tradeoff 20")->check(whole(1, kMostTrials));
-  command->add_option("--first-seed", arguments.experiment.first_seed, "seeds of the trials are this and the following")
+  command
+      ->add_option("--trials", arguments.experiment.trials, "per cell; left out: 5, of tradeoff 20")
+      ->check(whole(1, kMostTrials));
+  command
+      ->add_option("--first-seed", arguments.experiment.first_seed,
+                   "seeds of the trials are this and the following")
       ->check(whole(0, kMostSeed - kMostTrials));
-  command->add_option("--set", arguments.experiment.overrides, "override a value of every scene; once for each value")
+  command
+      ->add_option("--set", arguments.experiment.overrides,
+                   "override a value of every scene; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("--only", arguments.experiment.only, "of table1, table2 and curved: run the cells with this in their names")
+  command
+      ->add_option("--only", arguments.experiment.only,
+                   "of table1, table2 and curved: run the cells with this in their names")
       ->allow_extra_args(false);
-  command->add_option("--recordings", arguments.experiment.recordings, "of experiment recordings: the folder with the physical recordings");
-  command->add_flag("--print-scene", arguments.experiment.print_scene, "print the scene of every cell instead of running it");
+  command->add_option("--recordings", arguments.experiment.recordings,
+                      "of experiment recordings: the folder with the physical recordings");
+  command->add_flag("--print-scene", arguments.experiment.print_scene,
+                    "print the scene of every cell instead of running it");
   command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");
-  command->add_option("--threads", arguments.threads, "trials run at once; the results do not depend on it")->check(whole(1, 1024));
+  command
+      ->add_option("--threads", arguments.threads,
+                   "trials run at once; the results do not depend on it")
+      ->check(whole(1, 1024));
   command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
   command->callback([&] { experiment(arguments.experiment); });
 }
@@ -167,12 +236,15 @@ int explain(const char* words, int code) {
 }
 
 int run_tool(int count, char** words) {
-  CLI::App app("Decides where a robot should touch tissue next, and says where the tumour under the surface ends and how sure that is.");
+  CLI::App app(
+      "Decides where a robot should touch tissue next, and says where the tumour under the surface "
+      "ends and how sure that is.");
   app.require_subcommand(1);
   app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", PALPATION_VERSION);
   app.footer(
-      "Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 wrong usage, 3 an input is at fault, 4 "
+      "Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 "
+      "wrong usage, 3 an input is at fault, 4 "
       "the machine or the arithmetic failed, 130 interrupted.");
   Arguments arguments;
   app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
@@ -180,7 +252,8 @@ int run_tool(int count, char** words) {
   add_mesh_commands(app, arguments);
   add_experiment_command(app, arguments);
   add_help_command(app, arguments);
-  for (CLI::App* command : app.get_subcommands({})) command->parse_complete_callback([&] { set_thread_count(arguments.threads); });
+  for (CLI::App* command : app.get_subcommands({}))
+    command->parse_complete_callback([&] { set_thread_count(arguments.threads); });
   try {
     app.parse(count, words);
     return kDone;

@@ -24,12 +24,14 @@ namespace {
 }
 
 constexpr double kMostVertices = 16e6;
-constexpr double kLeastCells = 4.0;                             // across a shape, or it would not be that shape
-constexpr double kSteepest = 100.0 / (2.0 * std::numbers::pi);  // amplitude over wavelength: 100 is the greatest slope
+constexpr double kLeastCells = 4.0;  // across a shape, or it would not be that shape
+constexpr double kSteepest =
+    100.0 / (2.0 * std::numbers::pi);  // amplitude over wavelength: 100 is the greatest slope
 
 void check_count(double vertices, const MeshArguments& arguments) {
   if (vertices > kMostVertices)
-    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " would take " + text_of(std::round(vertices * 1e-6)) +
+    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " would take " +
+                          text_of(std::round(vertices * 1e-6)) +
                           " million vertices, but at most 16 million are made: take longer edges");
 }
 
@@ -43,7 +45,8 @@ TriangleMesh plane_of(const MeshArguments& arguments) {
     const RecordedReadings recording = read_recording(arguments.around);
     const Vec2 margin = Vec2::Constant(arguments.margin_mm / 1000.0);
     options.corner_m = recording.positions.leftCols<2>().colwise().minCoeff().transpose() - margin;
-    options.size_m = recording.positions.leftCols<2>().colwise().maxCoeff().transpose() + margin - options.corner_m;
+    options.size_m = recording.positions.leftCols<2>().colwise().maxCoeff().transpose() + margin -
+                     options.corner_m;
     const Vec2 cells = (options.size_m * 1000.0 / arguments.edge_mm).array().ceil();
     check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
     options.columns = static_cast<int>(cells.x()) + 1;
@@ -91,7 +94,8 @@ Sheet sheet_of(const MeshArguments& arguments) {
 /// What a kind of phantom does not have is refused, not left without effect.
 void check_options(const MeshArguments& arguments) {
   const auto is_one_of = [&](std::initializer_list<const char*> kinds) {
-    return std::any_of(kinds.begin(), kinds.end(), [&](const char* kind) { return arguments.kind == kind; });
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [&](const char* kind) { return arguments.kind == kind; });
   };
   const auto check = [&](const char* option, bool given, bool belongs) {
     if (given && !belongs) refuse(arguments, std::string(option) + " is not among its options");
@@ -110,21 +114,27 @@ void check_options(const MeshArguments& arguments) {
 /// What the shapes ask of their sizes, in the words of the options.
 void check_sizes(const MeshArguments& arguments) {
   constexpr double kPi = std::numbers::pi;
-  const auto at_most = [&](const std::string& option, double value_mm, double most_mm, const std::string& why) {
-    if (value_mm >= most_mm) refuse(arguments, option + " " + text_of(value_mm) + " must be less than " + text_of(most_mm) + ", " + why);
+  const auto at_most = [&](const std::string& option, double value_mm, double most_mm,
+                           const std::string& why) {
+    if (value_mm >= most_mm)
+      refuse(arguments, option + " " + text_of(value_mm) + " must be less than " +
+                            text_of(most_mm) + ", " + why);
   };
   if (arguments.kind == "cylinder") {
     const double radius_mm = arguments.radius_mm.value_or(CylinderOptions().radius_m * 1000.0);
-    at_most("--size-mm", arguments.size_mm[0], 2.0 * kPi * radius_mm, "once around a cylinder of --radius-mm " + text_of(radius_mm));
+    at_most("--size-mm", arguments.size_mm[0], 2.0 * kPi * radius_mm,
+            "once around a cylinder of --radius-mm " + text_of(radius_mm));
   }
   if (arguments.kind == "dome") {
     const double radius_mm = arguments.radius_mm.value_or(DomeOptions().radius_m * 1000.0);
-    at_most("--reach-mm", arguments.reach_mm.value_or(DomeOptions().reach_m * 1000.0), kPi * radius_mm,
-            "half way around a sphere of --radius-mm " + text_of(radius_mm));
+    at_most("--reach-mm", arguments.reach_mm.value_or(DomeOptions().reach_m * 1000.0),
+            kPi * radius_mm, "half way around a sphere of --radius-mm " + text_of(radius_mm));
   }
   if (arguments.kind == "wave") {
-    const double wavelength_mm = arguments.wavelength_mm.value_or(WaveOptions().wavelength_m * 1000.0);
-    at_most("--amplitude-mm", arguments.amplitude_mm.value_or(WaveOptions().amplitude_m * 1000.0), kSteepest * wavelength_mm,
+    const double wavelength_mm =
+        arguments.wavelength_mm.value_or(WaveOptions().wavelength_m * 1000.0);
+    at_most("--amplitude-mm", arguments.amplitude_mm.value_or(WaveOptions().amplitude_m * 1000.0),
+            kSteepest * wavelength_mm,
             "as steep as --wavelength-mm " + text_of(wavelength_mm) + " allows");
   }
 }
@@ -136,7 +146,8 @@ TriangleMesh curved_of(const MeshArguments& arguments) {
   const Vec2 cells = sheet.size_m / edge_m;
   check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
   if (cells.minCoeff() < kLeastCells)
-    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " is too long for what is " + text_of(sheet.size_m.minCoeff() * 1000.0) +
+    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " is too long for what is " +
+                          text_of(sheet.size_m.minCoeff() * 1000.0) +
                           " mm wide: take at most a quarter of that");
   Random random(arguments.seed);
   return make_phantom(sheet, edge_m, arguments.jitter, random).mesh;
@@ -144,14 +155,17 @@ TriangleMesh curved_of(const MeshArguments& arguments) {
 
 }  // namespace
 
-std::vector<std::string> mesh_kinds() { return {"plane", "cylinder", "dome", "saddle", "wave", "folded"}; }
+std::vector<std::string> mesh_kinds() {
+  return {"plane", "cylinder", "dome", "saddle", "wave", "folded"};
+}
 
 void make_mesh(const MeshArguments& arguments) {
   check_options(arguments);
   const TriangleMesh mesh = arguments.kind == "plane" ? plane_of(arguments) : curved_of(arguments);
   write_mesh(arguments.output, mesh, length_unit(arguments.unit));
-  std::printf("%s: %ld vertices, %ld triangles, %s\n", arguments.output.string().c_str(), static_cast<long>(mesh.vertices.rows()),
-              static_cast<long>(mesh.triangles.rows()), size_words(mesh).c_str());
+  std::printf("%s: %ld vertices, %ld triangles, %s\n", arguments.output.string().c_str(),
+              static_cast<long>(mesh.vertices.rows()), static_cast<long>(mesh.triangles.rows()),
+              size_words(mesh).c_str());
 }
 
 }  // namespace palpation::tool

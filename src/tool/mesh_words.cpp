@@ -16,7 +16,8 @@ namespace {
 
 // Longer lists help nobody.
 constexpr std::size_t kMostListed = 8;
-// Exact tests of each triangle against those around it take ten microseconds: more than a few seconds would be too much for a description.
+// Exact tests of each triangle against those around it take ten microseconds: more than a few
+// seconds would be too much for a description.
 constexpr int kMostFacesToCross = 200'000;
 // What a probe resolves.
 constexpr double kCoarse_m = 0.001;
@@ -36,14 +37,18 @@ struct Part {
   Vec3 middle() const { return sum / count; }
 };
 
-std::string list_words(std::vector<Part> parts, const std::string& each, double scale, const std::string& unit) {
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.size > b.size; });
+std::string list_words(std::vector<Part> parts, const std::string& each, double scale,
+                       const std::string& unit) {
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& a, const Part& b) { return a.size > b.size; });
   std::string words;
   for (std::size_t i = 0; i < std::min(parts.size(), kMostListed); ++i) {
-    words += "  " + fixed(parts[i].size * scale, 3) + " " + unit + ", " + std::to_string(parts[i].count) + " " + each + ", around " +
+    words += "  " + fixed(parts[i].size * scale, 3) + " " + unit + ", " +
+             std::to_string(parts[i].count) + " " + each + ", around " +
              place_words(parts[i].middle(), 2) + "\n";
   }
-  if (parts.size() > kMostListed) words += "  and " + std::to_string(parts.size() - kMostListed) + " smaller ones\n";
+  if (parts.size() > kMostListed)
+    words += "  and " + std::to_string(parts.size() - kMostListed) + " smaller ones\n";
   return words;
 }
 
@@ -90,10 +95,14 @@ std::vector<Part> borders_of(const Surface& surface) {
 
 std::string topology_words(const Surface& surface) {
   const Topology topology = surface.topology();
-  std::string words = "Surface: " + counted(topology.components, "component", "components") + ", " +
-                      (topology.is_closed() ? "closed" : counted(topology.borders, "border", "borders")) + ", Euler number " +
-                      std::to_string(topology.euler) + ", " + counted(topology.handles, "handle", "handles") + "\n";
-  if (topology.components > 1) words += "Components, the largest first:\n" + list_words(components_of(surface), "triangles", 1e4, "cm2");
+  std::string words =
+      "Surface: " + counted(topology.components, "component", "components") + ", " +
+      (topology.is_closed() ? "closed" : counted(topology.borders, "border", "borders")) +
+      ", Euler number " + std::to_string(topology.euler) + ", " +
+      counted(topology.handles, "handle", "handles") + "\n";
+  if (topology.components > 1)
+    words += "Components, the largest first:\n" +
+             list_words(components_of(surface), "triangles", 1e4, "cm2");
   if (topology.borders > 1) {
     words += "Borders, the longest first; those that are not the edge of the tissue are holes:\n" +
              list_words(borders_of(surface), "vertices", 1e3, "mm");
@@ -109,8 +118,9 @@ Edges edges_of(const TriangleMesh& mesh) {
   Edges edges;
   for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
-      const double length =
-          (mesh.vertices.row(mesh.triangles(face, corner)) - mesh.vertices.row(mesh.triangles(face, (corner + 1) % 3))).norm();
+      const double length = (mesh.vertices.row(mesh.triangles(face, corner)) -
+                             mesh.vertices.row(mesh.triangles(face, (corner + 1) % 3)))
+                                .norm();
       edges.shortest = std::min(edges.shortest, length);
       edges.longest = std::max(edges.longest, length);
       edges.mean += length / (3.0 * static_cast<double>(mesh.triangles.rows()));
@@ -121,8 +131,9 @@ Edges edges_of(const TriangleMesh& mesh) {
 
 std::string edge_words(const Surface& surface) {
   const Edges edges = edges_of(surface.mesh());
-  std::string words = "Edges: " + fixed(edges.shortest * 1e3, 3) + " to " + fixed(edges.longest * 1e3, 3) + " mm, mean " +
-                      fixed(edges.mean * 1e3, 3) + " mm\n";
+  std::string words = "Edges: " + fixed(edges.shortest * 1e3, 3) + " to " +
+                      fixed(edges.longest * 1e3, 3) + " mm, mean " + fixed(edges.mean * 1e3, 3) +
+                      " mm\n";
   if (edges.longest > kCoarse_m) {
     words += "Coarse: edges up to " + fixed(edges.longest * 1e3, 2) +
              " mm exceed what a probe resolves (about 0.5 mm); set surface.refine_mm.\n";
@@ -152,41 +163,50 @@ std::pair<double, double> curvature_range(const Surface& surface) {
 std::string crossing_words(const Surface& surface) {
   if (surface.is_planar()) return "";
   if (surface.face_count() > kMostFacesToCross) {
-    return "Not looked for places where it runs through itself, as it has more than " + std::to_string(kMostFacesToCross) + " triangles.\n";
+    return "Not looked for places where it runs through itself, as it has more than " +
+           std::to_string(kMostFacesToCross) + " triangles.\n";
   }
   const SelfIntersections found = self_intersections(surface);
   if (!found.complete) {
-    return "Warning: so many triangles lie close together that the search for places where it runs through itself was given up.\n"
+    return "Warning: so many triangles lie close together that the search for places where it runs "
+           "through itself was given up.\n"
            "  Simplify or remesh it.\n";
   }
   if (found.pairs == 0) return "";
   const auto [a, b] = *found.first;
   const Vec3 place = surface.position({a, Vec3::Constant(1.0 / 3.0)});
-  return "Warning: it runs through itself: " + counted(found.pairs, "pair", "pairs") + " of triangles meet, such as triangles " +
-         std::to_string(a) + " and " + std::to_string(b) + " around " + place_words(place, 2) +
-         ".\n  Tissue does not do so. Cut away one of the sheets, or work on a patch away from it.\n";
+  return "Warning: it runs through itself: " + counted(found.pairs, "pair", "pairs") +
+         " of triangles meet, such as triangles " + std::to_string(a) + " and " +
+         std::to_string(b) + " around " + place_words(place, 2) +
+         ".\n  Tissue does not do so. Cut away one of the sheets, or work on a patch away from "
+         "it.\n";
 }
 
 const std::string kChoosePart =
-    "Next: choose a part to work on by surface.patch (centre_mm and radius_mm, box_mm, or facing) in a scene; palpate info SCENE.json "
+    "Next: choose a part to work on by surface.patch (centre_mm and radius_mm, box_mm, or facing) "
+    "in a scene; palpate info SCENE.json "
     "looks at it.\n";
 
 std::string disk_advice(const Surface& surface, const std::string& next) {
   if (surface.face_count() > kMostFacesToFlatten)
-    return "Curved: a disk, which can be laid flat; how well is not tried here, as it has more than " +
+    return "Curved: a disk, which can be laid flat; how well is not tried here, as it has more "
+           "than " +
            std::to_string(kMostFacesToFlatten) + " triangles.\n" + next;
   try {
     const Chart& chart = surface.chart();
     if (chart.isometric)
-      return "Curved, but it unrolls without stretch: its chart is exact.\nRecommended: field.metric chart, exact here and the "
+      return "Curved, but it unrolls without stretch: its chart is exact.\nRecommended: "
+             "field.metric chart, exact here and the "
              "cheapest.\n" +
              next;
     const std::string warning =
         misleads(chart.distortion)
             ? "Warning: that is more than 10 % off, and field.metric chart would mislead there.\n"
-              "Recommended: field.metric intrinsic, whose lengths are those along the surface; or a smaller part by surface.patch.\n"
+              "Recommended: field.metric intrinsic, whose lengths are those along the surface; or "
+              "a smaller part by surface.patch.\n"
             : "Recommended: field.metric chart, less than 10 % off everywhere and the cheapest.\n";
-    return "Curved: laid flat, it is " + stretch_words(chart.distortion) + ", " + fixed(100.0 * chart.distortion.rms_stretch_error, 2) +
+    return "Curved: laid flat, it is " + stretch_words(chart.distortion) + ", " +
+           fixed(100.0 * chart.distortion.rms_stretch_error, 2) +
            " % off on average; areas and errors are measured on the tissue.\n" + warning + next;
   } catch (const InvalidInput& error) {
     return "Curved, without a chart: " + std::string(error.what()) + ".\n" + kChoosePart;
@@ -195,11 +215,13 @@ std::string disk_advice(const Surface& surface, const std::string& next) {
 
 std::string advice(const Surface& surface, const std::string& next) {
   if (surface.is_planar())
-    return "Flat: its own plane is its chart, and every metric and the boundary's area are exact.\nRecommended: field.metric chart, the "
+    return "Flat: its own plane is its chart, and every metric and the boundary's area are "
+           "exact.\nRecommended: field.metric chart, the "
            "cheapest.\n" +
            next;
   if (surface.has_chart()) return disk_advice(surface, next);
-  if (surface.topology().is_closed()) return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + kChoosePart;
+  if (surface.topology().is_closed())
+    return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + kChoosePart;
   try {
     surface.chart();
   } catch (const InvalidInput& error) {
@@ -211,44 +233,53 @@ std::string advice(const Surface& surface, const std::string& next) {
 }  // namespace
 
 bool misleads(const Distortion& distortion) {
-  return distortion.least_stretch < 1.0 - kMisleading || distortion.greatest_stretch > 1.0 + kMisleading;
+  return distortion.least_stretch < 1.0 - kMisleading ||
+         distortion.greatest_stretch > 1.0 + kMisleading;
 }
 
 std::string stretch_words(const Distortion& distortion) {
-  return "stretched to between " + fixed(100.0 * distortion.least_stretch, 1) + " and " + fixed(100.0 * distortion.greatest_stretch, 1) +
-         " % of its length";
+  return "stretched to between " + fixed(100.0 * distortion.least_stretch, 1) + " and " +
+         fixed(100.0 * distortion.greatest_stretch, 1) + " % of its length";
 }
 
 std::string size_words(const TriangleMesh& mesh) {
   const Vec3 least = mesh.vertices.colwise().minCoeff(), most = mesh.vertices.colwise().maxCoeff();
   const Vec3 size = (most - least) * 1e3;
-  return fixed(size.x(), 2) + " x " + fixed(size.y(), 2) + " x " + fixed(size.z(), 2) + " mm, from " + place_words(least, 2) + " to " +
-         place_words(most, 2);
+  return fixed(size.x(), 2) + " x " + fixed(size.y(), 2) + " x " + fixed(size.z(), 2) +
+         " mm, from " + place_words(least, 2) + " to " + place_words(most, 2);
 }
 
 std::string surface_words(const Surface& surface, const std::string& next) {
   const auto [least, most] = curvature_range(surface);
-  return topology_words(surface) + "Area: " + fixed(surface.area() * 1e4, 3) + " cm2\n" + edge_words(surface) +
-         "Gaussian curvature: " + fixed(least, 5) + " to " + fixed(most, 5) + " per mm2\n" + crossing_words(surface) +
-         advice(surface, next);
+  return topology_words(surface) + "Area: " + fixed(surface.area() * 1e4, 3) + " cm2\n" +
+         edge_words(surface) + "Gaussian curvature: " + fixed(least, 5) + " to " + fixed(most, 5) +
+         " per mm2\n" + crossing_words(surface) + advice(surface, next);
 }
 
 std::string fault_words(const TriangleMesh& mesh, const std::string& reason) {
   std::string words = "Not a surface to plan on: " + reason + "\n";
   const MeshFaults faults = count_faults(mesh);
-  const auto say = [&](int count, const std::string& one, const std::string& many, const std::string& meaning) {
+  const auto say = [&](int count, const std::string& one, const std::string& many,
+                       const std::string& meaning) {
     if (count > 0) words += "  " + counted(count, one, many) + ": " + meaning + "\n";
   };
   say(faults.flat_triangles, "triangle has no area", "triangles have no area",
-      "corners on one line or in one place. Remove such faces, or collapse their shortest edges, in a mesh editor.");
-  say(faults.crowded_edges, "edge is in more than two triangles", "edges are in more than two triangles",
-      "sheets that meet there, or a wall inside the tissue. Delete the triangles that are not its outside.");
+      "corners on one line or in one place. Remove such faces, or collapse their shortest edges, "
+      "in a mesh editor.");
+  say(faults.crowded_edges, "edge is in more than two triangles",
+      "edges are in more than two triangles",
+      "sheets that meet there, or a wall inside the tissue. Delete the triangles that are not its "
+      "outside.");
   say(faults.one_way_edges, "edge cannot be faced the same way by its two triangles",
       "edges cannot be faced the same way by their two triangles",
-      "the surface has one side only, like a Moebius strip. Delete the triangles where it closes on itself.");
-  say(faults.pinched_vertices, "vertex joins parts that share no edge there", "vertices join parts that share no edge there",
+      "the surface has one side only, like a Moebius strip. Delete the triangles where it closes "
+      "on itself.");
+  say(faults.pinched_vertices, "vertex joins parts that share no edge there",
+      "vertices join parts that share no edge there",
       "they touch in a point. Give each part a vertex of its own, or fill the gap with triangles.");
-  return words + "  (Vertices and triangles are counted from 0 in the order of the file, without unused ones; places are in metres.)\n";
+  return words +
+         "  (Vertices and triangles are counted from 0 in the order of the file, without unused "
+         "ones; places are in metres.)\n";
 }
 
 }  // namespace palpation::tool

@@ -22,17 +22,20 @@ class OutputFolder {
   /// steps/step_NNN.vtp for the state after a batch; steps.pvd lists them when the rest is written.
   void write_step(const Episode& episode, const World* world);
 
-  /// trace.csv, measurements.csv, boundary.wkt, boundary.vtp, surface.vtp, steps.pvd, timings.json, and summary.json as the last: it is
-  /// gone from the first write on, so that a folder without it is not finished.
+  /// trace.csv, measurements.csv, boundary.wkt, boundary.vtp, surface.vtp, steps.pvd, timings.json,
+  /// and summary.json as the last: it is gone from the first write on, so that a folder without it
+  /// is not finished.
   void write(const Episode& episode, const World* world, const nlohmann::json& timings);
 
   /// waypoints.csv and path.csv: the stops, and the places between them. Before write().
-  void write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way, const std::vector<int>& legs);
+  void write_waypoints(const std::vector<Waypoint>& stops, const std::vector<Waypoint>& way,
+                       const std::vector<int>& legs);
 
   /// summary.json of two boundaries that were compared.
   void write_comparison(const RegionError& error);
 
-  /// picture.png and convergence.png, drawn by the program palpate-draw from the files above. Returns why not, or nothing.
+  /// picture.png and convergence.png, drawn by the program palpate-draw from the files above.
+  /// Returns why not, or nothing.
   std::optional<std::string> draw() const;
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -54,7 +57,8 @@ class OutputFolder {
 /// Makes a folder, and those above it, if it is not there. Throws WriteError.
 void make_folder(const std::filesystem::path& folder);
 
-/// Why the programs' picture could not be drawn, or nothing: runs palpate-draw, which lies beside this program, with the given arguments.
+/// Why the programs' picture could not be drawn, or nothing: runs palpate-draw, which lies beside
+/// this program, with the given arguments.
 std::optional<std::string> run_draw(const std::vector<std::string>& arguments);
 
 }  // namespace palpation::tool

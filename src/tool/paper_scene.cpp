@@ -44,7 +44,8 @@ json default_scene() {
   json scene = paper_scene();
   scene.erase("field");
   scene["level"] = {{"fraction", 0.5}};
-  for (const char* key : {"acquisition", "gamma", "scaling", "least_spacing_mm", "safe_start"}) scene["plan"].erase(key);
+  for (const char* key : {"acquisition", "gamma", "scaling", "least_spacing_mm", "safe_start"})
+    scene["plan"].erase(key);
   return scene;
 }
 
@@ -66,6 +67,8 @@ json horseshoe_mm(double x, double y, double arc_radius, double half_width) {
                        {"facing", {1, 0, 0}}}});
 }
 
-json paper_tumour(const std::string& shape) { return shape == "disk" ? disk_mm(11.492, 30, 6.25) : horseshoe_mm(9.492, 20, 7, 2.5); }
+json paper_tumour(const std::string& shape) {
+  return shape == "disk" ? disk_mm(11.492, 30, 6.25) : horseshoe_mm(9.492, 20, 7, 2.5);
+}
 
 }  // namespace palpation::tool

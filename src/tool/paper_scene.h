@@ -7,11 +7,12 @@
 
 namespace palpation::tool {
 
-/// The phantom and the model: GPy's squared exponential of variance 25 (z-scored readings), likelihood variance 1, a constant of variance
-/// 52; the level known. Without tumours.
+/// The phantom and the model: GPy's squared exponential of variance 25 (z-scored readings),
+/// likelihood variance 1, a constant of variance 52; the level known. Without tumours.
 nlohmann::json paper_scene();
 
-/// The same phantom and number of touches; model, level and choice of touches are the tool's own defaults, and know nothing of it.
+/// The same phantom and number of touches; model, level and choice of touches are the tool's own
+/// defaults, and know nothing of it.
 nlohmann::json default_scene();
 
 /// The length of the outline, metres.

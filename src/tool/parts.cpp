@@ -39,7 +39,10 @@ TumourPart measured(const PolygonWithHoles& polygon, const Surface& surface) {
   part.area_m2 = area_on_tissue(polygon, 0.5 * twice_area, surface);
   part.centroid_m = origin + moment / twice_area;
   Eigen::Index nearest = 0;
-  (surface.chart().uv.rowwise() - part.centroid_m.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  (surface.chart().uv.rowwise() - part.centroid_m.transpose())
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
   part.position_m = surface.vertex(static_cast<int>(nearest));
   return part;
 }
@@ -51,7 +54,8 @@ bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Vec2& a = ring[i];
       const Vec2& b = ring[(i + 1) % ring.size()];
-      if ((a.y() > place.y()) != (b.y() > place.y()) && place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      if ((a.y() > place.y()) != (b.y() > place.y()) &&
+          place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
         inside = !inside;
     }
   };
@@ -60,12 +64,14 @@ bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
   return inside;
 }
 
-/// Every part of a level set holds a vertex, which is as deep as the part is; where rounding hides it, the part is at the level.
+/// Every part of a level set holds a vertex, which is as deep as the part is; where rounding hides
+/// it, the part is at the level.
 void look_inside(TumourPart& part, const Surface& surface, const Field& score) {
   double deepest = 0.0;
   const auto is_inside = [&](int vertex) {
     const Vec2 place = surface.chart().uv.row(vertex).transpose();
-    const bool near = (place.array() >= part.least_m.array()).all() && (place.array() <= part.most_m.array()).all();
+    const bool near = (place.array() >= part.least_m.array()).all() &&
+                      (place.array() <= part.most_m.array()).all();
     return near && contains(part.polygon, place);
   };
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
@@ -91,14 +97,17 @@ bool has_border_corner(const TumourPart& part, const Surface& surface) {
 
 }  // namespace
 
-TumourPart measured(const Ring& ring, const Surface& surface) { return measured(PolygonWithHoles{ring, {}}, surface); }
+TumourPart measured(const Ring& ring, const Surface& surface) {
+  return measured(PolygonWithHoles{ring, {}}, surface);
+}
 
 std::vector<TumourPart> parts_of(const Episode& episode) {
   std::vector<TumourPart> parts;
   const Exploration& exploration = episode.exploration;
   for (const PolygonWithHoles& polygon : episode.estimate.polygons()) {
     TumourPart& part = parts.emplace_back(measured(polygon, exploration.surface()));
-    if (exploration.certainty()) look_inside(part, exploration.surface(), exploration.certainty()->score);
+    if (exploration.certainty())
+      look_inside(part, exploration.surface(), exploration.certainty()->score);
     part.touches_border = has_border_corner(part, exploration.surface());
   }
   return parts;

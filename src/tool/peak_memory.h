@@ -10,7 +10,8 @@ class PeakMemory {
   /// Starts to watch, for the whole process: one at a time.
   PeakMemory();
 
-  /// Since it was made; nothing where the system does not tell (it takes Linux's /proc/self/clear_refs).
+  /// Since it was made; nothing where the system does not tell (it takes Linux's
+  /// /proc/self/clear_refs).
   std::optional<double> megabytes() const;
 
  private:

@@ -43,7 +43,8 @@ std::vector<double> readings_that_count(const Exploration& exploration) {
 double scatter(const Exploration& exploration) {
   const double seen = spread_of(readings_that_count(exploration)).sd;
   const bool is_given = !exploration.field().learn_noise;
-  return seen > 0.0 && is_given ? std::max(seen, std::sqrt(exploration.belief().noise_variance())) : seen;
+  return seen > 0.0 && is_given ? std::max(seen, std::sqrt(exploration.belief().noise_variance()))
+                                : seen;
 }
 
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
@@ -61,7 +62,8 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   }
   const Healthy healthy = healthy_part(exploration);
   if (healthy.vertices.empty() || exploration.tip_hides_all()) return std::nullopt;
-  const double contrast = episode.assumed_contrast.value_or((exploration.level()->value - healthy.mean) / episode.level_fraction);
+  const double contrast = episode.assumed_contrast.value_or(
+      (exploration.level()->value - healthy.mean) / episode.level_fraction);
   sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
   if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;
   return within(surface, palpation::diameter_ruled_out_m(layout, places, sought, healthy.vertices));

@@ -22,8 +22,10 @@ Scene scene_of(const SceneArguments& arguments) {
   return arguments.seed ? scene.with("seed", *arguments.seed) : scene;
 }
 
-/// Nothing where no folder is asked for. Made before anything is computed, so that one that cannot be costs no time.
-std::optional<OutputFolder> output_of(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue,
+/// Nothing where no folder is asked for. Made before anything is computed, so that one that cannot
+/// be costs no time.
+std::optional<OutputFolder> output_of(const SceneArguments& arguments, const Scene& scene,
+                                      const Tissue& tissue,
                                       const std::vector<std::string>& warnings) {
   if (arguments.out.empty()) return std::nullopt;
   std::optional<OutputFolder> output(std::in_place, arguments.out, scene, tissue.surface);
@@ -36,24 +38,27 @@ std::optional<OutputFolder> output_of(const SceneArguments& arguments, const Sce
 void report(const Episode& episode, bool quiet) {
   if (!quiet) std::fputs(episode_words(episode).c_str(), stdout);
   std::vector<std::string> remarks = boundary_remarks(episode);
-  if (!remarks.empty() && remarks.back() == no_level_words(episode.exploration)) remarks.pop_back();  // it was said already
+  if (!remarks.empty() && remarks.back() == no_level_words(episode.exploration))
+    remarks.pop_back();  // it was said already
   tell(remarks);
 }
 
-MeasurementsFile measured_on(const Scene& scene, const Surface& surface, const std::filesystem::path& path) {
+MeasurementsFile measured_on(const Scene& scene, const Surface& surface,
+                             const std::filesystem::path& path) {
   const FieldModel field = field_of(scene);
   const bool noiseless = !field.learn_noise && field.belief.noise_sd == 0.0;
   MeasurementsFile measured = read_measurements(path, surface, {.empty_noise_is_none = noiseless});
   if (measured.places > kMostPlaces)
-    throw IoError(path.string() + ": readings at " + std::to_string(measured.places) + " places; at most " + std::to_string(kMostPlaces) +
+    throw IoError(path.string() + ": readings at " + std::to_string(measured.places) +
+                  " places; at most " + std::to_string(kMostPlaces) +
                   " can be modelled: leave some out, or set them aside");
   tell(measured.warnings);
   return measured;
 }
 
 /// The whole run of `simulate` and `replay`, to the files and the words.
-void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue, const World& world,
-                    double prepared_seconds) {
+void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue,
+                    const World& world, double prepared_seconds) {
   std::optional<OutputFolder> output = output_of(arguments, scene, tissue, world.warnings);
   tell(world.warnings);
   const Stopwatch running;
@@ -70,7 +75,8 @@ void run_and_report(const SceneArguments& arguments, const Scene& scene, const T
   const Robot robot = robot_of(scene);
   std::vector<SurfacePoint> stops;
   for (int stop : episode.stops) stops.push_back(tissue.surface.at_vertex(stop));
-  output->write_waypoints(waypoints(tissue.surface, stops, robot), waypoints(tissue.surface, episode.way, robot), episode.legs);
+  output->write_waypoints(waypoints(tissue.surface, stops, robot),
+                          waypoints(tissue.surface, episode.way, robot), episode.legs);
   output->write(episode, &world,
                 {{"prepare_s", prepared_seconds + episode.start_seconds},
                  {"run_s", running_seconds - episode.start_seconds},
@@ -118,7 +124,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const Scene scene = scene_of(arguments);
   if (is_scan(scene))
     scene.refuse("plan.acquisition",
-                 "raster and refinement are whole scans, which palpate simulate and replay run: there is no next batch");
+                 "raster and refinement are whole scans, which palpate simulate and replay run: "
+                 "there is no next batch");
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
@@ -132,7 +139,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   if (!palpations.empty()) here = palpations.back().where;
   for (int stop : next) stops.push_back(tissue.surface.at_vertex(stop));
   const Tour tour = travel(
-      tissue.surface, next, here, [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
+      tissue.surface, next, here,
+      [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
   const Robot robot = robot_of(scene);
   const std::vector<Waypoint> poses = waypoints(tissue.surface, stops, robot);
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);

@@ -16,14 +16,16 @@ namespace palpation::tool {
 
 class Scene {
  public:
-  /// `name` stands for the scene in messages; relative paths in it are relative to `folder`. Throws IoError naming scene, key, value and
-  /// rule.
+  /// `name` stands for the scene in messages; relative paths in it are relative to `folder`. Throws
+  /// IoError naming scene, key, value and rule.
   Scene(const nlohmann::json& given, std::string name, std::filesystem::path folder);
 
-  /// Reads the file and overrides single values: each text is "path=value", each path given once. Throws IoError.
+  /// Reads the file and overrides single values: each text is "path=value", each path given once.
+  /// Throws IoError.
   static Scene read(const std::filesystem::path& path, std::span<const std::string> overrides);
   /// The same from a text.
-  static Scene parse(std::string_view text, std::string name, std::filesystem::path folder, std::span<const std::string> overrides = {});
+  static Scene parse(std::string_view text, std::string name, std::filesystem::path folder,
+                     std::span<const std::string> overrides = {});
 
   /// The same scene with one value changed.
   Scene with(const std::string& path, const nlohmann::json& value) const;
@@ -36,7 +38,8 @@ class Scene {
   int integer(const std::string& path) const;
   std::uint64_t seed() const;
   bool truth(const std::string& path) const;
-  std::string word(const std::string& path) const;  ///< of a Word or Text; of a NumberOrWord if it is a word, else empty
+  std::string word(const std::string& path)
+      const;  ///< of a Word or Text; of a NumberOrWord if it is a word, else empty
   std::vector<double> numbers(const std::string& path) const;
   double metres(const std::string& path) const;  ///< of a key in millimetres
   Vec3 point_m(const std::string& path) const;   ///< of three millimetres

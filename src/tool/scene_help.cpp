@@ -52,7 +52,8 @@ void describe(std::ostringstream& out, const SceneKey& key, const std::string& i
       values = "a list of at most " + std::to_string(key.count) + " points [x, y, z]";
       break;
     case ValueKind::Tumours:
-      values = "a list of at most " + std::to_string(key.count) + " of " + join(tumour_shapes(), ", ");
+      values =
+          "a list of at most " + std::to_string(key.count) + " of " + join(tumour_shapes(), ", ");
       break;
   }
   out << indent << key.path;
@@ -65,15 +66,18 @@ void describe(std::ostringstream& out, const SceneKey& key, const std::string& i
 }  // namespace
 
 std::string range_text(const SceneKey& key) {
-  const std::string range = key.least == key.most ? plain(key.least) : plain(key.least) + " to " + plain(key.most);
+  const std::string range =
+      key.least == key.most ? plain(key.least) : plain(key.least) + " to " + plain(key.most);
   return (key.zero_too ? "0, or " : "") + range;
 }
 
 std::string scene_help() {
   std::ostringstream out;
-  out << "A scene is a JSON file. Its keys, in groups: \"surface\": { \"mesh\": ... } is written surface.mesh here and in --set,\n"
+  out << "A scene is a JSON file. Its keys, in groups: \"surface\": { \"mesh\": ... } is written "
+         "surface.mesh here and in --set,\n"
       << "which sets a list as a whole, and takes a key away with null.\n"
-      << "Lengths are millimetres where a key says so; \"reading\" is the sensor's own unit. Paths are relative to the scene.\n\n";
+      << "Lengths are millimetres where a key says so; \"reading\" is the sensor's own unit. Paths "
+         "are relative to the scene.\n\n";
   std::string group;
   for (const SceneKey& key : scene_keys()) {
     const std::string here = key.path.substr(0, key.path.find('.'));

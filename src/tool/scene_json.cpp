@@ -31,9 +31,11 @@ std::string printable(std::string_view text) {
 /// "line:column" of a byte, both from 1.
 std::string place_in(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte);
-  const std::size_t line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const std::size_t line =
+      static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
   const std::size_t start = before.rfind('\n');
-  const std::size_t column = start == std::string_view::npos ? before.size() : before.size() - start - 1;
+  const std::size_t column =
+      start == std::string_view::npos ? before.size() : before.size() - start - 1;
   return std::to_string(line) + ":" + std::to_string(std::max<std::size_t>(column, 1));
 }
 
@@ -62,12 +64,17 @@ class SceneReader : public json::json_sax_t {
     return true;
   }
 
-  bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& error) override {
+  bool parse_error(std::size_t byte, const std::string&,
+                   const nlohmann::detail::exception& error) override {
     const std::string start = name_ + ":" + place_in(text_, byte) + ": ";
-    const std::string words = error.what();  // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error ..."
-    if (error.id == 406) throw IoError(start + cut(printable(words.substr(words.rfind(' ') + 1))) + " is too large for a double");
+    const std::string words = error.what();  // "[json.exception.parse_error.101] parse error at
+                                             // line 3, column 5: syntax error ..."
+    if (error.id == 406)
+      throw IoError(start + cut(printable(words.substr(words.rfind(' ') + 1))) +
+                    " is too large for a double");
     const std::size_t rule = words.find(": ");
-    throw IoError(start + "not JSON: " + printable(words.substr(rule == std::string::npos ? 0 : rule + 2, 3 * kLongest)));
+    throw IoError(start + "not JSON: " +
+                  printable(words.substr(rule == std::string::npos ? 0 : rule + 2, 3 * kLongest)));
   }
 
  private:
@@ -93,8 +100,8 @@ class SceneReader : public json::json_sax_t {
 
   bool open(json value) {
     if (open_.size() == kMostDepth)
-      throw IoError(name_ + ": " + shown_key(path()) + ": is nested deeper than " + std::to_string(kMostDepth) +
-                    " levels, which no scene needs");
+      throw IoError(name_ + ": " + shown_key(path()) + ": is nested deeper than " +
+                    std::to_string(kMostDepth) + " levels, which no scene needs");
     open_.push_back({place(std::move(value))});
     return true;
   }
@@ -132,10 +139,13 @@ json parse_json(std::string_view text, const std::string& name) {
   return reader.take();
 }
 
-json read_json(const std::filesystem::path& path) { return parse_json(read_file(path, kMostBytes), path.string()); }
+json read_json(const std::filesystem::path& path) {
+  return parse_json(read_file(path, kMostBytes), path.string());
+}
 
 std::string shown(const json& value) {
-  if (value.is_structured() && value.size() > kLongest) return value.is_array() ? "a long list" : "a large object";
+  if (value.is_structured() && value.size() > kLongest)
+    return value.is_array() ? "a long list" : "a large object";
   return cut(value.dump(-1, ' ', true, json::error_handler_t::replace));
 }
 

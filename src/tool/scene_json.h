@@ -1,4 +1,5 @@
-/// JSON of a scene, read without trust: no duplicate keys, no nesting that no scene needs, and every error with its place.
+/// JSON of a scene, read without trust: no duplicate keys, no nesting that no scene needs, and
+/// every error with its place.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +9,8 @@
 
 namespace palpation::tool {
 
-/// Throws IoError: "<name>:<line>:<column>: ..." where the text is not JSON, "<name>: <key>: ..." where a key stands twice or values nest
-/// deeper than 32 levels. A byte order mark is welcome.
+/// Throws IoError: "<name>:<line>:<column>: ..." where the text is not JSON, "<name>: <key>: ..."
+/// where a key stands twice or values nest deeper than 32 levels. A byte order mark is welcome.
 nlohmann::json parse_json(std::string_view text, const std::string& name);
 
 /// The same of a file of at most 16 MiB; throws IoError too where it cannot be read.

@@ -1,4 +1,5 @@
-/// Every key of a scene: what it means, its unit, range and default. The one table that reads scenes, checks them and explains them.
+/// Every key of a scene: what it means, its unit, range and default. The one table that reads
+/// scenes, checks them and explains them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -41,14 +42,16 @@ const std::vector<SceneKey>& scene_keys();
 const std::vector<SceneKey>& tumour_keys(const std::string& shape);
 const std::vector<std::string>& tumour_shapes();
 
-/// What is wrong with a value: where in it (behind the key's path, such as "[0].radius_mm"), and words that follow "<key><place>: ".
+/// What is wrong with a value: where in it (behind the key's path, such as "[0].radius_mm"), and
+/// words that follow "<key><place>: ".
 struct Fault {
   std::string place;
   std::string words;
 };
 std::optional<Fault> fault_of(const SceneKey& key, const nlohmann::json& value);
 
-/// The known path, or group of paths, nearest to an unknown one: by edit distance, a right name in a wrong group being near.
+/// The known path, or group of paths, nearest to an unknown one: by edit distance, a right name in
+/// a wrong group being near.
 std::string nearest_key(const std::string& unknown, const std::vector<SceneKey>& keys);
 
 /// What `palpate help scene` prints.

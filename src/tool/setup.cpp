@@ -47,19 +47,22 @@ FieldModel field_of(const Scene& scene) {
   field.metric = metric_named(scene.word("field.metric"));
   field.kernel.family = kernel_family(scene.word("field.kernel"));
   if (field.kernel.family == KernelFamily::Periodic) {
-    if (field.metric != Metric::Chart) scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
+    if (field.metric != Metric::Chart)
+      scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
     field.kernel.period_m = scene.metres("field.period_mm");
   }
   if (field.kernel.family == KernelFamily::Matern12 && field.metric == Metric::Intrinsic)
     scene.refuse("field.kernel",
-                 "is \"matern-1/2\", which field.metric intrinsic does not have: take squared-exponential, matern-3/2 or matern-5/2");
+                 "is \"matern-1/2\", which field.metric intrinsic does not have: take "
+                 "squared-exponential, matern-3/2 or matern-5/2");
   field.learn_length = scene.word("field.length_mm") == "learn";
   if (!field.learn_length) field.kernel.length_m = scene.metres("field.length_mm");
   field.learn_signal = scene.word("field.signal_sd") == "learn";
   if (!field.learn_signal) field.kernel.signal_sd = scene.number("field.signal_sd");
   field.learn_noise = scene.word("field.noise") == "learn" && !scene.has("field.noise_to_signal");
   if (scene.has("field.noise_to_signal")) {
-    if (scene.word("field.noise") != "learn") scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
+    if (scene.word("field.noise") != "learn")
+      scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
     if (field.learn_length || field.learn_signal)
       scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
     field.belief.noise_sd = scene.number("field.noise_to_signal");
@@ -77,12 +80,16 @@ FieldModel field_of(const Scene& scene) {
   field.belief.single_precision = scene.word("field.precision") == "single";
   if (field.belief.single_precision && !field.learns()) {
     if (field.belief.standardize && !field.belief.noise_is_relative)
-      scene.refuse("field.precision",
-                   "is single, but how large a fixed field.noise is beside standardized readings shows only when they are felt: set "
-                   "field.standardize to false, or give field.noise_to_signal in place of field.noise");
-    const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) * (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
+      scene.refuse(
+          "field.precision",
+          "is single, but how large a fixed field.noise is beside standardized readings shows only "
+          "when they are felt: set "
+          "field.standardize to false, or give field.noise_to_signal in place of field.noise");
+    const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) *
+                                  (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
     if (field.belief.noise_sd < least_noise_sd)
-      scene.refuse("field.precision", "is single, which needs noise of 3.2 % of the signal at least: take double");
+      scene.refuse("field.precision",
+                   "is single, which needs noise of 3.2 % of the signal at least: take double");
   }
   field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
   field.rebuild_gain = scene.number("field.rebuild_gain");
@@ -98,7 +105,8 @@ LevelRule level_rule_of(const Scene& scene) {
   LevelRule rule;
   rule.fraction = scene.number("level.fraction");
   if (scene.word("level.estimate") == "known") rule.known = scene.number("level.value");
-  rule.estimate = scene.word("level.estimate") == "range" ? LevelEstimate::Range : LevelEstimate::Edge;
+  rule.estimate =
+      scene.word("level.estimate") == "range" ? LevelEstimate::Range : LevelEstimate::Edge;
   return rule;
 }
 
@@ -106,7 +114,9 @@ Plan plan_of(const Scene& scene) {
   Plan plan;
   plan.acquisition = acquisition_of(scene);
   const std::string design = scene.word("plan.initial.design");
-  plan.initial = design == "random" ? Design::Random : design == "grid" ? Design::Grid : Design::LowDiscrepancy;
+  plan.initial = design == "random" ? Design::Random
+                 : design == "grid" ? Design::Grid
+                                    : Design::LowDiscrepancy;
   plan.initial_count = scene.integer("plan.initial.count");
   plan.batch.size = scene.integer("plan.batch");
   if (scene.truth("plan.readings_along_path")) plan.batch.way_reading_m = kWayStep_m;
@@ -116,7 +126,8 @@ Plan plan_of(const Scene& scene) {
                .band_m = scene.metres("plan.stop.band_mm"),
                .least_gain = scene.number("plan.stop.least_gain"),
                .band_probability = scene.number("band.probability")};
-  plan.edge_share = scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
+  plan.edge_share =
+      scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
   plan.safe_start = scene.truth("plan.safe_start");
   return plan;
 }
@@ -148,13 +159,17 @@ Access access_of(const Scene& scene) {
   return access;
 }
 
-bool limits_reach(const Scene& scene) { return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0; }
+bool limits_reach(const Scene& scene) {
+  return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0;
+}
 
 std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface) {
   if (!limits_reach(scene)) return std::nullopt;
   std::vector<int> vertices = reachable_vertices(surface, access_of(scene));
   if (vertices.empty())
-    scene.refuse("robot", "reaches no tissue: with this shaft_direction, cone_deg and clearance_mm nothing can be touched");
+    scene.refuse("robot",
+                 "reaches no tissue: with this shaft_direction, cone_deg and clearance_mm nothing "
+                 "can be touched");
   return vertices;
 }
 

@@ -14,7 +14,8 @@
 
 namespace palpation::tool {
 
-/// The probe's readings on its way are this far apart, as the robot's are (Garg et al. 2016, section VII).
+/// The probe's readings on its way are this far apart, as the robot's are (Garg et al. 2016,
+/// section VII).
 inline constexpr double kWayStep_m = 0.001;
 
 FieldModel field_of(const Scene& scene);

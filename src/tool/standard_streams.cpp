@@ -13,8 +13,10 @@ namespace palpation::tool {
 void guard_standard_streams() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // Words to a closed standard output are lost, which finish_standard_output notices: its stand-in cannot be written.
-    [[maybe_unused]] const int stand_in = ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+    // Words to a closed standard output are lost, which finish_standard_output notices: its
+    // stand-in cannot be written.
+    [[maybe_unused]] const int stand_in =
+        ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);

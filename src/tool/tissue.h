@@ -14,8 +14,8 @@ struct Tissue {
   std::vector<std::string> warnings;  ///< of the reader
 };
 
-/// Reads, cuts and refines the scene's mesh. Throws IoError, InvalidMesh, and InvalidInput that says what to do where the scene asks for
-/// what the mesh cannot give.
+/// Reads, cuts and refines the scene's mesh. Throws IoError, InvalidMesh, and InvalidInput that
+/// says what to do where the scene asks for what the mesh cannot give.
 Tissue tissue_of(const Scene& scene);
 
 }  // namespace palpation::tool

@@ -14,10 +14,13 @@ using nlohmann::json;
 
 constexpr double kFarthest_m = 0.005;
 
-Vec3 point_of(const json& mm) { return Vec3(Vec3(mm[0].get<double>(), mm[1].get<double>(), mm[2].get<double>()) / 1000.0); }
+Vec3 point_of(const json& mm) {
+  return Vec3(Vec3(mm[0].get<double>(), mm[1].get<double>(), mm[2].get<double>()) / 1000.0);
+}
 
 Tumour tumour_of(const json& shape) {
-  if (shape["shape"] == "disk") return Disk{point_of(shape["centre_mm"]), shape["radius_mm"].get<double>() / 1000.0};
+  if (shape["shape"] == "disk")
+    return Disk{point_of(shape["centre_mm"]), shape["radius_mm"].get<double>() / 1000.0};
   if (shape["shape"] == "horseshoe") {
     Horseshoe horseshoe{point_of(shape["centre_mm"]), shape["arc_radius_mm"].get<double>() / 1000.0,
                         shape["half_width_mm"].get<double>() / 1000.0};
@@ -43,31 +46,38 @@ bool is_refused(const Surface& surface, const Tumour& tumour, std::string& words
 }
 
 /// The point lies on the tissue, or the scene is refused.
-void check_place(const Scene& scene, const Surface& surface, const std::string& path, const json& mm) {
+void check_place(const Scene& scene, const Surface& surface, const std::string& path,
+                 const json& mm) {
   const Vec3 position = point_of(mm);
   const double distance = (surface.position(surface.project(position)) - position).norm();
   if (distance <= kFarthest_m) return;
-  const Vec3 least = surface.mesh().vertices.colwise().minCoeff() * 1000.0, most = surface.mesh().vertices.colwise().maxCoeff() * 1000.0;
+  const Vec3 least = surface.mesh().vertices.colwise().minCoeff() * 1000.0,
+             most = surface.mesh().vertices.colwise().maxCoeff() * 1000.0;
   const auto corner = [](const Vec3& point) {
     return "[" + text_of(point.x()) + ", " + text_of(point.y()) + ", " + text_of(point.z()) + "]";
   };
   scene.refuse(path, "is " + shown(mm) + ", which lies " + fixed(distance * 1000.0, 1) +
-                         " mm off the tissue; it may be at most 5 mm off. The tissue spans " + corner(least) + " to " + corner(most) +
-                         " mm");
+                         " mm off the tissue; it may be at most 5 mm off. The tissue spans " +
+                         corner(least) + " to " + corner(most) + " mm");
 }
 
-[[noreturn]] void refuse_tumour(const Scene& scene, const Surface& surface, const std::string& path, const json& shape,
-                                const std::string& words) {
-  if (shape.contains("centre_mm")) check_place(scene, surface, path + ".centre_mm", shape["centre_mm"]);
+[[noreturn]] void refuse_tumour(const Scene& scene, const Surface& surface, const std::string& path,
+                                const json& shape, const std::string& words) {
+  if (shape.contains("centre_mm"))
+    check_place(scene, surface, path + ".centre_mm", shape["centre_mm"]);
   if (shape["shape"] == "polygon") {
-    if (!surface.has_chart()) scene.refuse(path, "a polygon needs tissue that can be laid flat: a patch without holes");
+    if (!surface.has_chart())
+      scene.refuse(path, "a polygon needs tissue that can be laid flat: a patch without holes");
     const json& points = shape["points_mm"];
-    for (std::size_t i = 0; i < points.size(); ++i) check_place(scene, surface, path + ".points_mm[" + std::to_string(i) + "]", points[i]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      check_place(scene, surface, path + ".points_mm[" + std::to_string(i) + "]", points[i]);
     scene.refuse(path + ".points_mm", "is " + words);
   }
-  if (shape["shape"] == "horseshoe" && words.starts_with("facing")) scene.refuse(path + ".facing", "must have a part along the surface");
+  if (shape["shape"] == "horseshoe" && words.starts_with("facing"))
+    scene.refuse(path + ".facing", "must have a part along the surface");
   if (shape["shape"] == "horseshoe" && words.starts_with("arc radius"))
-    scene.refuse(path + ".arc_radius_mm", "is " + shown(shape["arc_radius_mm"]) + ", but must not exceed the tissue's size, " +
+    scene.refuse(path + ".arc_radius_mm", "is " + shown(shape["arc_radius_mm"]) +
+                                              ", but must not exceed the tissue's size, " +
                                               fixed(surface.diameter() * 1000.0, 1) + " mm");
   scene.refuse(path, words);
 }
@@ -80,11 +90,13 @@ std::vector<Tumour> tumours_of(const Scene& scene) {
   return tumours;
 }
 
-void refuse_tumours(const Scene& scene, const Surface& surface, const std::vector<Tumour>& tumours) {
+void refuse_tumours(const Scene& scene, const Surface& surface,
+                    const std::vector<Tumour>& tumours) {
   for (std::size_t i = 0; i < tumours.size(); ++i) {
     std::string words;
     if (is_refused(surface, tumours[i], words))
-      refuse_tumour(scene, surface, "probe.tumours[" + std::to_string(i) + "]", scene.tumours()[i], words);
+      refuse_tumour(scene, surface, "probe.tumours[" + std::to_string(i) + "]", scene.tumours()[i],
+                    words);
   }
 }
 

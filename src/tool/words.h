@@ -11,10 +11,12 @@
 namespace palpation::tool {
 
 /// What is said of readings that do not differ by more than noise.
-inline constexpr const char* kNoContrast = "Nothing found: the readings show no contrast beyond their noise.";
+inline constexpr const char* kNoContrast =
+    "Nothing found: the readings show no contrast beyond their noise.";
 
 /// What is said where a trend is modelled and too few places are touched for one.
-inline constexpr const char* kTooFewForTrend = "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
+inline constexpr const char* kTooFewForTrend =
+    "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
 
 /// What is said where no level could be found.
 std::string no_level_words(const Exploration& exploration);
@@ -40,7 +42,8 @@ std::string episode_words(const Episode& episode);
 /// Warnings, to the error stream.
 void tell(const std::vector<std::string>& warnings);
 /// How wrong an estimate is; the sentence starts with what it is compared with.
-std::string error_words(const RegionError& error, double search_area_m2, const std::string& against = "Against the truth");
+std::string error_words(const RegionError& error, double search_area_m2,
+                        const std::string& against = "Against the truth");
 /// The next stops.
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m);
 

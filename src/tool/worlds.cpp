@@ -19,7 +19,8 @@ std::vector<std::string> warnings_about(const Scene& scene, const Phantom& phant
   std::vector<std::string> warnings;
   if (scene.metres("field.indenter_radius_mm") > 0.0)
     warnings.push_back(scene.name() +
-                       ": field.indenter_radius_mm takes back a round tip, but the simulated probe is a point: what is found will be too "
+                       ": field.indenter_radius_mm takes back a round tip, but the simulated probe "
+                       "is a point: what is found will be too "
                        "small.");
   if (scene.tumours().empty()) return warnings;
   const std::string start = scene.name() + ": probe.tumours: ";
@@ -40,7 +41,8 @@ bool is_refused(const Surface& surface, const RecordedReadings& recording) {
   }
 }
 
-std::shared_ptr<const RecordedWorld> world_of(const Surface& surface, const std::vector<std::filesystem::path>& paths) {
+std::shared_ptr<const RecordedWorld> world_of(const Surface& surface,
+                                              const std::vector<std::filesystem::path>& paths) {
   std::vector<RecordedReadings> recordings;
   for (const auto& path : paths) recordings.push_back(read_recording(path));
   try {
@@ -48,7 +50,9 @@ std::shared_ptr<const RecordedWorld> world_of(const Surface& surface, const std:
   } catch (const InvalidInput&) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       if (is_refused(surface, recordings[i]))
-        throw IoError(paths[i].string() + ": its readings on the tissue must be three at least, and not all on one line");
+        throw IoError(
+            paths[i].string() +
+            ": its readings on the tissue must be three at least, and not all on one line");
     }
     throw;
   }
@@ -69,18 +73,23 @@ World simulated_world(const Scene& scene, const Surface& surface) {
   return world;
 }
 
-World recorded_world(const Scene& scene, const Surface& surface, const std::vector<std::filesystem::path>& paths) {
+World recorded_world(const Scene& scene, const Surface& surface,
+                     const std::vector<std::filesystem::path>& paths) {
   const std::shared_ptr<const RecordedWorld> recorded = world_of(surface, paths);
   World world;
-  world.probe = [recorded](const SurfacePoint& where, const Vec3& travel) { return recorded->touch(where, travel); };
+  world.probe = [recorded](const SurfacePoint& where, const Vec3& travel) {
+    return recorded->touch(where, travel);
+  };
   const double low = recorded->quantile(0.02);
   const double high = recorded->quantile(0.98);
   world.truth = recorded->map(low);
   world.truth_is = "the recording's own map";
   world.true_level = low + scene.number("level.fraction") * (high - low);
   if (!(high > low)) {
-    world.true_level = std::nextafter(world.truth.maxCoeff(), std::numeric_limits<double>::infinity());
-    world.warnings.push_back(paths.front().string() + ": all its readings are alike, so it shows no tumour.");
+    world.true_level =
+        std::nextafter(world.truth.maxCoeff(), std::numeric_limits<double>::infinity());
+    world.warnings.push_back(paths.front().string() +
+                             ": all its readings are alike, so it shows no tumour.");
   }
   const std::vector<bool> in_contact = recorded->in_contact();
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
@@ -88,7 +97,8 @@ World recorded_world(const Scene& scene, const Surface& surface, const std::vect
   }
   if (world.reach.vertices.empty())
     throw IoError(paths.front().string() +
-                  ": no vertex of the tissue lies within 2 mm of its readings: do mesh and recording share a frame, and is it in metres?");
+                  ": no vertex of the tissue lies within 2 mm of its readings: do mesh and "
+                  "recording share a frame, and is it in metres?");
   world.reach.touch_once = true;
   return world;
 }

@@ -10,7 +10,8 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Whether a ray from the place along u crosses a side; half open, so that a corner on the ray counts once.
+/// Whether a ray from the place along u crosses a side; half open, so that a corner on the ray
+/// counts once.
 bool ray_crosses(const Vec2& place, const Vec2& from, const Vec2& to) {
   if ((from.y() > place.y()) == (to.y() > place.y())) return false;
   const double side = cross(to - from, place - from);
@@ -23,20 +24,25 @@ int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 bool boxes_overlap(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return (a.cwiseMin(b).array() <= c.cwiseMax(d).array()).all() && (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();
+  return (a.cwiseMin(b).array() <= c.cwiseMax(d).array()).all() &&
+         (c.cwiseMin(d).array() <= a.cwiseMax(b).array()).all();
 }
 
 bool sides_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return boxes_overlap(a, b, c, d) && turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
+  return boxes_overlap(a, b, c, d) && turn(a, b, c) * turn(a, b, d) <= 0 &&
+         turn(c, d, a) * turn(c, d, b) <= 0;
 }
 
-bool folds_back(const Vec2& a, const Vec2& corner, const Vec2& b) { return turn(a, corner, b) == 0 && (a - corner).dot(b - corner) > 0.0; }
+bool folds_back(const Vec2& a, const Vec2& corner, const Vec2& b) {
+  return turn(a, corner, b) == 0 && (a - corner).dot(b - corner) > 0.0;
+}
 
 }  // namespace
 
 ClosedLines::ClosedLines(std::vector<std::vector<Vec2>> lines) {
   for (const std::vector<Vec2>& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) segments_.push_back({line[i], line[(i + 1) % line.size()]});
+    for (std::size_t i = 0; i < line.size(); ++i)
+      segments_.push_back({line[i], line[(i + 1) % line.size()]});
   }
 }
 

@@ -22,7 +22,8 @@ class ClosedLines {
   std::vector<Segment<2>> segments_;
 };
 
-/// Two sides of a closed line (side i begins at point i) that meet elsewhere than at the point which neighbours share.
+/// Two sides of a closed line (side i begins at point i) that meet elsewhere than at the point
+/// which neighbours share.
 std::optional<std::pair<int, int>> sides_that_meet(const std::vector<Vec2>& line);
 
 }  // namespace palpation

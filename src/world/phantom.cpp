@@ -9,16 +9,20 @@ namespace palpation {
 namespace {
 
 void check(const StiffnessModel& model) {
-  const auto need = [](bool condition, const std::string& name, double value, const std::string& rule) {
+  const auto need = [](bool condition, const std::string& name, double value,
+                       const std::string& rule) {
     require(condition, "Phantom", name + " " + text_of(value), rule);
   };
   need(std::isfinite(model.low), "low", model.low, "must be finite");
-  need(std::isfinite(model.high) && model.high > model.low && std::isfinite(model.high - model.low), "high", model.high,
-       "must be finite and above low");
-  need(std::isfinite(model.slope_per_m) && model.slope_per_m > 0.0, "slope", model.slope_per_m, "must be positive and finite");
-  need(std::isfinite(model.noise) && model.noise >= 0.0, "noise", model.noise, "must be finite and not negative");
+  need(std::isfinite(model.high) && model.high > model.low && std::isfinite(model.high - model.low),
+       "high", model.high, "must be finite and above low");
+  need(std::isfinite(model.slope_per_m) && model.slope_per_m > 0.0, "slope", model.slope_per_m,
+       "must be positive and finite");
+  need(std::isfinite(model.noise) && model.noise >= 0.0, "noise", model.noise,
+       "must be finite and not negative");
   need(std::isfinite(model.bias), "bias", model.bias, "must be finite");
-  need(model.fraction > 0.0 && model.fraction < 1.0, "fraction", model.fraction, "must be above 0 and below 1");
+  need(model.fraction > 0.0 && model.fraction < 1.0, "fraction", model.fraction,
+       "must be above 0 and below 1");
   need(std::isfinite(model.lag_m), "lag", model.lag_m, "must be finite");
   require(model.bias_axis.allFinite(), "Phantom", "bias axis", "must be finite");
 }
@@ -33,11 +37,13 @@ Vec3 longest_side(const Points& vertices) {
 Field fraction_along(const Points& vertices, const Vec3& axis) {
   const Field along = vertices * axis.normalized();
   const double extent = along.maxCoeff() - along.minCoeff();
-  require(extent > 1e-9 * along.cwiseAbs().maxCoeff(), "Phantom", "bias axis", "must not be at a right angle to the whole tissue");
+  require(extent > 1e-9 * along.cwiseAbs().maxCoeff(), "Phantom", "bias axis",
+          "must not be at a right angle to the whole tissue");
   return (along.array() - along.minCoeff()) / extent;
 }
 
-/// As Surface::interpolate, but a corner without weight does not count, though its value be infinite; a vertex has its own value exactly.
+/// As Surface::interpolate, but a corner without weight does not count, though its value be
+/// infinite; a vertex has its own value exactly.
 double interpolate(const Surface& surface, const Field& field, const SurfacePoint& point) {
   const Eigen::Vector3i corners = surface.triangle(point.face);
   double sum = 0.0;
@@ -49,20 +55,26 @@ double interpolate(const Surface& surface, const Field& field, const SurfacePoin
 
 }  // namespace
 
-Phantom::Phantom(Surface surface, std::vector<Tumour> tumours, const StiffnessModel& model) : surface_(std::move(surface)), model_(model) {
+Phantom::Phantom(Surface surface, std::vector<Tumour> tumours, const StiffnessModel& model)
+    : surface_(std::move(surface)), model_(model) {
   check(model_);
   const Points& vertices = surface_.mesh().vertices;
-  bias_ = fraction_along(vertices, model_.bias_axis.isZero(0.0) ? longest_side(vertices) : model_.bias_axis);
+  bias_ = fraction_along(vertices,
+                         model_.bias_axis.isZero(0.0) ? longest_side(vertices) : model_.bias_axis);
   distance_ = signed_distance(surface_, tumours);
   truth_ = distance_.unaryExpr([this](double distance_m) { return stiffness(distance_m); });
 }
 
-double Phantom::true_level() const { return model_.low + model_.fraction * (model_.high - model_.low); }
+double Phantom::true_level() const {
+  return model_.low + model_.fraction * (model_.high - model_.low);
+}
 
-// Equation (4): Y(x) = low + (high - low) / (1 + exp(-slope d(x) - ln(f / (1 - f)))) + bias x1 (high - low) + noise
+// Equation (4): Y(x) = low + (high - low) / (1 + exp(-slope d(x) - ln(f / (1 - f)))) + bias x1
+// (high - low) + noise
 double Phantom::stiffness(double signed_distance_m) const {
   const double shift = std::log(model_.fraction / (1.0 - model_.fraction));
-  return model_.low + (model_.high - model_.low) / (1.0 + std::exp(-model_.slope_per_m * signed_distance_m - shift));
+  return model_.low + (model_.high - model_.low) /
+                          (1.0 + std::exp(-model_.slope_per_m * signed_distance_m - shift));
 }
 
 Palpation Phantom::touch(const SurfacePoint& where, Random& random) const {
@@ -78,7 +90,8 @@ Palpation Phantom::touch(const SurfacePoint& where, Random& random) const {
 
 Palpation Phantom::touch(const SurfacePoint& where, const Vec3& travel, Random& random) const {
   if (model_.lag_m == 0.0 || travel.isZero(0.0)) return touch(where, random);
-  Palpation palpation = touch(surface_.project(surface_.position(where) - model_.lag_m * travel), random);
+  Palpation palpation =
+      touch(surface_.project(surface_.position(where) - model_.lag_m * travel), random);
   palpation.where = where;
   return palpation;
 }

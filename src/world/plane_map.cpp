@@ -17,7 +17,8 @@ int greatest(const Surface& surface, const Score& score) {
 
 }  // namespace
 
-// Three vertices that are far apart carry the frame, so that it is as exact as the vertices are, whatever the triangles look like.
+// Three vertices that are far apart carry the frame, so that it is as exact as the vertices are,
+// whatever the triangles look like.
 PlaneMap::PlaneMap(const Surface& surface) {
   const Points2& uv = surface.chart().uv;
   origin_ = surface.vertex(0);
@@ -25,7 +26,8 @@ PlaneMap::PlaneMap(const Surface& surface) {
   const int far = greatest(surface, [&](const Vec3& p) { return (p - origin_).squaredNorm(); });
   u_ = (surface.vertex(far) - origin_).normalized();
   axis_u_ = (uv.row(far).transpose() - origin_uv_).normalized();
-  const int aside = greatest(surface, [&](const Vec3& p) { return u_.cross(p - origin_).squaredNorm(); });
+  const int aside =
+      greatest(surface, [&](const Vec3& p) { return u_.cross(p - origin_).squaredNorm(); });
   const Vec3 across = surface.vertex(aside) - origin_;
   const Vec2 across_uv = uv.row(aside).transpose() - origin_uv_;
   v_ = (across - u_.dot(across) * u_).normalized();

@@ -14,7 +14,8 @@ namespace palpation {
 namespace {
 
 TEST(Random, IsTheSameStreamOnEveryMachine) {
-  // xoshiro256** seeded with splitmix64(42): values from an independent implementation of the two published algorithms.
+  // xoshiro256** seeded with splitmix64(42): values from an independent implementation of the two
+  // published algorithms.
   Random random(42);
   EXPECT_EQ(random.bits(), 1546998764402558742u);
   EXPECT_EQ(random.bits(), 6990951692964543102u);
@@ -57,7 +58,8 @@ TEST(Random, BelowDrawsEveryNumberAsOften) {
   Random random(3);
   std::vector<int> counts(7, 0);
   for (int i = 0; i < 70000; ++i) ++counts[random.below(7)];
-  for (int count : counts) EXPECT_NEAR(count, 10000, 470);  // five standard deviations of a binomial
+  for (int count : counts)
+    EXPECT_NEAR(count, 10000, 470);  // five standard deviations of a binomial
   EXPECT_THROW(random.below(0), InvalidInput);
 }
 
@@ -80,7 +82,10 @@ TEST(ForRanges, CoversEveryIndexOnceAtAnyNumberOfThreads) {
 
 TEST(ForRanges, PassesOnWhatItsWorkThrows) {
   set_thread_count(2);
-  EXPECT_THROW(for_ranges(100, 1, [](int first, int) { require(first < 50, "work", "range", "is too far"); }), InvalidInput);
+  EXPECT_THROW(
+      for_ranges(100, 1,
+                 [](int first, int) { require(first < 50, "work", "range", "is too far"); }),
+      InvalidInput);
   int calls = 0;
   for_ranges(0, 8, [&](int, int) { ++calls; });
   EXPECT_EQ(calls, 0);
@@ -97,7 +102,8 @@ TEST(Require, SaysFunctionValueAndRule) {
 }
 
 TEST(TextOf, ReadsBackAsTheSameDouble) {
-  for (double value : {0.1, 1.0 / 3.0, 1e300, 5e-324, -0.0, 12345678.9}) EXPECT_EQ(std::strtod(text_of(value).c_str(), nullptr), value);
+  for (double value : {0.1, 1.0 / 3.0, 1e300, 5e-324, -0.0, 12345678.9})
+    EXPECT_EQ(std::strtod(text_of(value).c_str(), nullptr), value);
   EXPECT_EQ(text_of(0.5), "0.5");
   EXPECT_EQ(text_of(std::numeric_limits<double>::quiet_NaN()), "nan");
 }

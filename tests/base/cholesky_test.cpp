@@ -27,9 +27,12 @@ TEST(Factorize, LeavesLAndNothingElseOfWhatLiesBetweenItsRows) {
     ASSERT_EQ(factorize(rows.data(), rows.cols(), size), size);
     const RowMajor lower = rows.leftCols(size).triangularView<Eigen::Lower>();
     // Backward stable: n eps of the matrix.
-    EXPECT_LE((lower * lower.transpose() - matrix).cwiseAbs().maxCoeff(), 1e-16 * size * matrix.diagonal().maxCoeff() + 1e-15) << size;
+    EXPECT_LE((lower * lower.transpose() - matrix).cwiseAbs().maxCoeff(),
+              1e-16 * size * matrix.diagonal().maxCoeff() + 1e-15)
+        << size;
     EXPECT_TRUE((rows.rightCols(5).array() == 7.0).all()) << size;
-    for (int row = 0; row < size; ++row) EXPECT_TRUE((rows.row(row).segment(row + 1, size - row - 1).array() == 7.0).all());
+    for (int row = 0; row < size; ++row)
+      EXPECT_TRUE((rows.row(row).segment(row + 1, size - row - 1).array() == 7.0).all());
   }
 }
 
@@ -37,7 +40,8 @@ TEST(Factorize, NamesTheFirstRowWithoutAPivotAndLeavesItThere) {
   for (const int wrong : {0, 3, 8, 20}) {
     RowMajor matrix = random_square(21);
     const Eigen::VectorXd along = matrix.row(wrong).head(wrong);
-    const double explained = wrong == 0 ? 0.0 : along.dot(matrix.topLeftCorner(wrong, wrong).llt().solve(along));
+    const double explained =
+        wrong == 0 ? 0.0 : along.dot(matrix.topLeftCorner(wrong, wrong).llt().solve(along));
     matrix(wrong, wrong) = explained - 0.25;
     ASSERT_EQ(factorize(matrix.data(), matrix.cols(), 21), wrong);
     EXPECT_NEAR(matrix(wrong, wrong), -0.25, 1e-10);

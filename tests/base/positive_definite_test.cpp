@@ -18,7 +18,8 @@ Eigen::MatrixXd covariance(int size, double noise_variance, std::uint64_t seed) 
   for (double& coordinate : places.reshaped()) coordinate = 4.0 * random.uniform();
   Eigen::MatrixXd matrix(size, size);
   for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) matrix(i, j) = std::exp(-0.5 * (places.row(i) - places.row(j)).squaredNorm());
+    for (int j = 0; j < size; ++j)
+      matrix(i, j) = std::exp(-0.5 * (places.row(i) - places.row(j)).squaredNorm());
     matrix(i, i) += noise_variance;
   }
   return matrix;
@@ -34,9 +35,14 @@ TEST(PositiveDefinite, InverseAndDeterminantAreThoseOfEigen) {
     const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
     const Eigen::MatrixXd expected = factor.solve(Eigen::MatrixXd::Identity(size, size));
     const Eigen::MatrixXd both_halves = inverse.selfadjointView<Eigen::Lower>();
-    EXPECT_LE((both_halves - expected).cwiseAbs().maxCoeff(), 1e-10 * expected.cwiseAbs().maxCoeff()) << size;
-    for (int i = 0; i < size; ++i) EXPECT_EQ(inverse.col(i).head(i), matrix.col(i).head(i)) << "above the diagonal";
-    EXPECT_NEAR(*log_determinant, 2.0 * factor.matrixLLT().diagonal().array().log().sum(), 1e-11 * size) << size;
+    EXPECT_LE((both_halves - expected).cwiseAbs().maxCoeff(),
+              1e-10 * expected.cwiseAbs().maxCoeff())
+        << size;
+    for (int i = 0; i < size; ++i)
+      EXPECT_EQ(inverse.col(i).head(i), matrix.col(i).head(i)) << "above the diagonal";
+    EXPECT_NEAR(*log_determinant, 2.0 * factor.matrixLLT().diagonal().array().log().sum(),
+                1e-11 * size)
+        << size;
   }
 }
 
@@ -46,7 +52,8 @@ TEST(PositiveDefinite, LeavesAlmostNothingOfTheIdentity) {
   ASSERT_TRUE(PositiveDefiniteInverse()(inverse));
   inverse = Eigen::MatrixXd(inverse.selfadjointView<Eigen::Lower>());
   const double condition = matrix.norm() * inverse.norm();
-  EXPECT_LE((matrix * inverse - Eigen::MatrixXd::Identity(205, 205)).cwiseAbs().maxCoeff(), 1e-15 * condition);
+  EXPECT_LE((matrix * inverse - Eigen::MatrixXd::Identity(205, 205)).cwiseAbs().maxCoeff(),
+            1e-15 * condition);
 }
 
 TEST(PositiveDefinite, SaysWhatIsNot) {

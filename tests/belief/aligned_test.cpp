@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kLarge = std::size_t{1} << 20;
 
 TEST(Aligned, LiesOnABorderOfCacheLinesAndCanBeWrittenToItsEnd) {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, kLarge / 8 + 1, kLarge}) {
+  for (const std::size_t count :
+       {std::size_t{0}, std::size_t{1}, std::size_t{1000}, kLarge / 8 + 1, kLarge}) {
     const AlignedDoubles values = aligned_doubles(count);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(values.get()) % 64, 0u);
     for (std::size_t i = 0; i < count; ++i) values[i] = 1.0;
@@ -24,7 +25,8 @@ TEST(Aligned, LargeArraysAreHandedOutAgainToThoseOfAboutTheirSize) {
   AlignedDoubles first = aligned_doubles(kLarge);
   const double* const memory = first.get();
   first.reset();
-  const AlignedDoubles smaller = aligned_doubles(kLarge / 2), next = aligned_doubles(kLarge / 2 + 1);
+  const AlignedDoubles smaller = aligned_doubles(kLarge / 2),
+                       next = aligned_doubles(kLarge / 2 + 1);
   EXPECT_NE(smaller.get(), memory);
   EXPECT_EQ(next.get(), memory);
   EXPECT_NE(aligned_doubles(kLarge).get(), memory) << "one array is in use";

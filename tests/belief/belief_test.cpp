@@ -27,7 +27,8 @@ TEST(Belief, AgreesWithScikitLearnOnTwentyRandomScenes) {
     for (int face = 0; face < tissue.face_count(); ++face) {
       const Eigen::Vector3i t = tissue.triangle(face);
       Eigen::Matrix3d corners;
-      for (int i = 0; i < 3; ++i) corners.col(i) = Vec3(tissue.vertex(t[i]).x(), tissue.vertex(t[i]).y(), 1.0);
+      for (int i = 0; i < 3; ++i)
+        corners.col(i) = Vec3(tissue.vertex(t[i]).x(), tissue.vertex(t[i]).y(), 1.0);
       const Vec3 weights = corners.inverse() * Vec3(u, v, 1.0);
       if (weights.minCoeff() >= -1e-12) return SurfacePoint{face, weights};
     }
@@ -56,7 +57,8 @@ TEST(Belief, AgreesWithScikitLearnOnTwentyRandomScenes) {
       queries.push_back(point_at(u, v));
     }
     const Belief belief =
-        Belief(Prior(tissue, Metric::Chart, kernel, {.sd = 0.0}), {.noise_sd = std::sqrt(noise)}).condition_on(palpations);
+        Belief(Prior(tissue, Metric::Chart, kernel, {.sd = 0.0}), {.noise_sd = std::sqrt(noise)})
+            .condition_on(palpations);
     const Marginals ours = belief.at(queries);
     // In units of the signal: condition numbers below 1e7 leave 1e-9.
     EXPECT_LT(worst(ours.mean, mean) / signal, 1e-8) << "scene " << scenes;
@@ -69,17 +71,21 @@ TEST(Belief, EqualsTheDenseFormulasForEveryKernelMetricAndConstant) {
   const Surface tissue = plane(13, 21, 0.3);
   Random random(1);
   for (const KernelFamily family :
-       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52, KernelFamily::Periodic}) {
+       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32,
+        KernelFamily::Matern52, KernelFamily::Periodic}) {
     for (const Metric metric : {Metric::Chart, Metric::Ambient}) {
       if (family == KernelFamily::Periodic && metric == Metric::Ambient) continue;
       for (const double constant_sd : {0.0, 3.0, kUnknown}) {
-        const Prior prior(tissue, metric, {.family = family, .length_m = 0.004, .signal_sd = 1.5, .period_m = 0.06}, {.sd = constant_sd});
+        const Prior prior(tissue, metric,
+                          {.family = family, .length_m = 0.004, .signal_sd = 1.5, .period_m = 0.06},
+                          {.sd = constant_sd});
         std::vector<Palpation> readings = bumpy_readings(tissue, 30, random);
         readings[3].noise_variance = 0.5;  // uneven noise
         const Belief belief = Belief(prior, {.noise_sd = 0.1}).condition_on(readings);
         const Dense dense = dense_posterior(prior, readings, 0.01);
         const Marginals ours = belief.at_vertices();
-        EXPECT_LT(worst(ours.mean, dense.mean), 1e-9);  // condition number about 1e4, readings about 10
+        EXPECT_LT(worst(ours.mean, dense.mean),
+                  1e-9);  // condition number about 1e4, readings about 10
         EXPECT_LT(worst(ours.variance, dense.variance), 1e-10);
         EXPECT_NEAR(belief.log_marginal_likelihood(), dense.log_likelihood, 1e-8);
       }
@@ -90,10 +96,11 @@ TEST(Belief, EqualsTheDenseFormulasForEveryKernelMetricAndConstant) {
 TEST(Belief, PredictsTheSameAtAVertexFromTheCacheAndFromScratch) {
   const Surface tissue = plane(13, 21, 0.3);
   Random random(2);
-  const Belief belief =
-      Belief(Prior(tissue, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1}).condition_on(bumpy_readings(tissue, 40, random));
+  const Belief belief = Belief(Prior(tissue, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1})
+                            .condition_on(bumpy_readings(tissue, 40, random));
   std::vector<SurfacePoint> vertices;
-  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) vertices.push_back(tissue.at_vertex(vertex));
+  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex)
+    vertices.push_back(tissue.at_vertex(vertex));
   EXPECT_LT(worst(belief.at_vertices().mean, belief.at(vertices).mean), 1e-12);
   EXPECT_LT(worst(belief.at_vertices().variance, belief.at(vertices).variance), 1e-12);
 }
@@ -103,8 +110,10 @@ TEST(Belief, AppendingReadingsOneByOneEqualsTakingThemAllAtOnce) {
   Random random(3);
   const std::vector<Palpation> readings = bumpy_readings(tissue, 60, random);
   for (const bool standardize : {false, true}) {
-    const Prior prior(tissue, Metric::Chart, {.signal_sd = standardize ? 5.0 : 1.0}, {.sd = standardize ? 7.0 : kUnknown});
-    const Belief empty(prior, {.noise_sd = 0.2, .noise_is_relative = standardize, .standardize = standardize});
+    const Prior prior(tissue, Metric::Chart, {.signal_sd = standardize ? 5.0 : 1.0},
+                      {.sd = standardize ? 7.0 : kUnknown});
+    const Belief empty(
+        prior, {.noise_sd = 0.2, .noise_is_relative = standardize, .standardize = standardize});
     const Belief at_once = empty.condition_on(readings);
     Belief grown = empty;
     for (std::size_t i = 0; i < readings.size(); i += 7)
@@ -130,12 +139,14 @@ TEST(Belief, DoesNotDependOnTheOrderOfReadings) {
 TEST(Belief, MergesRepeatedTouchesExactly) {
   const Surface tissue = plane(10, 20);
   const Prior prior(tissue, Metric::Chart, {.length_m = 0.005});
-  std::vector<Palpation> readings{touch(tissue, 30, 7.1), touch(tissue, 90, 8.0), touch(tissue, 30, 7.3), touch(tissue, 31, 7.2),
+  std::vector<Palpation> readings{touch(tissue, 30, 7.1), touch(tissue, 90, 8.0),
+                                  touch(tissue, 30, 7.3), touch(tissue, 31, 7.2),
                                   touch(tissue, 30, 6.9)};
   readings[4].noise_variance = 0.04;
   const Belief belief = Belief(prior, {.noise_sd = 0.1}).condition_on(readings);
   EXPECT_EQ(belief.site_count(), 3);
-  const Dense dense = dense_posterior(prior, readings, 0.01);  // five rows, three of them at one place
+  const Dense dense =
+      dense_posterior(prior, readings, 0.01);  // five rows, three of them at one place
   EXPECT_LT(worst(belief.at_vertices().mean, dense.mean), 1e-11);
   EXPECT_LT(worst(belief.at_vertices().variance, dense.variance), 1e-12);
   EXPECT_NEAR(belief.log_marginal_likelihood(), dense.log_likelihood, 1e-10);
@@ -148,7 +159,8 @@ TEST(Belief, MergesRepeatedTouchesExactly) {
 TEST(Belief, CopiesAreIndependentThoughTheyShare) {
   const Surface tissue = plane(20, 40);
   Random random(5);
-  const Belief belief = Belief(Prior(tissue, Metric::Chart, {}), {.noise_sd = 0.1}).condition_on(bumpy_readings(tissue, 20, random));
+  const Belief belief = Belief(Prior(tissue, Metric::Chart, {}), {.noise_sd = 0.1})
+                            .condition_on(bumpy_readings(tissue, 20, random));
   const Marginals before = belief.at_vertices();
   const Palpation supposed = touch(tissue, 411, 9.0);
   const Belief other = belief.condition_on(std::span(&supposed, 1));
@@ -161,10 +173,14 @@ TEST(Belief, KeepsItsDigitsAtATouchedSiteWithoutMuchNoise) {
   const Surface tissue = plane(10, 20);
   for (const double noise_variance : {1e-2, 1e-6, 1e-12, 1e-15, 1e-30}) {
     const Palpation one = touch(tissue, 55, 1.0);
-    const Belief belief =
-        Belief(Prior(tissue, Metric::Chart, {}, {.sd = 0.0}), {.noise_sd = std::sqrt(noise_variance)}).condition_on(std::span(&one, 1));
-    // n = 1: variance = s / (1 + s) in closed form; the square root above costs one rounding, the merge another.
-    EXPECT_NEAR(belief.at_vertices().variance[55] / (noise_variance / (1.0 + noise_variance)), 1.0, 1e-11) << noise_variance;
+    const Belief belief = Belief(Prior(tissue, Metric::Chart, {}, {.sd = 0.0}),
+                                 {.noise_sd = std::sqrt(noise_variance)})
+                              .condition_on(std::span(&one, 1));
+    // n = 1: variance = s / (1 + s) in closed form; the square root above costs one rounding, the
+    // merge another.
+    EXPECT_NEAR(belief.at_vertices().variance[55] / (noise_variance / (1.0 + noise_variance)), 1.0,
+                1e-11)
+        << noise_variance;
   }
 }
 
@@ -180,8 +196,10 @@ TEST(Belief, CovarianceWithAVertexIsWhatATouchThereWouldRemove) {
   const Surface tissue = plane(13, 21, 0.2);
   Random random(6);
   for (const double constant_sd : {0.0, 2.0, kUnknown}) {
-    const Belief belief = Belief(Prior(tissue, Metric::Chart, {.signal_sd = 1.5}, {.sd = constant_sd}), {.noise_sd = 0.1})
-                              .condition_on(bumpy_readings(tissue, 30, random));
+    const Belief belief =
+        Belief(Prior(tissue, Metric::Chart, {.signal_sd = 1.5}, {.sd = constant_sd}),
+               {.noise_sd = 0.1})
+            .condition_on(bumpy_readings(tissue, 30, random));
     const int vertex = 100;
     Field covariance(tissue.vertex_count());
     CovarianceWith(belief, vertex)(0, tissue.vertex_count(), covariance.data());
@@ -189,7 +207,8 @@ TEST(Belief, CovarianceWithAVertexIsWhatATouchThereWouldRemove) {
     EXPECT_NEAR(covariance[vertex], before.variance[vertex], 1e-12);
     const Palpation supposed = touch(tissue, vertex, 8.0);
     const Field after = belief.condition_on(std::span(&supposed, 1)).at_vertices().variance;
-    const Field removed = covariance.array().square() / (before.variance[vertex] + belief.noise_variance());
+    const Field removed =
+        covariance.array().square() / (before.variance[vertex] + belief.noise_variance());
     EXPECT_LT(worst(before.variance - removed, after), 1e-11);
   }
 }
@@ -209,12 +228,14 @@ TEST(Belief, GivesTheSameBytesAtOneAndAtTwoThreads) {
 
 TEST(Belief, IgnoresReadingsThatAreSetAside) {
   const Surface tissue = plane(10, 20);
-  std::vector<Palpation> readings{touch(tissue, 30, 7.0), touch(tissue, 90, 8.0), touch(tissue, 60, 1e6)};
+  std::vector<Palpation> readings{touch(tissue, 30, 7.0), touch(tissue, 90, 8.0),
+                                  touch(tissue, 60, 1e6)};
   readings[2].set_aside = "jam";
   const Belief empty(Prior(tissue, Metric::Chart, {}), {.noise_sd = 0.1});
   const Belief with = empty.condition_on(readings);
   EXPECT_EQ(with.palpations().size(), 3u);
-  EXPECT_TRUE(with.at_vertices().mean == empty.condition_on(std::span(readings).first(2)).at_vertices().mean);
+  EXPECT_TRUE(with.at_vertices().mean ==
+              empty.condition_on(std::span(readings).first(2)).at_vertices().mean);
 }
 
 TEST(Belief, RefusesWhatIsNoReading) {
@@ -228,12 +249,15 @@ TEST(Belief, RefusesWhatIsNoReading) {
       return error.what();
     }
   };
-  EXPECT_EQ(message(touch(tissue, 1, std::nan(""))), "Belief: palpation 0: reading nan must be finite");
+  EXPECT_EQ(message(touch(tissue, 1, std::nan(""))),
+            "Belief: palpation 0: reading nan must be finite");
   Palpation negative = touch(tissue, 1, 1.0);
   negative.noise_variance = -1.0;
-  EXPECT_EQ(message(negative), "Belief: palpation 0: noise variance -1 must be finite and not negative");
+  EXPECT_EQ(message(negative),
+            "Belief: palpation 0: noise variance -1 must be finite and not negative");
   EXPECT_THROW(Belief(Prior(tissue, Metric::Chart, {.length_m = 0.0}), {}), InvalidInput);
-  EXPECT_THROW(Prior(tissue, Metric::Ambient, {.family = KernelFamily::Periodic, .period_m = 0.1}), InvalidInput);
+  EXPECT_THROW(Prior(tissue, Metric::Ambient, {.family = KernelFamily::Periodic, .period_m = 0.1}),
+               InvalidInput);
 }
 
 TEST(Belief, SaysWhichSitesContradictEachOtherWithoutNoise) {
@@ -241,7 +265,8 @@ TEST(Belief, SaysWhichSitesContradictEachOtherWithoutNoise) {
   const Belief exact(Prior(tissue, Metric::Chart, {.length_m = 100.0}), {.noise_sd = 0.0});
   const std::vector<Palpation> twice{touch(tissue, 30, 7.0), touch(tissue, 30, 7.5)};
   EXPECT_THROW(exact.condition_on(twice), InvalidInput);
-  // Two hundred sites of a field that is constant to fifteen digits have no positive definite covariance.
+  // Two hundred sites of a field that is constant to fifteen digits have no positive definite
+  // covariance.
   std::vector<Palpation> dense;
   for (int vertex = 0; vertex < 200; ++vertex) dense.push_back(touch(tissue, vertex, 7.0));
   EXPECT_THROW(exact.condition_on(dense), NumericalError);
@@ -256,11 +281,15 @@ TEST(Belief, StandardizedIsTheZScoredModel) {
                          .condition_on(readings);
   double mean = 0.0, square = 0.0;
   for (const Palpation& palpation : readings) mean += palpation.reading / 40.0;
-  for (const Palpation& palpation : readings) square += (palpation.reading - mean) * (palpation.reading - mean) / 40.0;
+  for (const Palpation& palpation : readings)
+    square += (palpation.reading - mean) * (palpation.reading - mean) / 40.0;
   const double sd = std::sqrt(square);
   for (Palpation& palpation : readings) palpation.reading = (palpation.reading - mean) / sd;
-  const Belief scored = Belief(Prior(tissue, Metric::Chart, {.signal_sd = 5.0}, {.sd = 7.0}), {.noise_sd = 1.0}).condition_on(readings);
-  EXPECT_LT(worst(raw.at_vertices().mean, (scored.at_vertices().mean.array() * sd + mean).matrix()), 1e-11);
+  const Belief scored =
+      Belief(Prior(tissue, Metric::Chart, {.signal_sd = 5.0}, {.sd = 7.0}), {.noise_sd = 1.0})
+          .condition_on(readings);
+  EXPECT_LT(worst(raw.at_vertices().mean, (scored.at_vertices().mean.array() * sd + mean).matrix()),
+            1e-11);
   EXPECT_LT(worst(raw.at_vertices().variance, scored.at_vertices().variance * sd * sd), 1e-11);
 }
 

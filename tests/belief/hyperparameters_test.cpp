@@ -28,9 +28,12 @@ TEST(Likelihood, IsTheBeliefsOwn) {
   readings.back().reading += 0.1;
   readings[7].noise_variance = 0.3;
   for (const double constant_sd : {0.0, 4.0, kUnknown}) {
-    const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3}, {.sd = constant_sd});
-    const double ours = likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
-    const double beliefs = Belief(prior, {.noise_sd = 0.2}).condition_on(readings).log_marginal_likelihood();
+    const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3},
+                      {.sd = constant_sd});
+    const double ours =
+        likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
+    const double beliefs =
+        Belief(prior, {.noise_sd = 0.2}).condition_on(readings).log_marginal_likelihood();
     EXPECT_NEAR(ours, beliefs, 1e-8);
   }
 }
@@ -42,10 +45,11 @@ TEST(Likelihood, HasTheGradientOfItsDifferences) {
   for (int i = 0; i < 3; ++i) {
     readings.push_back(readings[5]);
     readings.back().reading += 0.1 * i;
-    readings.back().noise_variance = i == 2 ? 0.02 : std::nan("");  // a place with both kinds of noise
+    readings.back().noise_variance =
+        i == 2 ? 0.02 : std::nan("");  // a place with both kinds of noise
   }
-  for (const KernelFamily family :
-       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52}) {
+  for (const KernelFamily family : {KernelFamily::SquaredExponential, KernelFamily::Matern12,
+                                    KernelFamily::Matern32, KernelFamily::Matern52}) {
     for (const double constant_sd : {0.0, 4.0, kUnknown}) {
       const Prior prior(tissue, Metric::Chart, {.family = family}, {.sd = constant_sd});
       const std::vector<Site> sites = gather_sites(prior, readings);
@@ -59,8 +63,11 @@ TEST(Likelihood, HasTheGradientOfItsDifferences) {
       };
       const Vec3 gradient = likelihood_gradient(prior, sites, at).gradient;
       for (int parameter = 0; parameter < 3; ++parameter) {
-        // Central differences at step 1e-4: truncation 1e-8 x third derivative, rounding 1e-12 / 1e-4.
-        EXPECT_NEAR(gradient[parameter], (moved(parameter, 1e-4) - moved(parameter, -1e-4)) / 2e-4, 2e-5) << parameter;
+        // Central differences at step 1e-4: truncation 1e-8 x third derivative, rounding 1e-12 /
+        // 1e-4.
+        EXPECT_NEAR(gradient[parameter], (moved(parameter, 1e-4) - moved(parameter, -1e-4)) / 2e-4,
+                    2e-5)
+            << parameter;
       }
     }
   }
@@ -73,9 +80,13 @@ TEST(Likelihood, IsTheBeliefsOwnWithASlopeToo) {
   Random random(1);
   const std::vector<Palpation> readings = odd_readings(tissue, random);
   for (const double constant_sd : {0.0, 4.0, kUnknown}) {
-    const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3}, {.sd = constant_sd}, some_slope());
-    const double ours = likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
-    EXPECT_NEAR(ours, Belief(prior, {.noise_sd = 0.2}).condition_on(readings).log_marginal_likelihood(), 1e-8);
+    const Prior prior(tissue, Metric::Chart, {.length_m = 0.004, .signal_sd = 1.3},
+                      {.sd = constant_sd}, some_slope());
+    const double ours =
+        likelihood_gradient(prior, gather_sites(prior, readings), {0.004, 1.3, 0.2}).value;
+    EXPECT_NEAR(ours,
+                Belief(prior, {.noise_sd = 0.2}).condition_on(readings).log_marginal_likelihood(),
+                1e-8);
   }
 }
 
@@ -87,13 +98,18 @@ TEST(Likelihood, HasTheGradientOfItsDifferencesWithASlopeToo) {
     const Prior prior(tissue, Metric::Chart, {}, {.sd = constant_sd}, some_slope());
     const std::vector<Site> sites = gather_sites(prior, readings);
     const auto value = [&](const Vec3& logs) {
-      return likelihood_gradient(prior, sites, {std::exp(logs[0]), std::exp(logs[1]), std::exp(logs[2])});
+      return likelihood_gradient(prior, sites,
+                                 {std::exp(logs[0]), std::exp(logs[1]), std::exp(logs[2])});
     };
     const Vec3 at(std::log(0.0045), std::log(0.9), std::log(0.15));
     const Vec3 gradient = value(at).gradient;
     for (int parameter = 0; parameter < 3; ++parameter) {
-      const Vec3 step = 1e-4 * Vec3::Unit(parameter);  // truncation 1e-8 x third derivative, rounding 1e-12 / 1e-4
-      EXPECT_NEAR(gradient[parameter], (value(at + step).value - value(at - step).value) / 2e-4, 2e-5) << parameter;
+      const Vec3 step =
+          1e-4 *
+          Vec3::Unit(parameter);  // truncation 1e-8 x third derivative, rounding 1e-12 / 1e-4
+      EXPECT_NEAR(gradient[parameter], (value(at + step).value - value(at - step).value) / 2e-4,
+                  2e-5)
+          << parameter;
     }
   }
 }
@@ -104,10 +120,12 @@ TEST(Likelihood, IsTheSameWithoutItsGradient) {
   const std::vector<Palpation> readings = odd_readings(tissue, random);
   for (const double constant_sd : {0.0, 4.0, kUnknown}) {
     for (const Slope& slope : {Slope{}, some_slope()}) {
-      const Prior prior(tissue, Metric::Chart, {.family = KernelFamily::Matern52}, {.sd = constant_sd}, slope);
+      const Prior prior(tissue, Metric::Chart, {.family = KernelFamily::Matern52},
+                        {.sd = constant_sd}, slope);
       const std::vector<Site> sites = gather_sites(prior, readings);
       const Hyperparameters at{0.004, 1.3, 0.2};
-      EXPECT_NEAR(log_likelihood(prior, sites, at), likelihood_gradient(prior, sites, at).value, 1e-8);
+      EXPECT_NEAR(log_likelihood(prior, sites, at), likelihood_gradient(prior, sites, at).value,
+                  1e-8);
     }
   }
 }
@@ -116,9 +134,11 @@ TEST(Learn, SeesNoSignalInATiltedPlane) {
   const Surface tissue = plane(20, 40);
   Random random(4);
   std::vector<Palpation> readings = bumpy_readings(tissue, 30, random);
-  for (Palpation& palpation : readings) palpation.reading = 7.0 + 60.0 * tissue.position(palpation.where).y() + 0.05 * random.normal();
+  for (Palpation& palpation : readings)
+    palpation.reading = 7.0 + 60.0 * tissue.position(palpation.where).y() + 0.05 * random.normal();
   const Slope slope = slope_across(tissue, Metric::Chart, 2.0);
-  EXPECT_LT(learn(Prior(tissue, Metric::Chart, {}, {}, slope), readings, {}, {}).signal_evidence, 0.0);
+  EXPECT_LT(learn(Prior(tissue, Metric::Chart, {}, {}, slope), readings, {}, {}).signal_evidence,
+            0.0);
   EXPECT_GT(learn(Prior(tissue, Metric::Chart, {}), readings, {}, {}).signal_evidence, 30.0);
 }
 
@@ -145,7 +165,8 @@ TEST(Learn, FindsAnOptimum) {
   const auto posterior = [&](const Hyperparameters& at) {
     const double l = std::log(at.length_m / 0.0035) / 0.4;
     const double r = (2.0 * std::log(at.noise_sd / at.signal_sd) - std::log(0.02)) / 2.0;
-    return likelihood_gradient(prior, gather_sites(prior, readings), at).value - 0.5 * (l * l + r * r);
+    return likelihood_gradient(prior, gather_sites(prior, readings), at).value -
+           0.5 * (l * l + r * r);
   };
   EXPECT_NEAR(posterior(learned.values), learned.log_posterior, 1e-8);
   for (const double factor : {0.97, 1.03}) {
@@ -165,7 +186,8 @@ TEST(Learn, KeepsWhatIsFixed) {
   const Surface tissue = plane(40, 80);
   Random random(4);
   const std::vector<Palpation> readings = bumpy_readings(tissue, 50, random);
-  const Learned learned = learn(Prior(tissue, Metric::Chart, {}), readings, {}, {.length_m = 0.004, .noise_sd = 0.05});
+  const Learned learned =
+      learn(Prior(tissue, Metric::Chart, {}), readings, {}, {.length_m = 0.004, .noise_sd = 0.05});
   EXPECT_EQ(learned.values.length_m, 0.004);
   EXPECT_EQ(learned.values.noise_sd, 0.05);
   EXPECT_GT(learned.values.signal_sd, 0.3);

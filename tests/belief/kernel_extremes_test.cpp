@@ -11,10 +11,13 @@
 namespace palpation {
 namespace {
 
-constexpr KernelFamily kFamilies[] = {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32,
-                                      KernelFamily::Matern52, KernelFamily::Periodic};
+constexpr KernelFamily kFamilies[] = {KernelFamily::SquaredExponential, KernelFamily::Matern12,
+                                      KernelFamily::Matern32, KernelFamily::Matern52,
+                                      KernelFamily::Periodic};
 
-Kernel kernel_of(KernelFamily family, double length_m = 0.0033) { return {.family = family, .length_m = length_m, .period_m = 0.05}; }
+Kernel kernel_of(KernelFamily family, double length_m = 0.0033) {
+  return {.family = family, .length_m = length_m, .period_m = 0.05};
+}
 
 TEST(KernelExtremes, WhatIsMissingToOneKeepsFourteenDigitsHoweverLittleItIs) {
   for (const KernelFamily family : kFamilies) {
@@ -22,8 +25,10 @@ TEST(KernelExtremes, WhatIsMissingToOneKeepsFourteenDigitsHoweverLittleItIs) {
     for (double r = 1e-150; r < 30.0; r *= r < 1e-10 ? 1e10 : 1.7) {
       const Vec3 difference = Vec3(0.48, -0.6, 0.64) * r * kernel.length_m;
       const Big exact = 1 - big_correlation(kernel, difference, Vec3::Zero());
-      if (static_cast<double>(exact) < 1e-60) continue;  // of eighty digits too few are left, or the square underflows
-      EXPECT_LT(relative_error(decorrelation(kernel, difference), exact), 1e-14) << r << " lengths, kernel " << static_cast<int>(family);
+      if (static_cast<double>(exact) < 1e-60)
+        continue;  // of eighty digits too few are left, or the square underflows
+      EXPECT_LT(relative_error(decorrelation(kernel, difference), exact), 1e-14)
+          << r << " lengths, kernel " << static_cast<int>(family);
     }
     EXPECT_EQ(decorrelation(kernel, Vec3::Zero()), 0.0);
   }
@@ -61,7 +66,8 @@ TEST(KernelExtremes, ASmallStepChangesACorrelationToThirteenDigits) {
         }
         return before;
       }();
-      EXPECT_LT(relative_error(correlation_change(kernel, from, along), exact), 1e-13) << step << ", kernel " << static_cast<int>(family);
+      EXPECT_LT(relative_error(correlation_change(kernel, from, along), exact), 1e-13)
+          << step << ", kernel " << static_cast<int>(family);
     }
   }
 }
@@ -94,13 +100,16 @@ TEST(KernelExtremes, PlacesFarFromTheOriginDifferByTheirDifference) {
   const Vec3 here(1e6, 1e6, 0.0), there = here + Vec3(1e-3, 0.0, 0.0);
   const double gap = there.x() - here.x();  // 1e-3 to the digits that 1e6 leaves
   for (const KernelFamily family : kFamilies)
-    EXPECT_EQ(correlation(kernel_of(family, 1e-3), there - here), correlation(kernel_of(family, 1e-3), Vec3(gap, 0.0, 0.0)));
+    EXPECT_EQ(correlation(kernel_of(family, 1e-3), there - here),
+              correlation(kernel_of(family, 1e-3), Vec3(gap, 0.0, 0.0)));
   EXPECT_LT(correlation(kernel_of(KernelFamily::SquaredExponential, 1e-3), there - here), 0.61);
 
   Random unused(0);
-  const Surface far(make_plane({.size_m = Vec2(0.01, 0.01), .columns = 11, .rows = 11, .corner_m = Vec2(1e6, 1e6)}, unused));
+  const Surface far(make_plane(
+      {.size_m = Vec2(0.01, 0.01), .columns = 11, .rows = 11, .corner_m = Vec2(1e6, 1e6)}, unused));
   const Prior prior(far, Metric::Ambient, {.length_m = 0.003}, {.sd = 0.0});
-  const std::vector<Palpation> readings{touch(far, 40, 1.0), touch(far, 41, 1.5), touch(far, 80, -1.0)};
+  const std::vector<Palpation> readings{touch(far, 40, 1.0), touch(far, 41, 1.5),
+                                        touch(far, 80, -1.0)};
   const Marginals at = Belief(prior, {.noise_sd = 0.1}).condition_on(readings).at_vertices();
   const BigPosterior exact(prior, readings, 0.1 * 0.1);
   for (int vertex = 0; vertex < far.vertex_count(); ++vertex) {
@@ -116,7 +125,8 @@ TEST(KernelExtremes, LengthsFarBeyondTheTissueGiveFiniteAnswersAboveTheProvedFlo
   for (const double length_m : {0.5, 5.0, 500.0, 5e4}) {
     const Prior prior(tissue, Metric::Chart, {.length_m = length_m}, {.sd = 0.0});
     for (const double s2 : {1e-2, 1e-8, 1e-13}) {
-      const Marginals at = Belief(prior, {.noise_sd = std::sqrt(s2)}).condition_on(readings).at_vertices();
+      const Marginals at =
+          Belief(prior, {.noise_sd = std::sqrt(s2)}).condition_on(readings).at_vertices();
       EXPECT_TRUE(at.mean.allFinite());
       // |k|^2 is at most the number of readings.
       EXPECT_GE(at.variance.minCoeff(), s2 / (s2 + 100.0) * (1.0 - 1e-12)) << length_m << " " << s2;

@@ -13,23 +13,29 @@ namespace {
 
 constexpr Hyperparameters kField{.length_m = 0.0035, .signal_sd = 0.8, .noise_sd = 0.06};
 
-double stiffness(const Vec3& p) { return 7.0 + 2.0 / (1.0 + std::exp(1400.0 * ((p - Vec3(0.0115, 0.030, 0.0)).norm() - 0.00625))); }
+double stiffness(const Vec3& p) {
+  return 7.0 + 2.0 / (1.0 + std::exp(1400.0 * ((p - Vec3(0.0115, 0.030, 0.0)).norm() - 0.00625)));
+}
 
 /// Touches at vertices from random directions; each says what the tissue is a lag behind.
-std::vector<Palpation> late_readings(const Surface& surface, int count, double lag_m, double noise_sd, std::uint64_t seed) {
+std::vector<Palpation> late_readings(const Surface& surface, int count, double lag_m,
+                                     double noise_sd, std::uint64_t seed) {
   Random random(seed);
   std::vector<Palpation> readings;
   for (int i = 0; i < count; ++i) {
     Palpation palpation = touch(surface, random.below(surface.vertex_count()), 0.0);
     const double angle = 6.283185307179586 * random.uniform();
     palpation.travel = {std::cos(angle), std::sin(angle), 0.0};
-    palpation.reading = stiffness(surface.position(palpation.where) - lag_m * palpation.travel) + noise_sd * random.normal();
+    palpation.reading = stiffness(surface.position(palpation.where) - lag_m * palpation.travel) +
+                        noise_sd * random.normal();
     readings.push_back(palpation);
   }
   return readings;
 }
 
-Prior field_on(const Surface& tissue) { return Prior(tissue, Metric::Chart, {.length_m = kField.length_m, .signal_sd = kField.signal_sd}); }
+Prior field_on(const Surface& tissue) {
+  return Prior(tissue, Metric::Chart, {.length_m = kField.length_m, .signal_sd = kField.signal_sd});
+}
 
 TEST(Displaced, ReadingsGoBackAlongTheirTravel) {
   const Surface tissue = plane(26, 51);
@@ -37,7 +43,8 @@ TEST(Displaced, ReadingsGoBackAlongTheirTravel) {
   palpation.travel = Vec3(0.6, -0.8, 0.0);
   const std::vector<Palpation> moved = displaced(tissue, std::vector{palpation}, 0.002);
   const Vec3 expected = tissue.position(palpation.where) - Vec3(0.0012, -0.0016, 0.0);
-  EXPECT_NEAR((tissue.position(moved[0].where) - expected).norm(), 0.0, 1e-15);  // rounding of a closest point
+  EXPECT_NEAR((tissue.position(moved[0].where) - expected).norm(), 0.0,
+              1e-15);  // rounding of a closest point
 }
 
 TEST(Displaced, WithoutLagOrTravelNothingChanges) {
@@ -48,8 +55,10 @@ TEST(Displaced, WithoutLagOrTravelNothingChanges) {
   for (Palpation& palpation : still) palpation.travel.setZero();
   const std::vector<Palpation> unmoved = displaced(tissue, still, 0.002);
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    EXPECT_TRUE(same[i].where.barycentric == readings[i].where.barycentric && same[i].where.face == readings[i].where.face);
-    EXPECT_TRUE(unmoved[i].where.barycentric == readings[i].where.barycentric && unmoved[i].where.face == readings[i].where.face);
+    EXPECT_TRUE(same[i].where.barycentric == readings[i].where.barycentric &&
+                same[i].where.face == readings[i].where.face);
+    EXPECT_TRUE(unmoved[i].where.barycentric == readings[i].where.barycentric &&
+                unmoved[i].where.face == readings[i].where.face);
   }
   EXPECT_THROW(displaced(tissue, readings, std::numeric_limits<double>::quiet_NaN()), InvalidInput);
 }
@@ -66,7 +75,8 @@ TEST(Displaced, WhatBelongsBeyondTheBorderIsSetAside) {
 TEST(LearnLag, FindsTheLagOfAField) {
   const Surface tissue = plane(51, 101);
   for (const double lag_m : {0.0, 0.0007, 0.0015, 0.0026}) {
-    const auto lag = learn_lag(field_on(tissue), late_readings(tissue, 150, lag_m, 0.02, 3), kField);
+    const auto lag =
+        learn_lag(field_on(tissue), late_readings(tissue, 150, lag_m, 0.02, 3), kField);
     ASSERT_TRUE(lag.has_value());
     EXPECT_NEAR(lag->value_m, lag_m, 0.0002);
     EXPECT_LT(lag->stddev_m, 0.0002);
@@ -83,11 +93,13 @@ TEST(LearnLag, NoLagOnAFineGridIsMoreProbable) {
     if (std::min({p.x(), 0.025 - p.x(), p.y(), 0.050 - p.y()}) > 0.003) inner.push_back(palpation);
   }
   const auto log_posterior = [&](double lag_m) {
-    const Belief belief = Belief(field_on(tissue), {.noise_sd = kField.noise_sd}).condition_on(displaced(tissue, inner, lag_m));
+    const Belief belief = Belief(field_on(tissue), {.noise_sd = kField.noise_sd})
+                              .condition_on(displaced(tissue, inner, lag_m));
     return belief.log_marginal_likelihood() - 0.5 * std::pow((lag_m - 0.0005) / 0.0015, 2);
   };
   const double found = log_posterior(learn_lag(field_on(tissue), inner, kField)->value_m);
-  for (double lag_m = -0.0005; lag_m <= 0.003; lag_m += 0.00005) EXPECT_LE(log_posterior(lag_m), found + 1e-3) << lag_m;
+  for (double lag_m = -0.0005; lag_m <= 0.003; lag_m += 0.00005)
+    EXPECT_LE(log_posterior(lag_m), found + 1e-3) << lag_m;
 }
 
 // A raster to and fro whose base falls along every row: alone that looks like a lag of its own.
@@ -102,7 +114,8 @@ TEST(LearnLag, OnARasterDriftOfTheBaseIsNoLag) {
       palpation.travel = way * Vec3::UnitY();
       const Vec3 p = tissue.position(palpation.where);
       const double along = 0.5 + way * (p.y() / 0.050 - 0.5);
-      palpation.reading = stiffness(p - 0.0015 * palpation.travel) - 0.1 * along + 0.02 * random.normal();
+      palpation.reading =
+          stiffness(p - 0.0015 * palpation.travel) - 0.1 * along + 0.02 * random.normal();
       rows.push_back(palpation);
     }
   }
@@ -113,7 +126,8 @@ TEST(LearnLag, OfReadingsThatTellNothingIsThePriors) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> alike = late_readings(tissue, 30, 0.0, 0.0, 2);
   for (Palpation& palpation : alike) palpation.reading = 7.0;
-  const auto lag = learn_lag(field_on(tissue), alike, {.length_m = 0.02, .signal_sd = 0.01, .noise_sd = 1.0});
+  const auto lag =
+      learn_lag(field_on(tissue), alike, {.length_m = 0.02, .signal_sd = 0.01, .noise_sd = 1.0});
   ASSERT_TRUE(lag.has_value());
   EXPECT_NEAR(lag->value_m, 0.0005, 0.0001);
   EXPECT_NEAR(lag->stddev_m, 0.0015, 0.0001);
@@ -121,8 +135,10 @@ TEST(LearnLag, OfReadingsThatTellNothingIsThePriors) {
 
 TEST(LearnLag, SaysWhenItRanIntoItsBound) {
   const Surface tissue = plane(51, 101);
-  EXPECT_TRUE(learn_lag(field_on(tissue), late_readings(tissue, 150, 0.0045, 0.02, 3), kField)->at_bound);
-  EXPECT_FALSE(learn_lag(field_on(tissue), late_readings(tissue, 150, 0.0015, 0.02, 3), kField)->at_bound);
+  EXPECT_TRUE(
+      learn_lag(field_on(tissue), late_readings(tissue, 150, 0.0045, 0.02, 3), kField)->at_bound);
+  EXPECT_FALSE(
+      learn_lag(field_on(tissue), late_readings(tissue, 150, 0.0015, 0.02, 3), kField)->at_bound);
 }
 
 TEST(LearnLag, IsNothingWithoutTravel) {
@@ -134,7 +150,8 @@ TEST(LearnLag, IsNothingWithoutTravel) {
 
 TEST(LearnLag, OfThousandsOfReadingsIsAsGood) {
   const Surface tissue = plane(51, 101);
-  const auto lag = learn_lag(field_on(tissue), late_readings(tissue, 3000, 0.0015, 0.02, 4), kField);
+  const auto lag =
+      learn_lag(field_on(tissue), late_readings(tissue, 3000, 0.0015, 0.02, 4), kField);
   EXPECT_NEAR(lag->value_m, 0.0015, 0.0001);
 }
 

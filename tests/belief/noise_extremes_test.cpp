@@ -1,4 +1,5 @@
-// Noise from none to all there is, and places from one and the same to far apart, against closed forms and eighty digits.
+// Noise from none to all there is, and places from one and the same to far apart, against closed
+// forms and eighty digits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,10 +30,12 @@ Palpation touch_at(const SurfacePoint& where, double reading, double noise_varia
 }
 
 /// Readings of unit size on a jittered lattice a length apart, all of one noise variance.
-std::vector<Palpation> lattice_readings(const Surface& tissue, int side, double spacing_m, double noise_variance, Random& random) {
+std::vector<Palpation> lattice_readings(const Surface& tissue, int side, double spacing_m,
+                                        double noise_variance, Random& random) {
   std::vector<Palpation> palpations;
   for (int i = 0; i < side * side; ++i) {
-    const Vec3 place(0.3 + spacing_m * (i % side + 0.3 * random.uniform()), 0.4 + spacing_m * (i / side + 0.3 * random.uniform()), 0.0);
+    const Vec3 place(0.3 + spacing_m * (i % side + 0.3 * random.uniform()),
+                     0.4 + spacing_m * (i / side + 0.3 * random.uniform()), 0.0);
     palpations.push_back(touch_at(tissue.project(place), random.normal(), noise_variance));
   }
   return palpations;
@@ -49,7 +52,9 @@ TEST(NoiseExtremes, OneReadingIsItsClosedFormFromNoNoiseToNothingButNoise) {
   for (int exponent = -300; exponent <= 300; exponent += 4) {
     const double s2 = std::pow(10.0, exponent);
     const Marginals at = belief_from(prior, {touch_at(where, 3.0, s2)}).at(std::span(&where, 1));
-    EXPECT_NEAR(at.variance[0] / (s2 < 1.0 ? s2 / (1.0 + s2) : 1.0 / (1.0 + 1.0 / s2)), 1.0, 4.0 * kEps) << s2;
+    EXPECT_NEAR(at.variance[0] / (s2 < 1.0 ? s2 / (1.0 + s2) : 1.0 / (1.0 + 1.0 / s2)), 1.0,
+                4.0 * kEps)
+        << s2;
     EXPECT_NEAR(at.mean[0] / (3.0 / (1.0 + s2)), 1.0, 4.0 * kEps) << s2;
   }
 }
@@ -59,7 +64,8 @@ TEST(NoiseExtremes, ReadingsOfNothingButNoiseLeaveThePrior) {
   for (const double s2 : {1e8, 1e20, 1e300}) {
     std::vector<Palpation> readings;
     Random random(1);
-    for (Palpation& palpation : readings = bumpy_readings(tissue, 20, random)) palpation.noise_variance = s2;
+    for (Palpation& palpation : readings = bumpy_readings(tissue, 20, random))
+      palpation.noise_variance = s2;
     const Prior prior(tissue, Metric::Chart, {}, {.sd = 0.0});
     const Marginals at = belief_from(prior, readings).at_vertices();
     const BigPosterior exact(prior, readings, s2);
@@ -83,7 +89,8 @@ TEST(NoiseExtremes, VarianceKeepsElevenDigitsAtATouchedPlaceWhateverTheNoise) {
     const BigPosterior exact(prior, readings, s2);
     for (const Palpation& palpation : readings) {
       const double ours = belief.at(std::span(&palpation.where, 1)).variance[0];
-      EXPECT_LT(relative_error(ours, exact.at(prior.coordinates(palpation.where)).variance), 1e-11) << s2;
+      EXPECT_LT(relative_error(ours, exact.at(prior.coordinates(palpation.where)).variance), 1e-11)
+          << s2;
     }
   }
 }
@@ -91,19 +98,24 @@ TEST(NoiseExtremes, VarianceKeepsElevenDigitsAtATouchedPlaceWhateverTheNoise) {
 TEST(NoiseExtremes, VarianceKeepsTwelveDigitsBesideATouchedPlaceAtEveryDistance) {
   const Surface tissue = square_metre();
   for (const KernelFamily family :
-       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32, KernelFamily::Matern52, KernelFamily::Periodic}) {
+       {KernelFamily::SquaredExponential, KernelFamily::Matern12, KernelFamily::Matern32,
+        KernelFamily::Matern52, KernelFamily::Periodic}) {
     for (const double s2 : {1e-6, 1e-12, 1e-15}) {
       Random random(3);
-      const Prior prior(tissue, Metric::Chart, {.family = family, .length_m = kLength_m, .period_m = 0.03}, {.sd = 0.0});
-      const std::vector<Palpation> readings = lattice_readings(tissue, 4, 1.5 * kLength_m, s2, random);
+      const Prior prior(tissue, Metric::Chart,
+                        {.family = family, .length_m = kLength_m, .period_m = 0.03}, {.sd = 0.0});
+      const std::vector<Palpation> readings =
+          lattice_readings(tissue, 4, 1.5 * kLength_m, s2, random);
       const Belief belief = belief_from(prior, readings);
       const BigPosterior exact(prior, readings, s2);
       const Vec3 site = prior.coordinates(readings[5].where);
       for (double distance = 1e-9; distance < 0.2; distance *= 10.0) {
-        const SurfacePoint place = tissue.project(site + Vec3(0.8, 0.6, 0.0) * distance * kLength_m);
+        const SurfacePoint place =
+            tissue.project(site + Vec3(0.8, 0.6, 0.0) * distance * kLength_m);
         const double ours = belief.at(std::span(&place, 1)).variance[0];
         EXPECT_LT(relative_error(ours, exact.at(prior.coordinates(place)).variance), 1e-12)
-            << "noise " << s2 << ", " << distance << " lengths away, kernel " << static_cast<int>(family);
+            << "noise " << s2 << ", " << distance << " lengths away, kernel "
+            << static_cast<int>(family);
       }
     }
   }
@@ -159,11 +171,13 @@ TEST(NoiseExtremes, AnUnknownConstantLosesNoDigitsOfTheVarianceBesideASite) {
   const Surface tissue = square_metre();
   Random random(5);
   const Prior prior(tissue, Metric::Chart, {.length_m = kLength_m}, {.sd = kUnknown});
-  const std::vector<Palpation> readings = lattice_readings(tissue, 4, 1.5 * kLength_m, 1e-12, random);
+  const std::vector<Palpation> readings =
+      lattice_readings(tissue, 4, 1.5 * kLength_m, 1e-12, random);
   const Belief belief = belief_from(prior, readings);
   const BigPosterior exact(prior, readings, 1e-12);
   for (const Palpation& palpation : readings) {
-    EXPECT_LT(relative_error(belief.at(std::span(&palpation.where, 1)).variance[0], exact.at(prior.coordinates(palpation.where)).variance),
+    EXPECT_LT(relative_error(belief.at(std::span(&palpation.where, 1)).variance[0],
+                             exact.at(prior.coordinates(palpation.where)).variance),
               1e-10);
   }
 }

@@ -1,5 +1,6 @@
-/// The posterior to eighty digits: equations (1) and (2) of Garg et al. 2016 by Cholesky's factor, nothing clever. What the library
-/// computes in double precision is held against it, from the same coordinates, readings and noise taken as exact numbers.
+/// The posterior to eighty digits: equations (1) and (2) of Garg et al. 2016 by Cholesky's factor,
+/// nothing clever. What the library computes in double precision is held against it, from the same
+/// coordinates, readings and noise taken as exact numbers.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -10,7 +11,8 @@
 
 namespace palpation {
 
-using Big = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
+using Big = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>,
+                                          boost::multiprecision::et_off>;
 using BigVector = std::vector<Big>;
 
 inline Big big_correlation(const Kernel& kernel, const Vec3& a, const Vec3& b) {
@@ -18,7 +20,8 @@ inline Big big_correlation(const Kernel& kernel, const Vec3& a, const Vec3& b) {
   const Big pi = boost::math::constants::pi<Big>();
   for (int axis = 0; axis < 3; ++axis) {
     Big d = Big(a[axis]) - Big(b[axis]);
-    if (kernel.family == KernelFamily::Periodic) d = Big(kernel.period_m) / pi * sin(pi * d / Big(kernel.period_m));
+    if (kernel.family == KernelFamily::Periodic)
+      d = Big(kernel.period_m) / pi * sin(pi * d / Big(kernel.period_m));
     d /= Big(kernel.length_m);
     r2 += d * d;
   }
@@ -48,11 +51,13 @@ class BigPosterior {
   BigPosterior(const Prior& prior, const std::vector<Palpation>& palpations, double noise_variance)
       : kernel_(prior.kernel()), signal_variance_(Big(kernel_.signal_sd) * Big(kernel_.signal_sd)) {
     const std::size_t n = palpations.size();
-    for (const Palpation& palpation : palpations) places_.push_back(prior.coordinates(palpation.where));
+    for (const Palpation& palpation : palpations)
+      places_.push_back(prior.coordinates(palpation.where));
     BigVector readings, ones(n, Big(1));
     for (std::size_t i = 0; i < n; ++i) {
       factor_.push_back(BigVector(i + 1));
-      for (std::size_t j = 0; j <= i; ++j) factor_[i][j] = signal_variance_ * big_correlation(kernel_, places_[i], places_[j]);
+      for (std::size_t j = 0; j <= i; ++j)
+        factor_[i][j] = signal_variance_ * big_correlation(kernel_, places_[i], places_[j]);
       const double own = palpations[i].noise_variance;
       factor_[i][i] += Big(std::isnan(own) ? noise_variance : own);
       readings.push_back(Big(palpations[i].reading));
@@ -67,7 +72,8 @@ class BigPosterior {
     whitened_ = solve(readings);
     if (prior.constant().sd == 0.0 || n == 0) return;
     precision_ = dot(ones_, ones_);
-    if (std::isfinite(prior.constant().sd)) precision_ += 1 / (Big(prior.constant().sd) * Big(prior.constant().sd));
+    if (std::isfinite(prior.constant().sd))
+      precision_ += 1 / (Big(prior.constant().sd) * Big(prior.constant().sd));
     constant_ = dot(ones_, whitened_) / precision_;
   }
 
@@ -77,7 +83,8 @@ class BigPosterior {
   At at(const Vec3& place) const {
     const BigVector v = seen_from(place);
     const Big rest = 1 - dot(v, ones_);
-    At result{constant_ + dot(v, whitened_) - constant_ * dot(v, ones_), signal_variance_ - dot(v, v)};
+    At result{constant_ + dot(v, whitened_) - constant_ * dot(v, ones_),
+              signal_variance_ - dot(v, v)};
     if (precision_ > 0) result.variance += rest * rest / precision_;
     return result;
   }
@@ -92,7 +99,8 @@ class BigPosterior {
   /// Log density of the readings, restricted where the constant is not known (its prior flat).
   Big log_likelihood() const {
     const std::size_t n = places_.size();
-    Big square = 0, result = -Big(n - (precision_ > 0 ? 1 : 0)) / 2 * log(2 * boost::math::constants::pi<Big>());
+    Big square = 0, result = -Big(n - (precision_ > 0 ? 1 : 0)) / 2 *
+                             log(2 * boost::math::constants::pi<Big>());
     for (std::size_t i = 0; i < n; ++i) {
       const Big rest = whitened_[i] - constant_ * ones_[i];
       square += rest * rest;
@@ -119,7 +127,8 @@ class BigPosterior {
 
   BigVector seen_from(const Vec3& place) const {
     BigVector k;
-    for (const Vec3& other : places_) k.push_back(signal_variance_ * big_correlation(kernel_, place, other));
+    for (const Vec3& other : places_)
+      k.push_back(signal_variance_ * big_correlation(kernel_, place, other));
     return solve(k);
   }
 
@@ -132,7 +141,11 @@ class BigPosterior {
 };
 
 /// |ours - exact| over |exact|.
-inline double relative_error(double ours, const Big& exact) { return static_cast<double>(abs((Big(ours) - exact) / exact)); }
-inline double absolute_error(double ours, const Big& exact) { return static_cast<double>(abs(Big(ours) - exact)); }
+inline double relative_error(double ours, const Big& exact) {
+  return static_cast<double>(abs((Big(ours) - exact) / exact));
+}
+inline double absolute_error(double ours, const Big& exact) {
+  return static_cast<double>(abs(Big(ours) - exact));
+}
 
 }  // namespace palpation

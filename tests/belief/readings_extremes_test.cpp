@@ -19,7 +19,9 @@ namespace {
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-double worst(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
+double worst(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
 
 TEST(ReadingsExtremes, AnotherUnitChangesNoBitOfTheAnswer) {
   const Surface tissue = plane(13, 21, 0.3);
@@ -29,10 +31,14 @@ TEST(ReadingsExtremes, AnotherUnitChangesNoBitOfTheAnswer) {
     const double signal = standardize ? 1.0 : 1.3, noise = standardize ? 0.1 : 0.05;
     const auto belief_in = [&](int exponent) {
       std::vector<Palpation> scaled = readings;
-      for (Palpation& palpation : scaled) palpation.reading = std::ldexp(palpation.reading, exponent);
+      for (Palpation& palpation : scaled)
+        palpation.reading = std::ldexp(palpation.reading, exponent);
       const int own = standardize ? 0 : exponent;
-      const Prior prior(tissue, Metric::Chart, {.signal_sd = std::ldexp(signal, own)}, {.sd = standardize ? 2.0 : kUnknown});
-      return Belief(prior, {.noise_sd = std::ldexp(noise, own), .noise_is_relative = standardize, .standardize = standardize})
+      const Prior prior(tissue, Metric::Chart, {.signal_sd = std::ldexp(signal, own)},
+                        {.sd = standardize ? 2.0 : kUnknown});
+      return Belief(prior, {.noise_sd = std::ldexp(noise, own),
+                            .noise_is_relative = standardize,
+                            .standardize = standardize})
           .condition_on(scaled);
     };
     const Marginals here = belief_in(0).at_vertices();
@@ -42,10 +48,12 @@ TEST(ReadingsExtremes, AnotherUnitChangesNoBitOfTheAnswer) {
       const Marginals there = belief.at_vertices();
       for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
         ASSERT_EQ(std::ldexp(there.mean[vertex], -exponent), here.mean[vertex]) << exponent;
-        ASSERT_EQ(std::ldexp(there.variance[vertex], -2 * exponent), here.variance[vertex]) << exponent;
+        ASSERT_EQ(std::ldexp(there.variance[vertex], -2 * exponent), here.variance[vertex])
+            << exponent;
       }
       const double free = standardize ? 40.0 : 39.0;
-      EXPECT_NEAR(belief.log_marginal_likelihood(), likelihood - free * exponent * std::log(2.0), 1e-9);
+      EXPECT_NEAR(belief.log_marginal_likelihood(), likelihood - free * exponent * std::log(2.0),
+                  1e-9);
     }
   }
 }
@@ -54,9 +62,11 @@ TEST(ReadingsExtremes, AnotherUnitChangesNoBitOfTheAnswer) {
 TEST(ReadingsExtremes, UnitsWhoseSquareIsNoNumberAreRefusedInBothWaysToAskForThem) {
   const Surface tissue = plane(10, 20);
   for (const double unit : {1e-300, 1e-160, 1e160, 1e300}) {
-    const std::vector<Palpation> readings{touch(tissue, 30, 7.0 * unit), touch(tissue, 90, 8.0 * unit)};
+    const std::vector<Palpation> readings{touch(tissue, 30, 7.0 * unit),
+                                          touch(tissue, 90, 8.0 * unit)};
     EXPECT_THROW(Prior(tissue, Metric::Chart, {.signal_sd = unit}), InvalidInput);
-    const Belief standardized(Prior(tissue, Metric::Chart, {}), {.noise_sd = 0.1, .noise_is_relative = true, .standardize = true});
+    const Belief standardized(Prior(tissue, Metric::Chart, {}),
+                              {.noise_sd = 0.1, .noise_is_relative = true, .standardize = true});
     EXPECT_THROW(standardized.condition_on(readings), InvalidInput) << unit;
   }
 }
@@ -77,7 +87,8 @@ TEST(ReadingsExtremes, AnOffsetCostsTheDigitsThatItTakesAndNoMore) {
       EXPECT_LT(absolute_error(at.variance[vertex], right.variance), 1e-13) << offset;
     }
     // The constant is known to its last digit, and the likelihood is flat there.
-    EXPECT_LT(absolute_error(belief.log_marginal_likelihood(), exact.log_likelihood()), 1e-10 + 10.0 * (kEps * offset) * (kEps * offset));
+    EXPECT_LT(absolute_error(belief.log_marginal_likelihood(), exact.log_likelihood()),
+              1e-10 + 10.0 * (kEps * offset) * (kEps * offset));
   }
 }
 
@@ -110,7 +121,8 @@ TEST(ReadingsExtremes, FiveHundredRepeatsAtThreePlacesAreThreePreciseReadings) {
 struct LongPosterior {
   using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  LongPosterior(const Prior& prior, const std::vector<Palpation>& readings, double noise_variance) : prior_(prior) {
+  LongPosterior(const Prior& prior, const std::vector<Palpation>& readings, double noise_variance)
+      : prior_(prior) {
     const auto n = static_cast<Eigen::Index>(readings.size());
     Matrix s(n, n);
     Vector y(n);
@@ -125,14 +137,16 @@ struct LongPosterior {
   }
   std::pair<long double, long double> at(const Vec3& x) const {
     Vector k(static_cast<Eigen::Index>(places.size()));
-    for (std::size_t i = 0; i < places.size(); ++i) k[static_cast<Eigen::Index>(i)] = correlation_of(x, places[i]);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      k[static_cast<Eigen::Index>(i)] = correlation_of(x, places[i]);
     const Vector v = factor.matrixL().solve(k);
     return {v.dot(whitened), 1.0L - v.squaredNorm()};
   }
   long double correlation_of(const Vec3& a, const Vec3& b) const {
     long double r2 = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const long double d = (static_cast<long double>(a[axis]) - b[axis]) / prior_.kernel().length_m;
+      const long double d =
+          (static_cast<long double>(a[axis]) - b[axis]) / prior_.kernel().length_m;
       r2 += d * d;
     }
     return std::exp(-r2 / 2);
@@ -152,18 +166,24 @@ TEST(ReadingsExtremes, HundredsOfAppendsAreAsGoodAsOneFactorFromScratch) {
     const Prior prior(tissue, Metric::Chart, {.length_m = 0.0033}, {.sd = 0.0});
     const Belief empty(prior, {.noise_sd = std::sqrt(s2)});
     Belief grown = empty;
-    for (std::size_t i = 0; i < readings.size(); i += 5) grown = grown.condition_on(std::span(readings).subspan(i, 5));
+    for (std::size_t i = 0; i < readings.size(); i += 5)
+      grown = grown.condition_on(std::span(readings).subspan(i, 5));
     const LongPosterior exact(prior, readings, s2);
-    const Marginals appended = grown.at_vertices(), scratch = empty.condition_on(readings).at_vertices();
+    const Marginals appended = grown.at_vertices(),
+                    scratch = empty.condition_on(readings).at_vertices();
     double mean = 0.0, variance = 0.0, scratch_mean = 0.0, scratch_variance = 0.0;
     for (int vertex = 0; vertex < tissue.vertex_count(); vertex += 37) {
       const auto [right_mean, right_variance] = exact.at(prior.coordinates(vertex));
       mean = std::max(mean, std::abs(appended.mean[vertex] - static_cast<double>(right_mean)));
-      scratch_mean = std::max(scratch_mean, std::abs(scratch.mean[vertex] - static_cast<double>(right_mean)));
-      variance = std::max(variance, std::abs(appended.variance[vertex] - static_cast<double>(right_variance)));
-      scratch_variance = std::max(scratch_variance, std::abs(scratch.variance[vertex] - static_cast<double>(right_variance)));
+      scratch_mean =
+          std::max(scratch_mean, std::abs(scratch.mean[vertex] - static_cast<double>(right_mean)));
+      variance = std::max(
+          variance, std::abs(appended.variance[vertex] - static_cast<double>(right_variance)));
+      scratch_variance = std::max(scratch_variance, std::abs(scratch.variance[vertex] -
+                                                             static_cast<double>(right_variance)));
     }
-    // Three hundred readings within a few lengths: the covariance's own rounding moves as much, from scratch too.
+    // Three hundred readings within a few lengths: the covariance's own rounding moves as much,
+    // from scratch too.
     EXPECT_LT(variance, 5.0 * scratch_variance + 1e-14) << s2;
     EXPECT_LT(variance, 1e-12) << s2;
     EXPECT_LT(scratch_variance, 1e-12) << s2;
@@ -172,7 +192,8 @@ TEST(ReadingsExtremes, HundredsOfAppendsAreAsGoodAsOneFactorFromScratch) {
   }
 }
 
-// A place touched again has a row more, until there are too many: then what comes after is forgotten and made anew.
+// A place touched again has a row more, until there are too many: then what comes after is
+// forgotten and made anew.
 TEST(ReadingsExtremes, AThousandChangedReadingsLeaveNoTrace) {
   const Surface tissue = plane(13, 21, 0.3);
   Random random(5);
@@ -197,7 +218,8 @@ TEST(ReadingsExtremes, TheirOrderChangesNoMoreThanTheConditionNumberAllows) {
     const Belief empty(Prior(tissue, Metric::Chart, {}, {.sd = 0.0}), {.noise_sd = std::sqrt(s2)});
     const Marginals given = empty.condition_on(readings).at_vertices();
     std::vector<Palpation> shuffled = readings;
-    for (std::size_t i = 1; i < shuffled.size(); ++i) std::swap(shuffled[i], shuffled[random.below(static_cast<int>(i) + 1)]);
+    for (std::size_t i = 1; i < shuffled.size(); ++i)
+      std::swap(shuffled[i], shuffled[random.below(static_cast<int>(i) + 1)]);
     const Marginals other = empty.condition_on(shuffled).at_vertices();
     EXPECT_LT(worst(given.mean, other.mean), 100.0 * kEps * 60.0 / s2 * 8.0) << s2;
     EXPECT_LT(worst(given.variance, other.variance), 1e-14) << s2;
@@ -209,14 +231,19 @@ TEST(ReadingsExtremes, ALookAheadNeverTellsMoreThanThereIs) {
   Random random(7);
   for (const double s2 : {1e-2, 1e-8, 1e-12, 1e-13, 1e-15}) {
     const Belief belief =
-        Belief(Prior(tissue, Metric::Chart, {}, {.sd = 0.0}), {.noise_sd = std::sqrt(s2)}).condition_on(bumpy_readings(tissue, 60, random));
+        Belief(Prior(tissue, Metric::Chart, {}, {.sd = 0.0}), {.noise_sd = std::sqrt(s2)})
+            .condition_on(bumpy_readings(tissue, 60, random));
     const Field variance = belief.at_vertices().variance;
     Field covariance(tissue.vertex_count());
     for (int vertex = 0; vertex < tissue.vertex_count(); vertex += 37) {
       CovarianceWith(belief, vertex)(0, tissue.vertex_count(), covariance.data());
       for (int other = 0; other < tissue.vertex_count(); ++other) {
-        EXPECT_LE(covariance[other] * covariance[other], variance[vertex] * variance[other] * (1.0 + 2e-12)) << s2;
-        EXPECT_GE(variance[other] - covariance[other] * covariance[other] / (variance[vertex] + s2), -1e-12 * variance[other]) << s2;
+        EXPECT_LE(covariance[other] * covariance[other],
+                  variance[vertex] * variance[other] * (1.0 + 2e-12))
+            << s2;
+        EXPECT_GE(variance[other] - covariance[other] * covariance[other] / (variance[vertex] + s2),
+                  -1e-12 * variance[other])
+            << s2;
       }
     }
     // The same for touches on touches, each of which leaves no more than its noise.
@@ -240,19 +267,21 @@ TEST(ReadingsExtremes, TheLikelihoodOfAThousandReadingsIsALogarithmThatNeverUnde
   const std::vector<Palpation> readings = bumpy_readings(tissue, 1000, random);
   const Prior prior(tissue, Metric::Chart, {.length_m = 0.002}, {.sd = 0.0});
   const double s2 = 1e-4;  // the determinant is far below 1e-308
-  const double ours = Belief(prior, {.noise_sd = 0.01}).condition_on(readings).log_marginal_likelihood();
+  const double ours =
+      Belief(prior, {.noise_sd = 0.01}).condition_on(readings).log_marginal_likelihood();
   Eigen::MatrixXd s(1000, 1000);
   Eigen::VectorXd y(1000);
   for (int i = 0; i < 1000; ++i) {
     y[i] = readings[i].reading;
     for (int j = 0; j < 1000; ++j)
-      s(i, j) = correlation(prior.kernel(), prior.coordinates(readings[i].where) - prior.coordinates(readings[j].where));
+      s(i, j) = correlation(prior.kernel(), prior.coordinates(readings[i].where) -
+                                                prior.coordinates(readings[j].where));
     s(i, i) += s2;
   }
   const Eigen::LDLT<Eigen::MatrixXd> factor(s);
   EXPECT_EQ(factor.vectorD().prod(), 0.0);
-  const double twin =
-      -0.5 * (y.dot(factor.solve(y)) + factor.vectorD().array().log().sum() + 1000.0 * std::log(2.0 * 3.14159265358979323846));
+  const double twin = -0.5 * (y.dot(factor.solve(y)) + factor.vectorD().array().log().sum() +
+                              1000.0 * std::log(2.0 * 3.14159265358979323846));
   EXPECT_NEAR(ours / twin, 1.0, 1e-9);
 }
 
@@ -279,7 +308,9 @@ TEST(ReadingsExtremes, MorePlacesThanMemoryHoldsAreRefusedBeforeTheyAreModelled)
     Belief(Prior(tissue, Metric::Chart, {}), {.noise_sd = 0.1}).condition_on(readings);
     FAIL() << "accepted";
   } catch (const InvalidInput& error) {
-    EXPECT_NE(std::string(error.what()).find("20001 places touched must be at most 20000"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("20001 places touched must be at most 20000"),
+              std::string::npos)
+        << error.what();
   }
 }
 
@@ -291,7 +322,8 @@ TEST(ReadingsExtremes, NothingThatIsNoNumberPassesForOne) {
     const Palpation reading = touch(tissue, 1, wrong);
     EXPECT_THROW(empty.condition_on(std::span(&reading, 1)), InvalidInput);
     EXPECT_THROW(Belief(Prior(tissue, Metric::Chart, {}), {.noise_sd = wrong}), InvalidInput);
-    EXPECT_THROW(Belief(Prior(tissue, Metric::Chart, {}), {.reduced_rank_tolerance = wrong}), InvalidInput);
+    EXPECT_THROW(Belief(Prior(tissue, Metric::Chart, {}), {.reduced_rank_tolerance = wrong}),
+                 InvalidInput);
     EXPECT_THROW(Prior(tissue, Metric::Chart, {.length_m = wrong}), InvalidInput);
     EXPECT_THROW(Prior(tissue, Metric::Chart, {.signal_sd = wrong}), InvalidInput);
     EXPECT_THROW(Prior(tissue, Metric::Chart, {}, {}, {.sd = Vec3(wrong, 0.0, 0.0)}), InvalidInput);
@@ -308,7 +340,9 @@ TEST(ReadingsExtremes, ThreadsChangeNoByteHoweverLittleNoiseThereIs) {
   const Surface tissue = plane(40, 80);
   Random random(9);
   const std::vector<Palpation> readings = bumpy_readings(tissue, 100, random);
-  for (const BeliefOptions& options : {BeliefOptions{.noise_sd = 1e-6}, BeliefOptions{.noise_sd = 0.05, .reduced_rank_tolerance = 1e-10}}) {
+  for (const BeliefOptions& options :
+       {BeliefOptions{.noise_sd = 1e-6},
+        BeliefOptions{.noise_sd = 0.05, .reduced_rank_tolerance = 1e-10}}) {
     const Belief empty(Prior(tissue, Metric::Chart, {.length_m = 0.03}), options);
     set_thread_count(1);
     const Marginals one = empty.condition_on(readings).at_vertices();

@@ -11,7 +11,8 @@ namespace {
 
 TEST(Readings, ThatAreSetAsideDoNotCount) {
   const Surface surface = plane(11, 21);
-  std::vector<Palpation> palpations = {touch(surface, 0, 1.0), touch(surface, 1, 99.0), touch(surface, 2, 3.0)};
+  std::vector<Palpation> palpations = {touch(surface, 0, 1.0), touch(surface, 1, 99.0),
+                                       touch(surface, 2, 3.0)};
   palpations[1].set_aside = "jam";
   EXPECT_EQ(used_readings(palpations), (std::vector<double>{1.0, 3.0}));
   const PlacedReadings placed = placed_readings(surface, palpations);

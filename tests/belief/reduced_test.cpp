@@ -14,17 +14,20 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-12;
 
-/// Readings as a probe makes them that is drawn over the tissue in rows: inside faces, close together, with noise of a hundredth.
+/// Readings as a probe makes them that is drawn over the tissue in rows: inside faces, close
+/// together, with noise of a hundredth.
 std::vector<Palpation> scanned(const Surface& surface, int count, Random& random) {
   std::vector<Palpation> palpations;
   for (int i = 0; i < count; ++i) {
     const double along = 20.0 * (i + 0.5) / count;
     const double row = std::floor(along), x = along - row;
-    const Vec3 place(0.025 * (static_cast<int>(row) % 2 == 0 ? x : 1.0 - x), 0.050 * (row + 0.5) / 20.0, 0.0);
+    const Vec3 place(0.025 * (static_cast<int>(row) % 2 == 0 ? x : 1.0 - x),
+                     0.050 * (row + 0.5) / 20.0, 0.0);
     Palpation palpation;
     palpation.where = surface.project(place);
     const Vec3 p = place - Vec3(0.0115, 0.030, 0.0);
-    palpation.reading = 1.0 / (1.0 + std::exp(1400.0 * (p.norm() - 0.00625))) + 0.01 * random.normal();
+    palpation.reading =
+        1.0 / (1.0 + std::exp(1400.0 * (p.norm() - 0.00625))) + 0.01 * random.normal();
     palpations.push_back(palpation);
   }
   return palpations;
@@ -53,10 +56,12 @@ TEST(ReducedRank, AgreesWithTheExactBeliefToAMillionthInEverythingThatCanBeAsked
       EXPECT_LT(reduced.reduced_rank()->rank, 350);
       for (const Part part : {Part::Whole, Part::Detrended}) {
         EXPECT_LT(worst(reduced.at_vertices(part).mean, exact.at_vertices(part).mean), 1e-6);
-        EXPECT_LT(worst(reduced.at_vertices(part).variance, exact.at_vertices(part).variance), 1e-6);
+        EXPECT_LT(worst(reduced.at_vertices(part).variance, exact.at_vertices(part).variance),
+                  1e-6);
       }
       std::vector<SurfacePoint> inside;
-      for (int face = 0; face < tissue.face_count(); face += 97) inside.push_back({face, Vec3(0.2, 0.3, 0.5)});
+      for (int face = 0; face < tissue.face_count(); face += 97)
+        inside.push_back({face, Vec3(0.2, 0.3, 0.5)});
       EXPECT_LT(worst(reduced.at(inside).mean, exact.at(inside).mean), 1e-6);
       EXPECT_LT(worst(reduced.at(inside).variance, exact.at(inside).variance), 1e-6);
       // Hundreds of units of log likelihood.
@@ -74,13 +79,16 @@ TEST(ReducedRank, TakesReadingsInOneByOneAsAllAtOnce) {
   const Surface tissue = plane(30, 60, 0.3);
   Random random(2);
   std::vector<Palpation> readings = scanned(tissue, 500, random);
-  readings[450].noise_variance = 0.04;                                                  // uneven noise
-  for (std::size_t i = 460; i < 500; ++i) readings[i].where = readings[i - 450].where;  // places touched again
+  readings[450].noise_variance = 0.04;  // uneven noise
+  for (std::size_t i = 460; i < 500; ++i)
+    readings[i].where = readings[i - 450].where;  // places touched again
   const Prior prior(tissue, Metric::Chart, kSmooth);
   const Belief exact = Belief(prior, {.noise_sd = 0.01}).condition_on(readings);
-  Belief grown = reduced_from(prior, {.noise_sd = 0.01}).condition_on(std::span(readings).first(400));
+  Belief grown =
+      reduced_from(prior, {.noise_sd = 0.01}).condition_on(std::span(readings).first(400));
   ASSERT_TRUE(grown.reduced_rank());
-  for (std::size_t i = 400; i < readings.size(); i += 5) grown = grown.condition_on(std::span(readings).subspan(i, 5));
+  for (std::size_t i = 400; i < readings.size(); i += 5)
+    grown = grown.condition_on(std::span(readings).subspan(i, 5));
   EXPECT_LT(worst(grown.at_vertices().mean, exact.at_vertices().mean), 1e-6);
   EXPECT_LT(worst(grown.at_vertices().variance, exact.at_vertices().variance), 1e-9);
   EXPECT_NEAR(grown.log_marginal_likelihood(), exact.log_marginal_likelihood(), 1e-4);
@@ -94,13 +102,16 @@ TEST(ReducedRank, LosesLessWithEverySmallerToleranceAndNeverMoreThanItSays) {
   const Marginals exact = Belief(prior, {.noise_sd = 0.03}).condition_on(readings).at_vertices();
   double mean_before = kUnknown, variance_before = kUnknown;
   for (const double tolerance : {1e-9, 1e-10, 1e-11, 1e-12, 1e-13}) {
-    const Belief reduced = reduced_from(prior, {.noise_sd = 0.04}, tolerance).condition_on(readings);
+    const Belief reduced =
+        reduced_from(prior, {.noise_sd = 0.04}, tolerance).condition_on(readings);
     ASSERT_TRUE(reduced.reduced_rank()) << tolerance;
   }
   for (const double tolerance : {8e-10, 1e-10, 1e-11, 1e-12}) {
-    const Belief reduced = reduced_from(prior, {.noise_sd = 0.03}, tolerance).condition_on(readings);
+    const Belief reduced =
+        reduced_from(prior, {.noise_sd = 0.03}, tolerance).condition_on(readings);
     ASSERT_TRUE(reduced.reduced_rank()) << tolerance;
-    const double mean = worst(reduced.at_vertices().mean, exact.mean), variance = worst(reduced.at_vertices().variance, exact.variance);
+    const double mean = worst(reduced.at_vertices().mean, exact.mean),
+                 variance = worst(reduced.at_vertices().variance, exact.variance);
     EXPECT_LT(mean, mean_before);
     EXPECT_LT(variance, variance_before);
     EXPECT_LT(mean, reduced.reduced_rank()->mean_error);
@@ -115,8 +126,11 @@ TEST(ReducedRank, LeavesToTheExactBeliefWhatItCannotDo) {
   Random random(4);
   const std::vector<Palpation> readings = scanned(tissue, 300, random);
   const Prior smooth(tissue, Metric::Chart, kSmooth);
-  // Few readings; readings sharper than the tolerance allows; a kernel so rough that features would be no fewer than readings.
-  EXPECT_FALSE(reduced_from(smooth, {.noise_sd = 0.01}).condition_on(std::span(readings).first(50)).reduced_rank());
+  // Few readings; readings sharper than the tolerance allows; a kernel so rough that features would
+  // be no fewer than readings.
+  EXPECT_FALSE(reduced_from(smooth, {.noise_sd = 0.01})
+                   .condition_on(std::span(readings).first(50))
+                   .reduced_rank());
   EXPECT_FALSE(reduced_from(smooth, {.noise_sd = 1e-4}).condition_on(readings).reduced_rank());
   const Prior rough(tissue, Metric::Chart, {.family = KernelFamily::Matern32, .length_m = 0.005});
   EXPECT_FALSE(reduced_from(rough, {.noise_sd = 0.01}).condition_on(readings).reduced_rank());
@@ -144,9 +158,11 @@ TEST(ReducedRank, CoversPlacesInsideFacesThatTheVerticesDoNot) {
   const std::vector<Palpation> readings = scanned(coarse, 400, random);
   const Prior prior(coarse, Metric::Chart, kSmooth);
   const Belief exact = Belief(prior, {.noise_sd = 0.01}).condition_on(readings);
-  Belief reduced = reduced_from(prior, {.noise_sd = 0.01}).condition_on(std::span(readings).first(300));
+  Belief reduced =
+      reduced_from(prior, {.noise_sd = 0.01}).condition_on(std::span(readings).first(300));
   ASSERT_TRUE(reduced.reduced_rank());
-  for (std::size_t i = 300; i < 400; i += 20) reduced = reduced.condition_on(std::span(readings).subspan(i, 20));
+  for (std::size_t i = 300; i < 400; i += 20)
+    reduced = reduced.condition_on(std::span(readings).subspan(i, 20));
   ASSERT_TRUE(reduced.reduced_rank());
   expect_alike(reduced.at_vertices(), exact.at_vertices(), 1e-6);
 }
@@ -156,7 +172,8 @@ TEST(ReducedRank, StandardizesAsTheExactBeliefDoes) {
   Random random(6);
   const std::vector<Palpation> readings = scanned(tissue, 420, random);
   for (const bool relative : {false, true}) {
-    const BeliefOptions options{.noise_sd = 0.05, .noise_is_relative = relative, .standardize = true};
+    const BeliefOptions options{
+        .noise_sd = 0.05, .noise_is_relative = relative, .standardize = true};
     const Prior prior(tissue, Metric::Chart, kSmooth, {.sd = 1.0});
     const Belief exact = Belief(prior, options).condition_on(readings);
     Belief reduced = reduced_from(prior, options).condition_on(std::span(readings).first(400));

@@ -15,7 +15,8 @@ std::vector<Palpation> readings_in_steps(const Surface& tissue, double step) {
   std::vector<Palpation> readings;
   for (int i = 0; i < 120; ++i) {
     const double reading = 7.0 + (i % 5 == 0 ? 2.0 : 0.0) + 0.1 * random.normal();
-    readings.push_back(touch(tissue, 11 * i, step > 0.0 ? step * std::round(reading / step) : reading));
+    readings.push_back(
+        touch(tissue, 11 * i, step > 0.0 ? step * std::round(reading / step) : reading));
   }
   return readings;
 }
@@ -24,7 +25,9 @@ TEST(RoundingVariance, IsATwelfthOfTheStepSquared) {
   EXPECT_NEAR(rounding_variance(readings_in_steps(plane(41, 41), 0.5)), 0.25 / 12.0, 1e-12);
 }
 
-TEST(RoundingVariance, IsNoneOfReadingsThatHardlyRepeat) { EXPECT_EQ(rounding_variance(readings_in_steps(plane(41, 41), 0.0)), 0.0); }
+TEST(RoundingVariance, IsNoneOfReadingsThatHardlyRepeat) {
+  EXPECT_EQ(rounding_variance(readings_in_steps(plane(41, 41), 0.0)), 0.0);
+}
 
 TEST(RoundingVariance, IsNoneOfReadingsThatAreAllAlike) {
   std::vector<Palpation> alike = readings_in_steps(plane(41, 41), 0.0);
@@ -41,7 +44,8 @@ TEST(RoundingVariance, IsNoneOfTwoPlateausWithoutNoise) {
 TEST(Learn, TakesNoNoiseForLessThanTheStepOfTheReadings) {
   const Surface tissue = plane(41, 41);
   std::vector<Palpation> alike;
-  for (int i = 0; i < 40; ++i) alike.push_back(touch(tissue, 41 * i + 5, i < 20 ? 7.0 : i < 38 ? 7.5 : 8.0));
+  for (int i = 0; i < 40; ++i)
+    alike.push_back(touch(tissue, 41 * i + 5, i < 20 ? 7.0 : i < 38 ? 7.5 : 8.0));
   const Learned learned = learn(Prior(tissue, Metric::Chart, {.length_m = 0.0035}), alike, {}, {});
   EXPECT_GE(learned.values.noise_sd, 0.999 * 0.5 / std::sqrt(12.0));
 }

@@ -12,8 +12,12 @@
 namespace palpation {
 namespace {
 
-/// Counts of a sensor on 30 x 50 mm of tissue with a disk of 8 mm radius, its edge felt by a tip of several millimetres.
-double counts(const Vec3& p) { return 7000.0 + 1500.0 / (1.0 + std::exp(1400.0 * ((p - Vec3(0.012, 0.025, 0.0)).norm() - 0.008))); }
+/// Counts of a sensor on 30 x 50 mm of tissue with a disk of 8 mm radius, its edge felt by a tip of
+/// several millimetres.
+double counts(const Vec3& p) {
+  return 7000.0 +
+         1500.0 / (1.0 + std::exp(1400.0 * ((p - Vec3(0.012, 0.025, 0.0)).norm() - 0.008)));
+}
 
 Surface sheet() {
   Random random(0);
@@ -27,8 +31,10 @@ struct Scan {
   std::vector<double> y_m;
 };
 
-/// Ten rows along y, 3 mm apart, a reading every fifth of a millimetre. `change` is what the sensor makes of a reading.
-Scan scan(const std::function<double(double counts, int row, double y_m)>& change, double step_m = 0.0002, double noise = 0.1) {
+/// Ten rows along y, 3 mm apart, a reading every fifth of a millimetre. `change` is what the sensor
+/// makes of a reading.
+Scan scan(const std::function<double(double counts, int row, double y_m)>& change,
+          double step_m = 0.0002, double noise = 0.1) {
   Scan made;
   Random random(1);
   for (int row = 0; row < 10; ++row) {
@@ -59,11 +65,13 @@ using Found = std::map<std::string, int>;
 Found found_in(const Scan& scan) { return reasons(screened(scan.tissue, scan.palpations)); }
 
 /// Of the readings that satisfy a condition, how many have the reason; and of the others.
-std::pair<int, int> inside_and_outside(const Scan& scan, const std::string& reason, const std::function<bool(int, double)>& condition) {
+std::pair<int, int> inside_and_outside(const Scan& scan, const std::string& reason,
+                                       const std::function<bool(int, double)>& condition) {
   const std::vector<Palpation> result = screened(scan.tissue, scan.palpations);
   std::pair<int, int> counted{0, 0};
   for (std::size_t i = 0; i < result.size(); ++i) {
-    if (result[i].set_aside == reason) ++(condition(scan.row[i], scan.y_m[i]) ? counted.first : counted.second);
+    if (result[i].set_aside == reason)
+      ++(condition(scan.row[i], scan.y_m[i]) ? counted.first : counted.second);
   }
   return counted;
 }
@@ -72,19 +80,28 @@ constexpr int kPerRow = 251;
 
 TEST(Screened, ASoundScanIsLeftAlone) {
   EXPECT_EQ(found_in(scan([](double counts, int, double) { return counts; })), Found{});
-  EXPECT_EQ(found_in(scan([](double counts, int, double) { return counts; }, 0.001, 0.0)), Found{});    // coarse, without noise
-  EXPECT_EQ(found_in(scan([](double counts, int, double) { return counts; }, 0.001, 150.0)), Found{});  // a tenth of the contrast
-  EXPECT_EQ(found_in(scan([](double counts, int row, double y_m) { return counts - 40.0 * row + 6000.0 * y_m; })), Found{});  // tilted
+  EXPECT_EQ(found_in(scan([](double counts, int, double) { return counts; }, 0.001, 0.0)),
+            Found{});  // coarse, without noise
+  EXPECT_EQ(found_in(scan([](double counts, int, double) { return counts; }, 0.001, 150.0)),
+            Found{});  // a tenth of the contrast
+  EXPECT_EQ(found_in(scan([](double counts, int row, double y_m) {
+              return counts - 40.0 * row + 6000.0 * y_m;
+            })),
+            Found{});  // tilted
 }
 
 TEST(Screened, ContactThatFadesIsNoFault) {
-  const Scan faded = scan([](double counts, int row, double) { return 7000.0 - 30.0 * row + (counts - 7000.0) * std::exp(-0.3 * row); });
+  const Scan faded = scan([](double counts, int row, double) {
+    return 7000.0 - 30.0 * row + (counts - 7000.0) * std::exp(-0.3 * row);
+  });
   EXPECT_EQ(found_in(faded), Found{});
 }
 
 TEST(Screened, JammedRowsAreSetAsideThoughTheyAreMost) {
-  const Scan jammed = scan([](double counts, int row, double) { return row >= 3 ? counts + 4000.0 : counts; });
-  const auto [found, wrong] = inside_and_outside(jammed, kJammed, [](int row, double) { return row >= 3; });
+  const Scan jammed =
+      scan([](double counts, int row, double) { return row >= 3 ? counts + 4000.0 : counts; });
+  const auto [found, wrong] =
+      inside_and_outside(jammed, kJammed, [](int row, double) { return row >= 3; });
   EXPECT_EQ(found, 7 * kPerRow);
   EXPECT_EQ(wrong, 0);
 }
@@ -95,7 +112,8 @@ TEST(Screened, ARowThatComesFreeIsSetAsideUpToThere) {
     if (row != 2) return counts;
     return counts + (y_m < 0.020 ? 4000.0 : 4000.0 * std::exp(-(y_m - 0.020) / 0.0006));
   });
-  const auto [found, wrong] = inside_and_outside(jammed, kJammed, [](int row, double y_m) { return row == 2 && y_m < 0.023; });
+  const auto [found, wrong] = inside_and_outside(
+      jammed, kJammed, [](int row, double y_m) { return row == 2 && y_m < 0.023; });
   EXPECT_GE(found, 100);  // the hundred readings of 20 mm
   EXPECT_EQ(wrong, 0);
 }
@@ -104,8 +122,9 @@ TEST(Screened, RowsWithoutContactAreSetAside) {
   const Scan lifted = scan([](double counts, int row, double y_m) {
     return row == 9 || (row == 0 && y_m < 0.0051) ? 3360.0 + 1e-3 * (counts - 7000.0) : counts;
   });
-  const auto [found, wrong] =
-      inside_and_outside(lifted, kNoContact, [](int row, double y_m) { return row == 9 || (row == 0 && y_m < 0.0051); });
+  const auto [found, wrong] = inside_and_outside(lifted, kNoContact, [](int row, double y_m) {
+    return row == 9 || (row == 0 && y_m < 0.0051);
+  });
   EXPECT_EQ(found, kPerRow + 26);
   EXPECT_EQ(wrong, 0);
 }
@@ -116,21 +135,26 @@ TEST(Screened, ASensorThatHangsIsSetAside) {
     const bool hangs = row > 8 || (row == 8 && y_m > 0.030);
     return hangs ? last : last = counts;
   });
-  const auto [found, wrong] = inside_and_outside(hung, kFrozen, [](int row, double y_m) { return row > 8 || (row == 8 && y_m > 0.0297); });
+  const auto [found, wrong] = inside_and_outside(
+      hung, kFrozen, [](int row, double y_m) { return row > 8 || (row == 8 && y_m > 0.0297); });
   EXPECT_GE(found, kPerRow + 99);
   EXPECT_EQ(wrong, 0);
 }
 
 TEST(Screened, TheStartOfRowsIsSetAsideWhereAllBeginAlike) {
-  const Scan waking = scan([](double counts, int, double y_m) { return counts - 400.0 * std::exp(-y_m / 0.001); });
-  const auto [found, wrong] = inside_and_outside(waking, kStartUp, [](int, double y_m) { return y_m <= 0.0030001; });
+  const Scan waking =
+      scan([](double counts, int, double y_m) { return counts - 400.0 * std::exp(-y_m / 0.001); });
+  const auto [found, wrong] =
+      inside_and_outside(waking, kStartUp, [](int, double y_m) { return y_m <= 0.0030001; });
   EXPECT_EQ(found, 10 * 16);
   EXPECT_EQ(wrong, 0);
 }
 
 TEST(Screened, ARowOnAnotherBaseIsSetAside) {
-  const Scan stepped = scan([](double counts, int row, double) { return row == 4 ? counts - 1000.0 : counts; });
-  const auto [found, wrong] = inside_and_outside(stepped, kBaseStep, [](int row, double) { return row == 4; });
+  const Scan stepped =
+      scan([](double counts, int row, double) { return row == 4 ? counts - 1000.0 : counts; });
+  const auto [found, wrong] =
+      inside_and_outside(stepped, kBaseStep, [](int row, double) { return row == 4; });
   EXPECT_EQ(found, kPerRow);
   EXPECT_EQ(wrong, 0);
 }
@@ -154,7 +178,8 @@ TEST(Screened, PokesThatContradictTheirNeighboursAreSetAside) {
   const Surface tissue = sheet();
   std::vector<Palpation> grid = pokes(tissue, 75.0);
   EXPECT_EQ(reasons(screened(tissue, grid)), Found{});
-  const std::vector<std::size_t> slipped = {100, 101, 102, 400};  // three in a row, and one on the disk's edge
+  const std::vector<std::size_t> slipped = {100, 101, 102,
+                                            400};  // three in a row, and one on the disk's edge
   for (std::size_t i : slipped) grid[i].reading += 3500.0;
   const std::vector<Palpation> result = screened(tissue, grid);
   EXPECT_EQ(reasons(result), (Found{{kOutlier, 4}}));
@@ -169,8 +194,10 @@ TEST(Screened, AnOutlierFarBeyondTheContrastDoesNotHideBehindItself) {
     Random random(5);
     for (int i = 0; i < 225; ++i) {
       Palpation palpation;
-      palpation.where = tissue.project(Vec3(0.001 + 0.002 * (i % 15), 0.002 + 0.002 * (i / 15), 0.0));
-      palpation.reading = counts(tissue.position(palpation.where)) + 75.0 * random.normal() + (i == 18 ? far : 0.0);
+      palpation.where =
+          tissue.project(Vec3(0.001 + 0.002 * (i % 15), 0.002 + 0.002 * (i / 15), 0.0));
+      palpation.reading =
+          counts(tissue.position(palpation.where)) + 75.0 * random.normal() + (i == 18 ? far : 0.0);
       few.push_back(palpation);
     }
     const std::vector<Palpation> result = screened(tissue, few);
@@ -195,7 +222,8 @@ TEST(Screened, AStiffPlaceThatWasFeltOnceIsKept) {
   }
 }
 
-// Readings in opposite directions of travel are a lag apart: at the edge they contradict each other, and are right.
+// Readings in opposite directions of travel are a lag apart: at the edge they contradict each
+// other, and are right.
 TEST(Screened, ReadingsOfOppositeTravelAreNotCompared) {
   const Surface tissue = sheet();
   std::vector<Palpation> both;
@@ -231,7 +259,8 @@ TEST(Screened, FewOrConstantReadingsHaveADefinedAnswer) {
   EXPECT_EQ(reasons(screened(tissue, std::span(grid).first(1))), Found{});
   EXPECT_EQ(reasons(screened(tissue, std::span(grid).first(2))), Found{});
   for (Palpation& palpation : grid) palpation.reading = 7000.0;
-  EXPECT_EQ(reasons(screened(tissue, grid)), (Found{{kFrozen, static_cast<int>(grid.size())}}));  // a sensor that is off
+  EXPECT_EQ(reasons(screened(tissue, grid)),
+            (Found{{kFrozen, static_cast<int>(grid.size())}}));  // a sensor that is off
 }
 
 }  // namespace

@@ -21,13 +21,15 @@ TEST(Merge, WeighsReadingsByTheirPrecision) {
   EXPECT_EQ(merged.variance, 0.8);
 }
 
-// The same in any unit: powers of two change no digit, and the least variances there are do not overflow.
+// The same in any unit: powers of two change no digit, and the least variances there are do not
+// overflow.
 TEST(Merge, ScalesWithTheVariances) {
   for (const int exponent : {-1060, -1000, -60, 0, 60, 1000}) {
     const double scale = std::ldexp(1.0, exponent);
     const MergedReading merged = merge(site_of({10.0, 20.0}, {scale, 4.0 * scale}), 0.0);
     EXPECT_EQ(merged.mean, 12.0) << exponent;
-    EXPECT_NEAR(merged.variance / scale, 0.8, exponent < -1022 ? 0.01 : 0.0) << exponent;  // few digits are left in the last one
+    EXPECT_NEAR(merged.variance / scale, 0.8, exponent < -1022 ? 0.01 : 0.0)
+        << exponent;  // few digits are left in the last one
   }
 }
 

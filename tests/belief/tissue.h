@@ -30,7 +30,9 @@ inline std::vector<Palpation> bumpy_readings(const Surface& surface, int count, 
     if (taken[vertex]) continue;
     taken[vertex] = true;
     const Vec3 p = surface.vertex(vertex) - Vec3(0.0115, 0.030, 0.0);
-    palpations.push_back(touch(surface, vertex, 7.0 + 2.0 / (1.0 + std::exp(1400.0 * (p.norm() - 0.00625))) + 0.05 * random.normal()));
+    palpations.push_back(touch(
+        surface, vertex,
+        7.0 + 2.0 / (1.0 + std::exp(1400.0 * (p.norm() - 0.00625))) + 0.05 * random.normal()));
   }
   return palpations;
 }

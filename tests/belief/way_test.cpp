@@ -19,17 +19,22 @@ Palpation on_the_way(const Surface& tissue, const Vec3& place, const Vec3& trave
 TEST(MergedOnTheWay, PutsNeighboursInTheirMiddleWithTheirPrecisionsAddedUp) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> palpations;
-  for (int i = 0; i < 5; ++i) palpations.push_back(on_the_way(tissue, {0.010 + 0.001 * i, 0.02, 0.0}, Vec3::UnitX(), 7.0 + i));
+  for (int i = 0; i < 5; ++i)
+    palpations.push_back(
+        on_the_way(tissue, {0.010 + 0.001 * i, 0.02, 0.0}, Vec3::UnitX(), 7.0 + i));
   palpations[3].noise_variance = 0.02;
-  palpations.push_back(touch(tissue, 400, 8.0));                                        // a stop stays
-  palpations.push_back(on_the_way(tissue, {0.0146, 0.02, 0.0}, Vec3::UnitX(), 1.0));    // so does what comes after it
-  palpations.push_back(on_the_way(tissue, {0.0146, 0.0205, 0.0}, Vec3::UnitY(), 2.0));  // and what goes another way
+  palpations.push_back(touch(tissue, 400, 8.0));  // a stop stays
+  palpations.push_back(
+      on_the_way(tissue, {0.0146, 0.02, 0.0}, Vec3::UnitX(), 1.0));  // so does what comes after it
+  palpations.push_back(
+      on_the_way(tissue, {0.0146, 0.0205, 0.0}, Vec3::UnitY(), 2.0));  // and what goes another way
   const std::vector<Palpation> merged = merged_on_the_way(tissue, palpations, 0.00105, 0.01);
   ASSERT_EQ(merged.size(), 6u);
   EXPECT_NEAR(merged[0].reading, 7.5, 1e-12);
   EXPECT_NEAR(merged[0].noise_variance, 0.005, 1e-12);
   EXPECT_NEAR(tissue.position(merged[0].where).x(), 0.0105, 1e-12);
-  EXPECT_NEAR(merged[1].reading, (9.0 / 0.01 + 10.0 / 0.02) / 150.0, 1e-12);  // twice the noise counts half
+  EXPECT_NEAR(merged[1].reading, (9.0 / 0.01 + 10.0 / 0.02) / 150.0,
+              1e-12);  // twice the noise counts half
   EXPECT_NEAR(tissue.position(merged[1].where).x(), 0.012 + 0.001 / 3.0, 1e-12);
   EXPECT_EQ(merged[2].reading, 11.0);
   EXPECT_EQ(merged[3].reading, 8.0);

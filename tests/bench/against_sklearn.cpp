@@ -1,5 +1,6 @@
-// Our side of against_sklearn.py: does on its tissue what a line on standard input says, with the library as the tool uses it, and answers
-// with CPU seconds and what was found. Never part of ctest; see the script for how to run both.
+// Our side of against_sklearn.py: does on its tissue what a line on standard input says, with the
+// library as the tool uses it, and answers with CPU seconds and what was found. Never part of
+// ctest; see the script for how to run both.
 
 #include <chrono>
 #include <cstdio>
@@ -30,7 +31,9 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Of the process: "VmHWM" at most since it was forgotten, "VmRSS" now.
 double resident_mb(const std::string& which) {
@@ -45,9 +48,11 @@ double resident_mb(const std::string& which) {
 
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-void write(const std::string& path, const Eigen::VectorXd& values, std::ios::openmode mode = std::ios::out) {
+void write(const std::string& path, const Eigen::VectorXd& values,
+           std::ios::openmode mode = std::ios::out) {
   std::ofstream(path, std::ios::binary | mode)
-      .write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * static_cast<long>(sizeof(double))));
+      .write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(values.size() * static_cast<long>(sizeof(double))));
 }
 
 class Bench {
@@ -59,7 +64,8 @@ class Bench {
     const int count = scene_.surface.vertex_count();
     Eigen::VectorXd felt(count), touched(static_cast<Eigen::Index>(scene_.readings.size()));
     for (int vertex = 0; vertex < count; ++vertex) felt[vertex] = scene_.reading(vertex);
-    for (std::size_t i = 0; i < scene_.readings.size(); ++i) touched[static_cast<Eigen::Index>(i)] = scene_.touched[i];
+    for (std::size_t i = 0; i < scene_.readings.size(); ++i)
+      touched[static_cast<Eigen::Index>(i)] = scene_.touched[i];
     const Points2& uv = scene_.surface.chart().uv;
     write(path, Eigen::Map<const Eigen::VectorXd>(uv.data(), uv.size()));
     write(path, felt, std::ios::app);
@@ -72,19 +78,22 @@ class Bench {
     Belief prepared = before;
     if (how == "foreseen") {
       std::vector<SurfacePoint> places;
-      for (const Palpation& palpation : first(n).subspan(before.palpations().size())) places.push_back(palpation.where);
+      for (const Palpation& palpation : first(n).subspan(before.palpations().size()))
+        places.push_back(palpation.where);
       prepared = before.foresee(places);
     }
     last_.reset();
     const double start = cpu_seconds();
-    last_ = std::make_unique<Belief>(prepared.condition_on(first(n).subspan(before.palpations().size())));
+    last_ = std::make_unique<Belief>(
+        prepared.condition_on(first(n).subspan(before.palpations().size())));
     const Batch batch = choose(*last_, Evaluation::Automatic);
     report(cpu_seconds() - start, batch);
   }
 
   void once(int n, const std::string& path) const {
     const double start = cpu_seconds();
-    const Marginals marginals = marginals_once(scene_.blank.prior(), scene_.blank.options(), first(n));
+    const Marginals marginals =
+        marginals_once(scene_.blank.prior(), scene_.blank.options(), first(n));
     const double took = cpu_seconds() - start;
     write(path, marginals.mean);
     write(path, marginals.variance, std::ios::app);
@@ -111,7 +120,8 @@ class Bench {
       took += cpu_seconds() - start;
       felt.clear();
       for (const int vertex : batch.vertices)
-        felt.push_back({.where = scene_.surface.at_vertex(vertex), .reading = scene_.reading(vertex)});
+        felt.push_back(
+            {.where = scene_.surface.at_vertex(vertex), .reading = scene_.reading(vertex)});
       all.vertices.insert(all.vertices.end(), batch.vertices.begin(), batch.vertices.end());
       all.evaluations += batch.evaluations;
     }
@@ -125,14 +135,16 @@ class Bench {
     report(cpu_seconds() - start, batch);
   }
 
-  /// Length, signal and noise by likelihood alone: CPU seconds and the log likelihood reached, then what was learned.
+  /// Length, signal and noise by likelihood alone: CPU seconds and the log likelihood reached, then
+  /// what was learned.
   void learn(int n, const Hyperparameters& start_values) const {
     const Prior& prior = scene_.blank.prior();
     const double start = cpu_seconds();
-    const Hyperparameters found = palpation::learn(prior, first(n), start_values, {.likelihood_alone = true}).values;
+    const Hyperparameters found =
+        palpation::learn(prior, first(n), start_values, {.likelihood_alone = true}).values;
     const double took = cpu_seconds() - start;
-    std::cout << took << " " << log_likelihood(prior, gather_sites(prior, first(n)), found) << " " << found.length_m << " "
-              << found.signal_sd << " " << found.noise_sd << std::endl;
+    std::cout << took << " " << log_likelihood(prior, gather_sites(prior, first(n)), found) << " "
+              << found.length_m << " " << found.signal_sd << " " << found.noise_sd << std::endl;
   }
 
   /// Wall seconds of a step on so many threads.
@@ -154,7 +166,8 @@ class Bench {
     } else {
       Belief belief = scene_.blank.condition_on(first(kInitial));
       for (int known = kInitial; known < n; known += kBatch) {
-        belief = belief.condition_on(first(known + kBatch).subspan(static_cast<std::size_t>(known)));
+        belief =
+            belief.condition_on(first(known + kBatch).subspan(static_cast<std::size_t>(known)));
       }
       choose(belief, Evaluation::Automatic);
     }
@@ -163,7 +176,9 @@ class Bench {
   }
 
  private:
-  std::span<const Palpation> first(int n) const { return std::span(scene_.readings).first(static_cast<std::size_t>(n)); }
+  std::span<const Palpation> first(int n) const {
+    return std::span(scene_.readings).first(static_cast<std::size_t>(n));
+  }
 
   /// A belief of the first n readings, grown as in a run.
   const Belief& known(int n) {
@@ -178,7 +193,8 @@ class Bench {
   }
 
   Batch choose(const Belief& belief, Evaluation evaluation) const {
-    return choose_batch(belief, ils_ucb(0.5), kLevel, scene_.everywhere, {.size = kBatch, .evaluation = evaluation});
+    return choose_batch(belief, ils_ucb(0.5), kLevel, scene_.everywhere,
+                        {.size = kBatch, .evaluation = evaluation});
   }
 
   static void report(double seconds, const Batch& batch) {
@@ -200,7 +216,8 @@ double read_bandwidth(long bytes) {
     constexpr double kWeights[] = {1.0};
     alignas(64) double sums[2 * kLanes] = {};
     const double start = cpu_seconds();
-    for (std::size_t i = 0; i + 512 <= values.size(); i += 512) add_sums(values.data() + i, 512 / kLanes, kWeights, 0, 0, sums);
+    for (std::size_t i = 0; i + 512 <= values.size(); i += 512)
+      add_sums(values.data() + i, 512 / kLanes, kWeights, 0, 0, sums);
     best = std::max(best, static_cast<double>(bytes) / (cpu_seconds() - start));
   }
   return best;

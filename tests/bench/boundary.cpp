@@ -1,7 +1,9 @@
-// What each step after a belief costs, from the level set on: loops and area, Booleans, the edge's own belief, a tour; and, before it, to
-// learn hyperparameters, a surface, a chart. Never part of ctest. Arguments: vertices along a side, or corners, or readings, or stops.
+// What each step after a belief costs, from the level set on: loops and area, Booleans, the edge's
+// own belief, a tour; and, before it, to learn hyperparameters, a surface, a chart. Never part of
+// ctest. Arguments: vertices along a side, or corners, or readings, or stops.
 //
-//   cmake --build build/release --target bench_boundary && taskset -c 1 build/release/bin/bench_boundary --benchmark_repetitions=5
+//   cmake --build build/release --target bench_boundary && taskset -c 1
+//   build/release/bin/bench_boundary --benchmark_repetitions=5
 
 #include <benchmark/benchmark.h>
 
@@ -25,7 +27,10 @@ const Scene& scene() {
   return one;
 }
 
-Belief belief_of(int readings) { return scene().blank.condition_on(std::span(scene().readings).first(static_cast<std::size_t>(readings))); }
+Belief belief_of(int readings) {
+  return scene().blank.condition_on(
+      std::span(scene().readings).first(static_cast<std::size_t>(readings)));
+}
 
 void LoopsAndArea(benchmark::State& state) {
   const Field mean = belief_of(205).at_vertices().mean;
@@ -38,14 +43,16 @@ void LoopsAndArea(benchmark::State& state) {
 
 void LevelSetRegion(benchmark::State& state) {
   const Field mean = belief_of(205).at_vertices().mean;
-  for (auto _ : state) benchmark::DoNotOptimize(superlevel_region(scene().surface, mean, kLevel.value).area());
+  for (auto _ : state)
+    benchmark::DoNotOptimize(superlevel_region(scene().surface, mean, kLevel.value).area());
 }
 
 /// A disk with a wave around its rim, about as wide as a tumour.
 Region rippled_disk(int corners, double x_m) {
   PolygonWithHoles disk;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / corners, radius_m = 0.00625 + 0.0002 * std::sin(9.0 * angle);
+    const double angle = 2.0 * std::numbers::pi * i / corners,
+                 radius_m = 0.00625 + 0.0002 * std::sin(9.0 * angle);
     disk.outer.emplace_back(x_m + radius_m * std::cos(angle), 0.030 + radius_m * std::sin(angle));
   }
   return Region(std::span(&disk, 1));
@@ -74,7 +81,9 @@ void Edge(benchmark::State& state) {
   const Belief belief = belief_of(static_cast<int>(state.range(0)));
   const Marginals marginals = belief.at_vertices();
   const double first_levels[] = {kLevel.value};
-  for (auto _ : state) benchmark::DoNotOptimize(EdgeBelief::around(belief, marginals, first_levels, 0.5, {}, 0.0)->level().value);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        EdgeBelief::around(belief, marginals, first_levels, 0.5, {}, 0.0)->level().value);
 }
 
 void Tour(benchmark::State& state) {
@@ -82,7 +91,8 @@ void Tour(benchmark::State& state) {
   Random random(3);
   Eigen::MatrixXd places(2, stops + 1), distance(stops + 1, stops + 1);
   for (double& coordinate : places.reshaped()) coordinate = random.uniform();
-  for (Eigen::Index i = 0; i <= stops; ++i) distance.col(i) = (places.colwise() - places.col(i)).colwise().norm().transpose();
+  for (Eigen::Index i = 0; i <= stops; ++i)
+    distance.col(i) = (places.colwise() - places.col(i)).colwise().norm().transpose();
   for (auto _ : state) benchmark::DoNotOptimize(shortest_tour(distance).data());
 }
 
@@ -93,7 +103,8 @@ void MakeSurface(benchmark::State& state) {
 
 void ChartOfADome(benchmark::State& state) {
   Random random(3);
-  const TriangleMesh mesh = make_phantom(dome_sheet(), static_cast<double>(state.range(0)) * 1e-6, 0.2, random).mesh;
+  const TriangleMesh mesh =
+      make_phantom(dome_sheet(), static_cast<double>(state.range(0)) * 1e-6, 0.2, random).mesh;
   for (auto _ : state) benchmark::DoNotOptimize(Surface(mesh).chart().uv.data());
 }
 

@@ -1,7 +1,9 @@
-// What each step of planning costs on a jittered plane: to build a belief, to grow it by ten readings, to choose ten places, to ask once.
-// Never part of ctest. Arguments of each: vertices along a side, readings known.
+// What each step of planning costs on a jittered plane: to build a belief, to grow it by ten
+// readings, to choose ten places, to ask once. Never part of ctest. Arguments of each: vertices
+// along a side, readings known.
 //
-//   cmake --build build/release --target bench_engine && taskset -c 1 build/release/bin/bench_engine --benchmark_filter='Update'
+//   cmake --build build/release --target bench_engine && taskset -c 1
+//   build/release/bin/bench_engine --benchmark_filter='Update'
 
 #include <benchmark/benchmark.h>
 
@@ -32,7 +34,8 @@ std::span<const Palpation> first(const Scene& tissue, int count) {
 void Build(benchmark::State& state) {
   const Scene& tissue = scene(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    const Belief belief = tissue.blank.condition_on(first(tissue, static_cast<int>(state.range(1))));
+    const Belief belief =
+        tissue.blank.condition_on(first(tissue, static_cast<int>(state.range(1))));
     benchmark::DoNotOptimize(&belief);
   }
 }
@@ -42,7 +45,8 @@ void Update(benchmark::State& state) {
   const int count = static_cast<int>(state.range(1));
   Belief before = tissue.blank.condition_on(first(tissue, 5));
   for (int known = 5; known + kBatch < count; known += kBatch) {
-    before = before.condition_on(first(tissue, known + kBatch).subspan(static_cast<std::size_t>(known)));
+    before =
+        before.condition_on(first(tissue, known + kBatch).subspan(static_cast<std::size_t>(known)));
   }
   const auto more = first(tissue, count).subspan(before.palpations().size());
   for (auto _ : state) {
@@ -62,24 +66,34 @@ void Choose(benchmark::State& state, Evaluation evaluation) {
   const Belief belief = tissue.blank.condition_on(first(tissue, static_cast<int>(state.range(1))));
   Batch batch;
   for (auto _ : state) {
-    batch = choose_batch(belief, ils_ucb(0.5), kLevel, tissue.everywhere, {.size = kBatch, .evaluation = evaluation});
+    batch = choose_batch(belief, ils_ucb(0.5), kLevel, tissue.everywhere,
+                         {.size = kBatch, .evaluation = evaluation});
   }
-  state.counters["evaluated"] = static_cast<double>(batch.evaluations) / (kBatch * static_cast<double>(tissue.everywhere.size()));
+  state.counters["evaluated"] = static_cast<double>(batch.evaluations) /
+                                (kBatch * static_cast<double>(tissue.everywhere.size()));
 }
 
 void At(benchmark::State& state) {
   const Scene& tissue = scene(static_cast<int>(state.range(0)));
   const Belief belief = tissue.blank.condition_on(first(tissue, static_cast<int>(state.range(1))));
   std::vector<SurfacePoint> points;
-  for (int vertex = 0; vertex < tissue.surface.vertex_count(); vertex += 40) points.push_back(tissue.surface.at_vertex(vertex));
+  for (int vertex = 0; vertex < tissue.surface.vertex_count(); vertex += 40)
+    points.push_back(tissue.surface.at_vertex(vertex));
   for (auto _ : state) benchmark::DoNotOptimize(belief.at(points).mean.data());
 }
 
 BENCHMARK(Build)->Args({200, 105})->Args({200, 205})->Unit(benchmark::kMillisecond)->MinTime(0.5);
 BENCHMARK(Update)->Args({200, 105})->Args({200, 205})->Unit(benchmark::kMillisecond)->MinTime(0.5);
 BENCHMARK(Marginals_)->Args({200, 205})->Unit(benchmark::kMillisecond)->MinTime(0.2);
-BENCHMARK_CAPTURE(Choose, lazy, Evaluation::Lazy)->Args({200, 105})->Args({200, 205})->Unit(benchmark::kMillisecond)->MinTime(0.3);
-BENCHMARK_CAPTURE(Choose, exhaustive, Evaluation::Exhaustive)->Args({200, 205})->Unit(benchmark::kMillisecond)->MinTime(0.1);
+BENCHMARK_CAPTURE(Choose, lazy, Evaluation::Lazy)
+    ->Args({200, 105})
+    ->Args({200, 205})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.3);
+BENCHMARK_CAPTURE(Choose, exhaustive, Evaluation::Exhaustive)
+    ->Args({200, 205})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.1);
 BENCHMARK(At)->Args({200, 205})->Unit(benchmark::kMillisecond)->MinTime(0.1);
 
 }  // namespace

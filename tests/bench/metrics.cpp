@@ -1,7 +1,9 @@
-// What the intrinsic metric costs beside the ambient one: to make it ready, and for one planning iteration of ten picks after 95 readings,
-// with the hyperparameters fixed and with them learned. Never part of ctest.
+// What the intrinsic metric costs beside the ambient one: to make it ready, and for one planning
+// iteration of ten picks after 95 readings, with the hyperparameters fixed and with them learned.
+// Never part of ctest.
 //
-//   cmake --build build/release --target bench_metrics && build/release/bin/bench_metrics [vertices along a side] [threads]
+//   cmake --build build/release --target bench_metrics && build/release/bin/bench_metrics [vertices
+//   along a side] [threads]
 
 #include <chrono>
 #include <cmath>
@@ -18,7 +20,9 @@ using namespace palpation;
 
 namespace {
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 std::vector<Palpation> readings_on(const Surface& surface, int count) {
   Random random(7);
@@ -28,7 +32,8 @@ std::vector<Palpation> readings_on(const Surface& surface, int count) {
     const int vertex = random.below(surface.vertex_count());
     palpation.where = surface.at_vertex(vertex);
     const double distance_m = (surface.vertex(vertex) - Vec3(0.0115, 0.030, 0.0)).norm();
-    palpation.reading = 7.0 + 2.0 / (1.0 + std::exp(1400.0 * (distance_m - 0.00625))) + 0.1 * random.normal();
+    palpation.reading =
+        7.0 + 2.0 / (1.0 + std::exp(1400.0 * (distance_m - 0.00625))) + 0.1 * random.normal();
     readings.push_back(palpation);
   }
   return readings;
@@ -37,7 +42,8 @@ std::vector<Palpation> readings_on(const Surface& surface, int count) {
 void measure(const char* name, const Surface& surface, Metric metric, bool learned) {
   constexpr double kLength_m = 0.0033;
   const double start = seconds();
-  const Prior prior(surface, metric, {.length_m = kLength_m}, {}, {}, learned ? lengths_to_learn(0.0035) : LengthRange{});
+  const Prior prior(surface, metric, {.length_m = kLength_m}, {}, {},
+                    learned ? lengths_to_learn(0.0035) : LengthRange{});
   const Field variance = prior.raw_variance();
   const double ready = seconds();
   const std::vector<Palpation> readings = readings_on(surface, 105);
@@ -60,9 +66,12 @@ void measure(const char* name, const Surface& surface, Metric metric, bool learn
   const double conditioned = seconds();
   const Batch batch = choose_batch(after, ucb(0.5), {}, candidates, {.size = 10});
   const double done = seconds();
-  std::printf("%-22s rank %4d  ready %5.2f s  condition %6.1f ms  choose %6.1f ms  (first pick %d, raw variance %.3f to %.3f)\n", name,
-              metric == Metric::Intrinsic ? prior.spectrum().rank() : 0, ready - start, 1e3 * (conditioned - started),
-              1e3 * (done - conditioned), batch.vertices.front(), variance.minCoeff(), variance.maxCoeff());
+  std::printf(
+      "%-22s rank %4d  ready %5.2f s  condition %6.1f ms  choose %6.1f ms  (first pick %d, raw "
+      "variance %.3f to %.3f)\n",
+      name, metric == Metric::Intrinsic ? prior.spectrum().rank() : 0, ready - start,
+      1e3 * (conditioned - started), 1e3 * (done - conditioned), batch.vertices.front(),
+      variance.minCoeff(), variance.maxCoeff());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// The tissue that the benchmarks ask about: a jittered plane of 25 x 50 mm with one round tumour, and a robot's noisy readings on it.
+/// The tissue that the benchmarks ask about: a jittered plane of 25 x 50 mm with one round tumour,
+/// and a robot's noisy readings on it.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,9 @@ inline const Level kLevel{0.5, 0.0};
 
 struct Scene {
   explicit Scene(int side, int reading_count = 205)
-      : surface(plane(side)), blank(Prior(surface, Metric::Chart, {.length_m = kLength_m}, {.sd = 0.0}), {.noise_sd = kNoiseSd}) {
+      : surface(plane(side)),
+        blank(Prior(surface, Metric::Chart, {.length_m = kLength_m}, {.sd = 0.0}),
+              {.noise_sd = kNoiseSd}) {
     Random random(7);
     noise.resize(static_cast<std::size_t>(surface.vertex_count()));
     for (double& one : noise) one = kNoiseSd * random.normal();

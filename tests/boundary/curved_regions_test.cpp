@@ -34,7 +34,8 @@ Field waves(const Surface& surface, std::uint64_t seed) {
   for (int wave = 0; wave < 4; ++wave) {
     const Vec3 along(9.0 * random.normal(), 9.0 * random.normal(), 3.0 * random.normal());
     const double phase = 6.0 * random.uniform();
-    for (int v = 0; v < surface.vertex_count(); ++v) field[v] += std::sin(along.dot(surface.vertex(v)) + phase);
+    for (int v = 0; v < surface.vertex_count(); ++v)
+      field[v] += std::sin(along.dot(surface.vertex(v)) + phase);
   }
   return field;
 }
@@ -54,10 +55,13 @@ TEST(CurvedRegion, HasTheAreaOfItsTriangles) {
     const Field field = waves(surface, seed);
     for (const double level : {-1.0, 0.0, 0.7}) {
       const Region region = superlevel_region(surface, field, level);
-      EXPECT_NEAR(surface_area(surface, region), superlevel_area(surface, field, level), 1e-13 * 200);  // rounding, 392 faces
+      EXPECT_NEAR(surface_area(surface, region), superlevel_area(surface, field, level),
+                  1e-13 * 200);  // rounding, 392 faces
     }
   }
-  EXPECT_NEAR(surface_area(surface, superlevel_region(surface, Field::Zero(surface.vertex_count()), 0.0)), surface.area(), 1e-13);
+  EXPECT_NEAR(
+      surface_area(surface, superlevel_region(surface, Field::Zero(surface.vertex_count()), 0.0)),
+      surface.area(), 1e-13);
   EXPECT_EQ(surface_area(surface, Region()), 0.0);
 }
 
@@ -65,7 +69,8 @@ TEST(CurvedRegion, HasTheAreaOfItsTriangles) {
 TEST(CurvedRegion, HasTheAreaOfItsTrianglesWhereItsBoundaryRunsAlongEdges) {
   const Surface surface = dome(8);
   Field field(surface.vertex_count());
-  for (int v = 0; v < surface.vertex_count(); ++v) field[v] = v % 9 < 4 ? 0.0 : (v % 9 == 4 ? 1.0 : 2.0);
+  for (int v = 0; v < surface.vertex_count(); ++v)
+    field[v] = v % 9 < 4 ? 0.0 : (v % 9 == 4 ? 1.0 : 2.0);
   const Region region = superlevel_region(surface, field, 1.0);
   EXPECT_NEAR(surface_area(surface, region), superlevel_area(surface, field, 1.0), 1e-13);
 }
@@ -78,19 +83,22 @@ TEST(CurvedRegion, CountsNothingBesideTheTissue) {
 
 TEST(CurvedRegionError, AddsUpToTheAreasOnTheTissue) {
   const Surface surface = dome(12);
-  const Region a = superlevel_region(surface, waves(surface, 1), 0.3), b = superlevel_region(surface, waves(surface, 2), 0.1);
+  const Region a = superlevel_region(surface, waves(surface, 1), 0.3),
+               b = superlevel_region(surface, waves(surface, 2), 0.1);
   const RegionError error = compare(surface, a, b);
-  EXPECT_NEAR(error.missed_m2 - error.extra_m2, surface_area(surface, b) - surface_area(surface, a), 1e-12);
+  EXPECT_NEAR(error.missed_m2 - error.extra_m2, surface_area(surface, b) - surface_area(surface, a),
+              1e-12);
   const double both = surface_area(surface, intersect(a, b));
-  EXPECT_NEAR(error.dice, 2.0 * both / (surface_area(surface, a) + surface_area(surface, b)), 1e-12);
+  EXPECT_NEAR(error.dice, 2.0 * both / (surface_area(surface, a) + surface_area(surface, b)),
+              1e-12);
 }
 
 TEST(CurvedRegionError, IsTheSameByPolygonsAndFaceByFace) {
   for (const Surface& surface : {dome(12), zoo::jittered_square(12, 4)}) {
     for (const std::uint64_t seed : {1, 5, 9}) {
       const Superlevel a{waves(surface, seed), 0.2}, b{waves(surface, seed + 1), -0.1};
-      const RegionError by_polygons =
-          compare(surface, superlevel_region(surface, a.field, a.level), superlevel_region(surface, b.field, b.level));
+      const RegionError by_polygons = compare(surface, superlevel_region(surface, a.field, a.level),
+                                              superlevel_region(surface, b.field, b.level));
       const RegionError by_faces = compare(surface, a, b);
       EXPECT_NEAR(by_faces.missed_m2, by_polygons.missed_m2, 1e-12);
       EXPECT_NEAR(by_faces.extra_m2, by_polygons.extra_m2, 1e-12);
@@ -103,14 +111,16 @@ TEST(SuperlevelError, NeedsNoChart) {
   const Surface ball(zoo::icosphere_mesh(2));
   const Field height = ball.mesh().vertices.col(2), side = ball.mesh().vertices.col(0);
   const RegionError error = compare(ball, {height, 0.1}, {side, -0.2});
-  EXPECT_NEAR(error.extra_m2 - error.missed_m2, superlevel_area(ball, height, 0.1) - superlevel_area(ball, side, -0.2), 1e-13);
+  EXPECT_NEAR(error.extra_m2 - error.missed_m2,
+              superlevel_area(ball, height, 0.1) - superlevel_area(ball, side, -0.2), 1e-13);
   EXPECT_GT(error.dice, 0.4);
   const RegionError same = compare(ball, {height, 0.1}, {height, 0.1});
   EXPECT_NEAR(same.symmetric_difference_m2, 0.0, 1e-15);  // rounding
   EXPECT_NEAR(same.dice, 1.0, 1e-15);
   EXPECT_EQ(compare(ball, {height, 5.0}, {side, 5.0}).dice, 1.0) << "both are empty";
   const Field level = Field::Constant(ball.vertex_count(), 1.0);
-  EXPECT_EQ(compare(ball, {level, 1.0}, {level, 1.0}).symmetric_difference_m2, 0.0) << "all of it is at the level, thus inside";
+  EXPECT_EQ(compare(ball, {level, 1.0}, {level, 1.0}).symmetric_difference_m2, 0.0)
+      << "all of it is at the level, thus inside";
 }
 
 // Two caps around the top of the dome, their borders 0.1 apart along every meridian.
@@ -118,18 +128,21 @@ TEST(CurvedRegionError, MeasuresDistancesAlongTheSurface) {
   const Surface surface = dome(40);
   EXPECT_GT(surface.chart().distortion.greatest_stretch, 1.05);
   const Field depth = depth_below_top(surface);
-  const RegionError error = compare(surface, superlevel_region(surface, depth, -0.35), superlevel_region(surface, depth, -0.25));
-  // Edges are 0.025 to 0.06 long: boundaries are chords, off their circles by up to 0.06^2 / (8 x 0.25).
+  const RegionError error = compare(surface, superlevel_region(surface, depth, -0.35),
+                                    superlevel_region(surface, depth, -0.25));
+  // Edges are 0.025 to 0.06 long: boundaries are chords, off their circles by up to 0.06^2 / (8 x
+  // 0.25).
   EXPECT_NEAR(error.mean_distance_m.value(), 0.1, 5e-4);
   EXPECT_NEAR(error.hausdorff_m.value(), 0.1, 3e-3);
   // In the chart itself it is more than 2 % off somewhere.
-  const double sphere_ring = 2.0 * std::numbers::pi * kRadius * kRadius * (std::cos(0.25 / kRadius) - std::cos(0.35 / kRadius));
+  const double sphere_ring = 2.0 * std::numbers::pi * kRadius * kRadius *
+                             (std::cos(0.25 / kRadius) - std::cos(0.35 / kRadius));
   EXPECT_NEAR(error.extra_m2, sphere_ring, 2e-3 * sphere_ring);
   EXPECT_EQ(error.missed_m2, 0.0);
 }
 
-// The slow twin: exact geodesics from the corners of one boundary to the vertices of the mesh, where the other boundary runs along
-// vertices.
+// The slow twin: exact geodesics from the corners of one boundary to the vertices of the mesh,
+// where the other boundary runs along vertices.
 TEST(CurvedRegionError, AgreesWithExactGeodesics) {
   const Surface surface = dome(16);
   const int columns = 17;
@@ -138,19 +151,23 @@ TEST(CurvedRegionError, AgreesWithExactGeodesics) {
     left[v] = v % columns <= 3 ? 1.0 : 0.0;
     patch[v] = v % columns <= 7 ? 1.0 : 0.0;
   }
-  // At level 1 the boundaries run along the columns 3 and 7 of vertices, and along the tissue's border.
-  const RegionError error = compare(surface, superlevel_region(surface, left, 1.0), superlevel_region(surface, patch, 1.0));
+  // At level 1 the boundaries run along the columns 3 and 7 of vertices, and along the tissue's
+  // border.
+  const RegionError error = compare(surface, superlevel_region(surface, left, 1.0),
+                                    superlevel_region(surface, patch, 1.0));
   std::vector<SurfacePoint> boundary;
   for (int v = 0; v < surface.vertex_count(); ++v) {
     const int column = v % columns, row = v / columns;
-    if (column <= 3 && (column == 0 || column == 3 || row == 0 || row == 16)) boundary.push_back(surface.at_vertex(v));
+    if (column <= 3 && (column == 0 || column == 3 || row == 0 || row == 16))
+      boundary.push_back(surface.at_vertex(v));
   }
   const Field distance = distance_from(surface, boundary);
   double greatest = 0.0;
   for (int v = 0; v < surface.vertex_count(); ++v) {
     if (v % columns == 7) greatest = std::max(greatest, distance[v]);
   }
-  EXPECT_NEAR(error.hausdorff_m.value(), greatest, 0.01 * greatest);  // the nearest place may lie between vertices, which is nearer
+  EXPECT_NEAR(error.hausdorff_m.value(), greatest,
+              0.01 * greatest);  // the nearest place may lie between vertices, which is nearer
 }
 
 }  // namespace

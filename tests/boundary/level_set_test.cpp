@@ -58,7 +58,8 @@ bool share_a_face(const Surface& surface, const SurfacePoint& a, const SurfacePo
   return false;
 }
 
-/// Length of the level line by marching over the triangles, sharing nothing with the library: each crossed triangle gives one piece.
+/// Length of the level line by marching over the triangles, sharing nothing with the library: each
+/// crossed triangle gives one piece.
 double marched_length(const Surface& surface, const Field& field, double level) {
   double sum = 0.0;
   for (int face = 0; face < surface.face_count(); ++face) {
@@ -79,7 +80,8 @@ double inner_length(const Surface& surface, const std::vector<LevelLoop>& loops)
   double sum = 0.0;
   for (const LevelLoop& loop : loops) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      const Vec3 step = surface.position(loop.points[(i + 1) % loop.points.size()]) - surface.position(loop.points[i]);
+      const Vec3 step = surface.position(loop.points[(i + 1) % loop.points.size()]) -
+                        surface.position(loop.points[i]);
       if (!loop.on_border[i]) sum += step.norm();
     }
   }
@@ -97,7 +99,8 @@ std::string refusal(const Surface& surface, const Field& field, double level) {
 
 TEST(SuperlevelRegion, TakesTheTissueOnTheHighSide) {
   const Surface square = unit_square(9);
-  const Region stiff = superlevel_region(square, field_of(square, [](const Vec3& p) { return p.x(); }), 0.75);
+  const Region stiff =
+      superlevel_region(square, field_of(square, [](const Vec3& p) { return p.x(); }), 0.75);
   EXPECT_NEAR(stiff.area(), 0.25, 1e-12);
   EXPECT_TRUE(stiff.contains({0.9, 0.5}));
 }
@@ -109,17 +112,20 @@ TEST(SuperlevelRegion, KeepsTheHolesOfTheTissue) {
   EXPECT_EQ(whole.polygons()[0].holes.size(), 1u);
   EXPECT_NEAR(whole.area(), 8.0 / 9.0, 1e-15);
   // Left of x = 1/2: the line meets both borders.
-  const Region left = superlevel_region(ring, field_of(ring, [](const Vec3& p) { return -p.x(); }), -0.5);
+  const Region left =
+      superlevel_region(ring, field_of(ring, [](const Vec3& p) { return -p.x(); }), -0.5);
   EXPECT_NEAR(left.area(), 4.0 / 9.0, 1e-15);
 }
 
-// Area of a disk of radius 0.3 from a field that is linear between vertices: the chord is off by a second-order term.
+// Area of a disk of radius 0.3 from a field that is linear between vertices: the chord is off by a
+// second-order term.
 TEST(SuperlevelRegion, OfADiskConvergesWithTheSquareOfTheCellSize) {
   const double exact_area = std::numbers::pi * 0.09;
   double coarsest = 0.0;
   for (const int cells : {20, 40, 80, 160}) {
     const Surface square = unit_square(cells, 0.2, 7);
-    const Field field = field_of(square, [](const Vec3& p) { return 0.3 - std::hypot(p.x() - 0.51, p.y() - 0.47); });
+    const Field field = field_of(
+        square, [](const Vec3& p) { return 0.3 - std::hypot(p.x() - 0.51, p.y() - 0.47); });
     const double error = std::abs(superlevel_region(square, field, 0.0).area() - exact_area);
     if (cells == 20) coarsest = error;
     // Four times less at each halving; a fifth of slack for where the cells happen to lie.
@@ -128,15 +134,18 @@ TEST(SuperlevelRegion, OfADiskConvergesWithTheSquareOfTheCellSize) {
   }
 }
 
-// Both areas are sums of the same triangles' parts, rounded differently: about a thousand terms of at most 1e-3, each to 1e-16.
+// Both areas are sums of the same triangles' parts, rounded differently: about a thousand terms of
+// at most 1e-3, each to 1e-16.
 TEST(SuperlevelRegion, HasTheAreaOfItsTrianglesForAnyField) {
   Random random(3);
   for (int trial = 0; trial < 24; ++trial) {
     const Surface square = unit_square(12 + trial, 0.4, 100 + trial);
-    for (const Field& field : {smooth_field(square, random), rough_field(square, random), stepped_field(square, random)}) {
+    for (const Field& field : {smooth_field(square, random), rough_field(square, random),
+                               stepped_field(square, random)}) {
       for (const double level : {-0.7, 0.0, 1.0}) {
         const Region region = superlevel_region(square, field, level);
-        EXPECT_NEAR(surface_area(square, region), superlevel_area(square, field, level), 1e-13) << "trial " << trial << ", level " << level;
+        EXPECT_NEAR(surface_area(square, region), superlevel_area(square, field, level), 1e-13)
+            << "trial " << trial << ", level " << level;
       }
     }
   }
@@ -149,7 +158,8 @@ TEST(SuperlevelRegion, AndThatOfTheMirroredFieldShareTheTissue) {
     const Field field = trial % 2 == 0 ? smooth_field(square, random) : rough_field(square, random);
     const Region above = superlevel_region(square, field, 0.25);
     const Region below = superlevel_region(square, -field, -0.25);
-    // The two round the same points of the level line on their own, at most an ulp apart, along a line no longer than 100.
+    // The two round the same points of the level line on their own, at most an ulp apart, along a
+    // line no longer than 100.
     EXPECT_LT(intersect(above, below).area(), 1e-13);
     EXPECT_NEAR(unite(above, below).area(), 1.0, 1e-13);
   }
@@ -157,8 +167,10 @@ TEST(SuperlevelRegion, AndThatOfTheMirroredFieldShareTheTissue) {
 
 TEST(LevelLoops, RunWithTheInsideOnTheirLeft) {
   const Surface square = unit_square(40, 0.2);
-  const Field field = field_of(square, [](const Vec3& p) { return -std::abs(std::hypot(p.x() - 0.5, p.y() - 0.5) - 0.3); });
-  const std::vector<LevelLoop> loops = level_loops(square, field, -0.1);  // between the radii 0.2 and 0.4
+  const Field field = field_of(
+      square, [](const Vec3& p) { return -std::abs(std::hypot(p.x() - 0.5, p.y() - 0.5) - 0.3); });
+  const std::vector<LevelLoop> loops =
+      level_loops(square, field, -0.1);  // between the radii 0.2 and 0.4
   ASSERT_EQ(loops.size(), 2u);
   // Second order in a cell of 1/40.
   EXPECT_NEAR(enclosed(square, loops[0]), std::numbers::pi * 0.16, 1e-3);
@@ -188,8 +200,11 @@ TEST(LevelLoops, AreAtTheLevelOrOnTheBorderAndStepWithinFaces) {
           EXPECT_NEAR(square.interpolate(field, here), level, 1e-14);
           continue;
         }
-        const Vec3 middle = 0.5 * (square.position(here) + square.position(loop.points[(i + 1) % count]));
-        EXPECT_TRUE(middle.x() == 0.0 || middle.x() == 1.0 || middle.y() == 0.0 || middle.y() == 1.0) << middle.transpose();
+        const Vec3 middle =
+            0.5 * (square.position(here) + square.position(loop.points[(i + 1) % count]));
+        EXPECT_TRUE(middle.x() == 0.0 || middle.x() == 1.0 || middle.y() == 0.0 ||
+                    middle.y() == 1.0)
+            << middle.transpose();
         EXPECT_GE(square.interpolate(field, here), level - 1e-14);
       }
     }
@@ -202,7 +217,9 @@ TEST(LevelLoops, HaveTheLengthOfTheMarchedLine) {
     const Surface square = unit_square(25, 0.4, 50 + trial);
     const Field field = trial % 2 == 0 ? smooth_field(square, random) : rough_field(square, random);
     // A thousand pieces, lengths below 100 in all.
-    EXPECT_NEAR(inner_length(square, level_loops(square, field, 0.1)), marched_length(square, field, 0.1), 1e-12) << "trial " << trial;
+    EXPECT_NEAR(inner_length(square, level_loops(square, field, 0.1)),
+                marched_length(square, field, 0.1), 1e-12)
+        << "trial " << trial;
   }
 }
 
@@ -215,21 +232,26 @@ TEST(LevelLoops, OnAClosedSurfaceNeedNoBorder) {
   EXPECT_NEAR(enclosed(solid, loops[0]), 0.5, 1e-15);  // a square of diagonal 1, seen from above
   EXPECT_NEAR(superlevel_area(solid, height, 0.5), solid.area() / 8.0, 1e-15);
   EXPECT_TRUE(level_loops(solid, height, -2.0).empty());
-  EXPECT_NEAR(superlevel_area(solid, height, -2.0), solid.area(), 1e-14);  // eight faces, summed in two ways
+  EXPECT_NEAR(superlevel_area(solid, height, -2.0), solid.area(),
+              1e-14);  // eight faces, summed in two ways
 }
 
 TEST(LevelLoops, RefuseWhatIsNoFieldOfTheSurface) {
   const Surface square = unit_square(2);
   Field field = Field::Zero(9);
-  EXPECT_NE(refusal(square, Field::Zero(8), 0.0).find("must have one for each of the 9 vertices"), std::string::npos);
-  EXPECT_NE(refusal(square, field, std::numeric_limits<double>::quiet_NaN()).find("the level nan"), std::string::npos);
+  EXPECT_NE(refusal(square, Field::Zero(8), 0.0).find("must have one for each of the 9 vertices"),
+            std::string::npos);
+  EXPECT_NE(refusal(square, field, std::numeric_limits<double>::quiet_NaN()).find("the level nan"),
+            std::string::npos);
   field[4] = std::numeric_limits<double>::infinity();
   EXPECT_NE(refusal(square, field, 0.0).find("at vertex 4"), std::string::npos);
   EXPECT_THROW(superlevel_area(square, field, 0.0), InvalidInput);
   EXPECT_THROW(superlevel_region(square, field, 0.0), InvalidInput);
 }
 
-TEST(SuperlevelRegion, RefusesASurfaceWithoutAChart) { EXPECT_THROW(superlevel_region(octahedron(), Field::Zero(6), 0.5), InvalidInput); }
+TEST(SuperlevelRegion, RefusesASurfaceWithoutAChart) {
+  EXPECT_THROW(superlevel_region(octahedron(), Field::Zero(6), 0.5), InvalidInput);
+}
 
 }  // namespace
 }  // namespace palpation

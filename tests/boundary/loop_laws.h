@@ -1,4 +1,5 @@
-/// The laws of level loops on any surface, planar or not, checked by means that share nothing with the library but the naming of places.
+/// The laws of level loops on any surface, planar or not, checked by means that share nothing with
+/// the library but the naming of places.
 #pragma once
 
 #include <Eigen/LU>
@@ -34,11 +35,12 @@ inline PlaceName name_of(const Surface& surface, const SurfacePoint& point) {
 
 inline bool at_vertex(const PlaceName& name) { return name.first == name.second; }
 
-/// The level line by marching over the triangles: each crossed triangle gives one directed piece, each border edge that is inside or in
-/// part another. Then what runs there and back is taken away.
+/// The level line by marching over the triangles: each crossed triangle gives one directed piece,
+/// each border edge that is inside or in part another. Then what runs there and back is taken away.
 class MarchedLine {
  public:
-  MarchedLine(const Surface& surface, const Field& field, double level) : surface_(surface), field_(field), level_(level) {
+  MarchedLine(const Surface& surface, const Field& field, double level)
+      : surface_(surface), field_(field), level_(level) {
     for (int face = 0; face < surface.face_count(); ++face) {
       march(face);
       for (int corner = 0; corner < 3; ++corner) {
@@ -60,9 +62,11 @@ class MarchedLine {
     const int low = field_[a] < field_[b] ? a : b;
     const int high = low == a ? b : a;
     // Halves, so that no difference overflows; tiny values would lose a bit and need none.
-    const bool large = std::max({std::abs(field_[a]), std::abs(field_[b]), std::abs(level_)}) > 1e300;
-    const double part = large ? (0.5 * level_ - 0.5 * field_[low]) / (0.5 * field_[high] - 0.5 * field_[low])
-                              : (level_ - field_[low]) / (field_[high] - field_[low]);
+    const bool large =
+        std::max({std::abs(field_[a]), std::abs(field_[b]), std::abs(level_)}) > 1e300;
+    const double part =
+        large ? (0.5 * level_ - 0.5 * field_[low]) / (0.5 * field_[high] - 0.5 * field_[low])
+              : (level_ - field_[low]) / (field_[high] - field_[low]);
     const Vec3 place = (1.0 - part) * surface_.vertex(low) + part * surface_.vertex(high);
     PlaceName name{a, b};
     if (part < 0x1p-60 || place == surface_.vertex(low)) name = {low, low};
@@ -79,7 +83,8 @@ class MarchedLine {
       const int a = t[corner];
       const int b = t[(corner + 1) % 3];
       if (inside(a) == inside(b)) continue;
-      // Counter-clockwise around the face, the line leaves over the edge that goes in and enters over the one that goes out.
+      // Counter-clockwise around the face, the line leaves over the edge that goes in and enters
+      // over the one that goes out.
       (inside(a) ? from : to) = crossing(a, b);
     }
     if (from) add(*from, *to);
@@ -98,9 +103,11 @@ class MarchedLine {
     if (from != to) ++pieces_[{from, to}];
   }
 
-  /// Whether both ends are on one mesh edge: only there can two pieces with the same ends be the same line.
+  /// Whether both ends are on one mesh edge: only there can two pieces with the same ends be the
+  /// same line.
   static bool along_an_edge(const PieceName& piece) {
-    const std::set<int> vertices{piece.first.first, piece.first.second, piece.second.first, piece.second.second};
+    const std::set<int> vertices{piece.first.first, piece.first.second, piece.second.first,
+                                 piece.second.second};
     return vertices.size() == 2;
   }
 
@@ -123,15 +130,18 @@ class MarchedLine {
   std::map<PlaceName, Vec3> places_;
 };
 
-/// The area on the left of loops on any surface: faces that a piece crosses are cut along it; what the rest is, whole faces inside or
-/// outside, spreads from there over edges without pieces. `face_is_inside` is asked only for components that no loop and no border touches.
+/// The area on the left of loops on any surface: faces that a piece crosses are cut along it; what
+/// the rest is, whole faces inside or outside, spreads from there over edges without pieces.
+/// `face_is_inside` is asked only for components that no loop and no border touches.
 class AreaOnTheLeft {
  public:
   template <typename FaceIsInside>
-  AreaOnTheLeft(const Surface& surface, const std::vector<LevelLoop>& loops, FaceIsInside face_is_inside)
+  AreaOnTheLeft(const Surface& surface, const std::vector<LevelLoop>& loops,
+                FaceIsInside face_is_inside)
       : surface_(surface), state_(surface.face_count(), kUnknown), cut_(surface.face_count()) {
     for (const LevelLoop& loop : loops) {
-      for (std::size_t i = 0; i < loop.points.size(); ++i) take(loop.points[i], loop.points[(i + 1) % loop.points.size()]);
+      for (std::size_t i = 0; i < loop.points.size(); ++i)
+        take(loop.points[i], loop.points[(i + 1) % loop.points.size()]);
     }
     spread();
     for (int face = 0; face < surface.face_count(); ++face) {
@@ -155,7 +165,8 @@ class AreaOnTheLeft {
  private:
   enum State { kUnknown, kInside, kOutside, kCut };
 
-  /// Where on the way around the face a piece enters and leaves: corner k at k, the edge behind it up to k + 1.
+  /// Where on the way around the face a piece enters and leaves: corner k at k, the edge behind it
+  /// up to k + 1.
   struct Cut {
     double entry;
     double exit;
@@ -164,7 +175,8 @@ class AreaOnTheLeft {
 
   double along_rim(const Vec3& weights) const {
     for (int corner = 0; corner < 3; ++corner) {
-      if (weights[(corner + 2) % 3] == 0.0 && weights[corner] > 0.0) return corner + weights[(corner + 1) % 3];
+      if (weights[(corner + 2) % 3] == 0.0 && weights[corner] > 0.0)
+        return corner + weights[(corner + 1) % 3];
     }
     return 0.0;
   }
@@ -203,13 +215,15 @@ class AreaOnTheLeft {
     put(from.face, kCut);
   }
 
-  /// The face on the left is inside, the one on the right outside, as far as they are not cut themselves.
+  /// The face on the left is inside, the one on the right outside, as far as they are not cut
+  /// themselves.
   void along_edge(const SurfacePoint& from, const Vec3& end, const std::pair<int, int>& edge) {
     const Eigen::Vector3i t = surface_.triangle(from.face);
     for (int corner = 0; corner < 3; ++corner) {
       const int next = (corner + 1) % 3;
       if (std::pair(std::min(t[corner], t[next]), std::max(t[corner], t[next])) != edge) continue;
-      const bool forwards = end[next] - from.barycentric[next] > end[corner] - from.barycentric[corner];
+      const bool forwards =
+          end[next] - from.barycentric[next] > end[corner] - from.barycentric[corner];
       const int across = surface_.neighbour(from.face, corner);
       beside_.emplace_back(from.face, forwards ? kInside : kOutside);
       if (across >= 0) beside_.emplace_back(across, forwards ? kOutside : kInside);
@@ -236,7 +250,8 @@ class AreaOnTheLeft {
   }
 
   static bool crosses(const Cut& cut, int corner) {
-    return (cut.entry > corner && cut.entry < corner + 1) || (cut.exit > corner && cut.exit < corner + 1);
+    return (cut.entry > corner && cut.entry < corner + 1) ||
+           (cut.exit > corner && cut.exit < corner + 1);
   }
 
   void spread() {
@@ -275,12 +290,14 @@ class AreaOnTheLeft {
     return false;
   }
 
-  /// From the exit around the rim to the entry, in weights: the determinant of three places is their triangle's share of the face.
+  /// From the exit around the rim to the entry, in weights: the determinant of three places is
+  /// their triangle's share of the face.
   static double share_on_the_left(const Cut& cut) {
     std::vector<Vec3> corners{cut.weights[1]};
     double end = cut.entry;
     while (end <= cut.exit) end += 3.0;
-    for (int k = static_cast<int>(std::floor(cut.exit)) + 1; k < end; ++k) corners.push_back(Vec3::Unit(k % 3));
+    for (int k = static_cast<int>(std::floor(cut.exit)) + 1; k < end; ++k)
+      corners.push_back(Vec3::Unit(k % 3));
     corners.push_back(cut.weights[0]);
     double share = 0.0;
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -302,16 +319,20 @@ class AreaOnTheLeft {
 
 /// What the laws say of the loops of one level set.
 struct LoopReport {
-  std::string fault;             ///< the first law that is broken, in words
-  double area_difference = 0.0;  ///< the loops' area less the sum over triangles, of the surface's area
-  double shift = 0.0;            ///< greatest distance of a point from where marching puts it, of the diameter
+  std::string fault;  ///< the first law that is broken, in words
+  double area_difference =
+      0.0;  ///< the loops' area less the sum over triangles, of the surface's area
+  double shift =
+      0.0;  ///< greatest distance of a point from where marching puts it, of the diameter
   int pieces = 0;
-  int coincident = 0;  ///< pieces between places of different names but equal coordinates: across slivers thinner than doubles
+  int coincident = 0;  ///< pieces between places of different names but equal coordinates: across
+                       ///< slivers thinner than doubles
 };
 
-/// Loops are closed chains of exactly the pieces that marching finds, each once; they visit no place twice, come by falling length, and
-/// have the tissue of the triangles' sum on their left.
-inline LoopReport report_on_loops(const Surface& surface, const Field& field, double level, const std::vector<LevelLoop>& loops) {
+/// Loops are closed chains of exactly the pieces that marching finds, each once; they visit no
+/// place twice, come by falling length, and have the tissue of the triangles' sum on their left.
+inline LoopReport report_on_loops(const Surface& surface, const Field& field, double level,
+                                  const std::vector<LevelLoop>& loops) {
   LoopReport report;
   const auto broken = [&](const std::string& law) {
     if (report.fault.empty()) report.fault = law;
@@ -320,14 +341,16 @@ inline LoopReport report_on_loops(const Surface& surface, const Field& field, do
   std::map<PieceName, int> pieces;
   double last_length = std::numeric_limits<double>::infinity();
   for (const LevelLoop& loop : loops) {
-    if (loop.points.size() != loop.on_border.size() || loop.points.size() < 2) broken("a loop has at least two points, each with its flag");
+    if (loop.points.size() != loop.on_border.size() || loop.points.size() < 2)
+      broken("a loop has at least two points, each with its flag");
     std::set<PlaceName> visited;
     double length = 0.0;
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
       const SurfacePoint& here = loop.points[i];
       const SurfacePoint& next = loop.points[(i + 1) % loop.points.size()];
       const PlaceName name = name_of(surface, here);
-      if (!(here.barycentric.minCoeff() >= 0.0 && std::abs(here.barycentric.sum() - 1.0) <= 1e-15)) broken("weights are fractions of one");
+      if (!(here.barycentric.minCoeff() >= 0.0 && std::abs(here.barycentric.sum() - 1.0) <= 1e-15))
+        broken("weights are fractions of one");
       if (!visited.insert(name).second) broken("a loop visits no place twice");
       ++pieces[{name, name_of(surface, next)}];
       const Vec3 step = surface.position(next) - surface.position(here);
@@ -343,18 +366,22 @@ inline LoopReport report_on_loops(const Surface& surface, const Field& field, do
 
   for (const LevelLoop& loop : loops) {
     for (const SurfacePoint& point : loop.points) {
-      const double shift = (surface.position(point) - marched.place(name_of(surface, point))).norm() / surface.diameter();
+      const double shift =
+          (surface.position(point) - marched.place(name_of(surface, point))).norm() /
+          surface.diameter();
       report.shift = std::max(report.shift, shift);
     }
   }
   const AreaOnTheLeft left(surface, loops, [&](int face) {
     // No loop, so all but a trace of the component is on one side: that of the face's middle.
     long double middle = 0.0L;  // wide enough for three of the largest doubles
-    for (const int vertex : surface.triangle(face)) middle += static_cast<long double>(field[vertex]) - level;
+    for (const int vertex : surface.triangle(face))
+      middle += static_cast<long double>(field[vertex]) - level;
     return middle >= 0.0L;
   });
   if (!left.fault().empty()) broken(left.fault());
-  report.area_difference = std::abs(left.area() - superlevel_area(surface, field, level)) / surface.area();
+  report.area_difference =
+      std::abs(left.area() - superlevel_area(surface, field, level)) / surface.area();
   return report;
 }
 

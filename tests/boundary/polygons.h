@@ -14,7 +14,9 @@
 
 namespace palpation::testing {
 
-inline Ring box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+inline Ring box(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+}
 
 inline Ring reversed(const Ring& ring) { return {ring.rbegin(), ring.rend()}; }
 
@@ -38,7 +40,9 @@ std::string refusal(Work work) {
   return {};
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// Corners on a coarse lattice: edges overlap, corners coincide and points repeat all the time.
 inline Ring lattice_ring(Random& random, int corners, int side) {
@@ -49,11 +53,13 @@ inline Ring lattice_ring(Random& random, int corners, int side) {
 
 /// Seen whole from its centre, so it never crosses itself.
 /// The less rough, the fewer crossings with another one.
-inline Ring star(Random& random, const Vec2& centre, double radius, int corners, double roughness = 0.6) {
+inline Ring star(Random& random, const Vec2& centre, double radius, int corners,
+                 double roughness = 0.6) {
   Ring ring;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.8 * random.uniform()) / corners;
-    ring.push_back(centre + radius * (1.0 - roughness * random.uniform()) * Vec2(std::cos(angle), std::sin(angle)));
+    ring.push_back(centre + radius * (1.0 - roughness * random.uniform()) *
+                                Vec2(std::cos(angle), std::sin(angle)));
   }
   return ring;
 }

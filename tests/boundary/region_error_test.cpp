@@ -22,7 +22,9 @@ Region ring_region(Ring ring) {
   return Region(polygon);
 }
 
-Region box(double x0, double y0, double x1, double y1) { return ring_region({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}); }
+Region box(double x0, double y0, double x1, double y1) {
+  return ring_region({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
+}
 
 Region disk(const Vec2& centre, double radius, int corners = 720) {
   Ring ring;
@@ -45,12 +47,14 @@ TEST(RegionError, OfTheTruthItselfIsNought) {
 
 TEST(RegionError, KeepsMissedAndExtraApart) {
   const Surface tissue = unit_square(2);
-  const RegionError error = compare(tissue, box(0.25, 0.25, 0.75, 0.5), box(0.5, 0.25, 0.625, 0.75));
+  const RegionError error =
+      compare(tissue, box(0.25, 0.25, 0.75, 0.5), box(0.5, 0.25, 0.625, 0.75));
   EXPECT_EQ(error.extra_m2, 0.09375);   // 1/2 x 1/4 less 1/8 x 1/4
   EXPECT_EQ(error.missed_m2, 0.03125);  // 1/8 x 1/4
   EXPECT_EQ(error.symmetric_difference_m2, 0.125);
   EXPECT_EQ(error.dice, 2.0 * 0.03125 / (0.125 + 0.0625));
-  const RegionError swapped = compare(tissue, box(0.5, 0.25, 0.625, 0.75), box(0.25, 0.25, 0.75, 0.5));
+  const RegionError swapped =
+      compare(tissue, box(0.5, 0.25, 0.625, 0.75), box(0.25, 0.25, 0.75, 0.5));
   EXPECT_EQ(swapped.missed_m2, error.extra_m2);
   EXPECT_EQ(swapped.extra_m2, error.missed_m2);
   EXPECT_EQ(swapped.hausdorff_m, error.hausdorff_m);
@@ -89,13 +93,15 @@ TEST(RegionError, BetweenConcentricDisksIsTheirRadiiApart) {
   EXPECT_EQ(error.extra_m2, 0.0);
 }
 
-// Two squares of side 1/2, one shifted by d along x. By symmetry the mean is that over one of them, of length 2. Its outer side is d from
-// the other square. Its inner side is d from the other's side, but nearer to top and bottom close to the ends: there the distance grows
-// from 0 to d. Top and bottom lie on the other's but for the last d, where the distance grows from 0 to d too.
+// Two squares of side 1/2, one shifted by d along x. By symmetry the mean is that over one of them,
+// of length 2. Its outer side is d from the other square. Its inner side is d from the other's
+// side, but nearer to top and bottom close to the ends: there the distance grows from 0 to d. Top
+// and bottom lie on the other's but for the last d, where the distance grows from 0 to d too.
 TEST(RegionError, AveragesDistancesAlongBothBoundaries) {
   const Surface tissue = unit_square(2);
   const double d = 0.125;
-  const RegionError error = compare(tissue, box(0.25, 0.25, 0.75, 0.75), box(0.25 + d, 0.25, 0.75 + d, 0.75));
+  const RegionError error =
+      compare(tissue, box(0.25, 0.25, 0.75, 0.75), box(0.25 + d, 0.25, 0.75 + d, 0.75));
   EXPECT_DOUBLE_EQ(error.hausdorff_m.value(), d);
   const double outer_side = 0.5 * d;
   const double inner_side = (0.5 - 2.0 * d) * d + d * d;
@@ -118,15 +124,19 @@ TEST(RegionError, IsTheSameAtAnyScaleAndFarFromTheOrigin) {
   const Surface tissue = unit_square(2);
   const auto at = [](double scale, const Vec2& origin) {
     return [=](double x0, double y0, double x1, double y1) {
-      return box(origin.x() + scale * x0, origin.y() + scale * y0, origin.x() + scale * x1, origin.y() + scale * y1);
+      return box(origin.x() + scale * x0, origin.y() + scale * y0, origin.x() + scale * x1,
+                 origin.y() + scale * y1);
     };
   };
-  // Powers of two, so that nothing is rounded: 9e-13 m across, 5e8 m across, 1e-90 m across; and 2^-10 m across at 2^29 m.
+  // Powers of two, so that nothing is rounded: 9e-13 m across, 5e8 m across, 1e-90 m across; and
+  // 2^-10 m across at 2^29 m.
   for (const auto& [scale, origin] :
        {std::pair(std::ldexp(1.0, -40), Vec2(0, 0)), std::pair(std::ldexp(1.0, 29), Vec2(0, 0)),
-        std::pair(std::ldexp(1.0, -299), Vec2(0, 0)), std::pair(std::ldexp(1.0, -10), Vec2(536870912, 536870912))}) {
+        std::pair(std::ldexp(1.0, -299), Vec2(0, 0)),
+        std::pair(std::ldexp(1.0, -10), Vec2(536870912, 536870912))}) {
     const auto scaled = at(scale, origin);
-    const RegionError error = compare(tissue, scaled(0.25, 0.25, 0.75, 0.5), scaled(0.5, 0.25, 0.625, 0.75));
+    const RegionError error =
+        compare(tissue, scaled(0.25, 0.25, 0.75, 0.5), scaled(0.5, 0.25, 0.625, 0.75));
     EXPECT_EQ(error.extra_m2, 0.09375 * scale * scale);
     EXPECT_EQ(error.missed_m2, 0.03125 * scale * scale);
     EXPECT_EQ(error.dice, 2.0 * 0.03125 / (0.125 + 0.0625));
@@ -139,7 +149,8 @@ TEST(RegionError, IsTheSameAtAnyScaleAndFarFromTheOrigin) {
 TEST(RegionError, OfSliversWithoutAnAreaThatDoublesCanHoldHasADice) {
   const Surface tissue = unit_square(2);
   const Region up = ring_region({{0, 0}, {1, 0}, {1, std::numeric_limits<double>::denorm_min()}});
-  const Region down = ring_region({{0, 0}, {1, -std::numeric_limits<double>::denorm_min()}, {1, 0}});
+  const Region down =
+      ring_region({{0, 0}, {1, -std::numeric_limits<double>::denorm_min()}, {1, 0}});
   EXPECT_EQ(compare(tissue, up, up).dice, 1.0);
   EXPECT_EQ(compare(tissue, up, down).dice, 0.0);
   EXPECT_EQ(compare(tissue, up, down).symmetric_difference_m2, 0.0);
@@ -156,7 +167,8 @@ std::vector<Edge> edges_of(const Region& region) {
     std::vector<Ring> rings = polygon.holes;
     rings.push_back(polygon.outer);
     for (const Ring& ring : rings) {
-      for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
     }
   }
   return edges;
@@ -171,12 +183,14 @@ double distance_to(const std::vector<Edge>& edges, const Vec2& place) {
   return least;
 }
 
-/// Greatest distance from samples of one boundary, in steps no longer than a millimetre, to the other.
+/// Greatest distance from samples of one boundary, in steps no longer than a millimetre, to the
+/// other.
 double farthest(const std::vector<Edge>& boundary, const std::vector<Edge>& other) {
   double greatest = 0.0;
   for (const auto& [p, q] : boundary) {
     const int pieces = 1 + static_cast<int>((q - p).norm() / 1e-3);
-    for (int piece = 0; piece < pieces; ++piece) greatest = std::max(greatest, distance_to(other, p + (q - p) * piece / pieces));
+    for (int piece = 0; piece < pieces; ++piece)
+      greatest = std::max(greatest, distance_to(other, p + (q - p) * piece / pieces));
   }
   return greatest;
 }
@@ -190,9 +204,13 @@ TEST(RegionError, AgreesWithSearchingEverySegment) {
     ASSERT_FALSE(a.empty());
     ASSERT_FALSE(b.empty());
     const RegionError error = compare(tissue, a, b);
-    // Distance changes no faster than the place: half a step of a millimetre, and half of 20 m / 4000.
-    EXPECT_NEAR(error.hausdorff_m.value(), std::max(farthest(edges_of(a), edges_of(b)), farthest(edges_of(b), edges_of(a))), 3e-3);
-    EXPECT_NEAR(error.symmetric_difference_m2, symmetric_difference(a, b).area(), 1e-15);  // the same number, rounded once or thrice
+    // Distance changes no faster than the place: half a step of a millimetre, and half of 20 m /
+    // 4000.
+    EXPECT_NEAR(error.hausdorff_m.value(),
+                std::max(farthest(edges_of(a), edges_of(b)), farthest(edges_of(b), edges_of(a))),
+                3e-3);
+    EXPECT_NEAR(error.symmetric_difference_m2, symmetric_difference(a, b).area(),
+                1e-15);  // the same number, rounded once or thrice
   }
 }
 

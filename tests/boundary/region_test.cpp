@@ -41,7 +41,8 @@ TEST(Region, ListsOuterRingsCounterClockwiseAndHolesClockwiseFromTheirLowestCorn
 }
 
 TEST(Region, ListsPolygonsByFallingAreaThenLowestCorner) {
-  const Region region = even_odd({box(4, 0, 5, 1), box(0, 0, 1, 1), box(8, 0, 10, 2), box(0, 2, 1, 3)});
+  const Region region =
+      even_odd({box(4, 0, 5, 1), box(0, 0, 1, 1), box(8, 0, 10, 2), box(0, 2, 1, 3)});
   const auto polygons = region.polygons();
   ASSERT_EQ(polygons.size(), 4u);
   EXPECT_EQ(polygons[0].outer.front(), Vec2(8, 0));
@@ -51,7 +52,8 @@ TEST(Region, ListsPolygonsByFallingAreaThenLowestCorner) {
 }
 
 TEST(Region, IsTheUnionOfItsPolygons) {
-  const std::vector<PolygonWithHoles> polygons{{box(0, 0, 4, 4), {box(1, 1, 3, 3)}}, {box(2, 2, 6, 6), {}}, {box(5, 5, 6, 6), {}}};
+  const std::vector<PolygonWithHoles> polygons{
+      {box(0, 0, 4, 4), {box(1, 1, 3, 3)}}, {box(2, 2, 6, 6), {}}, {box(5, 5, 6, 6), {}}};
   EXPECT_EQ(Region(polygons).area(), 16.0 - 4.0 + 16.0 - 4.0 + 1.0);
 }
 
@@ -65,8 +67,10 @@ TEST(Region, IsExactAtExtremeScales) {
   EXPECT_EQ(sliver.area(), next - 1.0);
   // Slivers far thinner than a unit in the last place of their length.
   EXPECT_EQ(region_of({{0, 0}, {1, 0}, {1, std::ldexp(1.0, -400)}}).area(), std::ldexp(1.0, -401));
-  EXPECT_EQ(region_of({{0, 0}, {1, 0}, {1, std::ldexp(1.0, -1000)}}).area(), std::ldexp(1.0, -1001));
-  EXPECT_EQ(region_of({{-1e9, 0}, {1e9, 0}, {1e9, std::ldexp(1.0, -1070)}}).area(), std::ldexp(1e9, -1070));
+  EXPECT_EQ(region_of({{0, 0}, {1, 0}, {1, std::ldexp(1.0, -1000)}}).area(),
+            std::ldexp(1.0, -1001));
+  EXPECT_EQ(region_of({{-1e9, 0}, {1e9, 0}, {1e9, std::ldexp(1.0, -1070)}}).area(),
+            std::ldexp(1e9, -1070));
 }
 
 TEST(Region, FarFromTheOriginIsAsExactAsNearIt) {
@@ -75,27 +79,35 @@ TEST(Region, FarFromTheOriginIsAsExactAsNearIt) {
   const double side = std::ldexp(1.0, -23);
   const Region square = region_of(box(corner, corner, corner + side, corner + side));
   EXPECT_EQ(square.area(), side * side);
-  const Region triangle = region_of({{corner, corner}, {corner + side, corner}, {corner + side, corner + side}});
+  const Region triangle =
+      region_of({{corner, corner}, {corner + side, corner}, {corner + side, corner + side}});
   EXPECT_EQ(symmetric_difference(square, triangle).area(), 0.5 * side * side);
 }
 
 TEST(EvenOdd, AlternatesBetweenNestedRingsWhicheverWayTheyRun) {
-  EXPECT_EQ(even_odd({box(0, 0, 9, 9), box(1, 1, 8, 8), reversed(box(2, 2, 7, 7)), box(3, 3, 6, 6)}).area(), 81.0 - 49.0 + 25.0 - 9.0);
+  EXPECT_EQ(even_odd({box(0, 0, 9, 9), box(1, 1, 8, 8), reversed(box(2, 2, 7, 7)), box(3, 3, 6, 6)})
+                .area(),
+            81.0 - 49.0 + 25.0 - 9.0);
   EXPECT_TRUE(even_odd({box(0, 0, 9, 9), reversed(box(0, 0, 9, 9))}).empty());
   EXPECT_EQ(even_odd({box(0, 0, 9, 9), box(0, 0, 9, 9), box(0, 0, 9, 9)}).area(), 81.0);
 }
 
 TEST(EvenOdd, IgnoresSpikesRepeatsAndWhatHasNoArea) {
-  const std::vector<Ring> rings{
-      {{0, 0}, {2, 0}, {2, 0}, {2, 2}, {2, 7}, {2, 2}, {0, 2}, {0, 0}}, {}, {{5, 5}}, {{5, 5}, {6, 6}}, {{0, 0}, {1, 1}, {5, 5}}};
+  const std::vector<Ring> rings{{{0, 0}, {2, 0}, {2, 0}, {2, 2}, {2, 7}, {2, 2}, {0, 2}, {0, 0}},
+                                {},
+                                {{5, 5}},
+                                {{5, 5}, {6, 6}},
+                                {{0, 0}, {1, 1}, {5, 5}}};
   EXPECT_TRUE(same(even_odd(rings), region_of(box(0, 0, 2, 2))));
 }
 
 TEST(EvenOdd, IsTheSymmetricDifferenceOfItsRings) {
   Random random(5);
   for (int trial = 0; trial < 60; ++trial) {
-    const std::vector<Ring> rings{lattice_ring(random, 7, 6), lattice_ring(random, 5, 6), lattice_ring(random, 6, 6)};
-    const Region one_by_one = symmetric_difference(symmetric_difference(even_odd({rings[0]}), even_odd({rings[1]})), even_odd({rings[2]}));
+    const std::vector<Ring> rings{lattice_ring(random, 7, 6), lattice_ring(random, 5, 6),
+                                  lattice_ring(random, 6, 6)};
+    const Region one_by_one = symmetric_difference(
+        symmetric_difference(even_odd({rings[0]}), even_odd({rings[1]})), even_odd({rings[2]}));
     EXPECT_TRUE(same(even_odd(rings), one_by_one)) << "trial " << trial;
   }
 }
@@ -113,12 +125,15 @@ TEST(Booleans, OfTwoBoxesAreWhatOneCountsByHand) {
   EXPECT_EQ(areas.only_b_m2, 12.0);
 }
 
-// The identities of areas, in exact arithmetic: two sides are equal exactly when the symmetric difference of the regions is empty.
+// The identities of areas, in exact arithmetic: two sides are equal exactly when the symmetric
+// difference of the regions is empty.
 TEST(Booleans, KeepTheIdentitiesExactlyOnDegenerateInput) {
   Random random(11);
   for (int trial = 0; trial < 150; ++trial) {
-    const Region a = even_odd({lattice_ring(random, 3 + random.below(6), 7), lattice_ring(random, 4, 7)});
-    const Region b = even_odd({lattice_ring(random, 3 + random.below(6), 7), lattice_ring(random, 4, 7)});
+    const Region a =
+        even_odd({lattice_ring(random, 3 + random.below(6), 7), lattice_ring(random, 4, 7)});
+    const Region b =
+        even_odd({lattice_ring(random, 3 + random.below(6), 7), lattice_ring(random, 4, 7)});
     const Region both = intersect(a, b);
     const Region difference = symmetric_difference(a, b);
     EXPECT_TRUE(same(difference, unite(subtract(a, b), subtract(b, a)))) << "trial " << trial;
@@ -126,8 +141,10 @@ TEST(Booleans, KeepTheIdentitiesExactlyOnDegenerateInput) {
     EXPECT_TRUE(same(a, unite(subtract(a, b), both))) << "trial " << trial;
     EXPECT_TRUE(intersect(subtract(a, b), b).empty()) << "trial " << trial;
     EXPECT_TRUE(same(symmetric_difference(difference, b), a)) << "trial " << trial;
-    // On so small a lattice the areas are around 10 and rounded once each: 1e-13 is a hundred times their rounding.
-    EXPECT_NEAR(difference.area(), a.area() + b.area() - 2.0 * both.area(), 1e-13) << "trial " << trial;
+    // On so small a lattice the areas are around 10 and rounded once each: 1e-13 is a hundred times
+    // their rounding.
+    EXPECT_NEAR(difference.area(), a.area() + b.area() - 2.0 * both.area(), 1e-13)
+        << "trial " << trial;
   }
 }
 
@@ -159,7 +176,8 @@ TEST(Region, ListsRingsThatMakeTheSameRegionAgain) {
   Random random(14);
   for (int trial = 0; trial < 100; ++trial) {
     const Region region = even_odd({lattice_ring(random, 9, 7), lattice_ring(random, 6, 7)});
-    // Crossings are rational, so the rounded rings differ from the exact ones by about 1e-15 along a boundary shorter than 100.
+    // Crossings are rational, so the rounded rings differ from the exact ones by about 1e-15 along
+    // a boundary shorter than 100.
     const auto polygons = region.polygons();
     std::vector<Ring> rings;
     for (const PolygonWithHoles& polygon : polygons) {
@@ -177,7 +195,8 @@ TEST(Region, ContainsItsBorderAndNotItsHoles) {
   EXPECT_FALSE(region.contains({2.0, 2.0}));
   EXPECT_FALSE(region.contains({5.0, 4.0}));
   EXPECT_FALSE(region.contains({-1.0, 1.0}));
-  for (const Vec2& on_border : {Vec2(0, 0), Vec2(4, 2), Vec2(2, 4), Vec2(1, 1), Vec2(3, 2), Vec2(2, 3), Vec2(4, 0)}) {
+  for (const Vec2& on_border :
+       {Vec2(0, 0), Vec2(4, 2), Vec2(2, 4), Vec2(1, 1), Vec2(3, 2), Vec2(2, 3), Vec2(4, 0)}) {
     EXPECT_TRUE(region.contains(on_border)) << on_border.transpose();
   }
   EXPECT_FALSE(region.contains({std::nextafter(1.0, 2.0), 2.0}));
@@ -186,10 +205,12 @@ TEST(Region, ContainsItsBorderAndNotItsHoles) {
 
 TEST(Region, ContainsWhatItsAreaCounts) {
   Random random(15);
-  const Region region = region_of(star(random, {0.5, 0.5}, 0.5, 40), {star(random, {0.5, 0.5}, 0.1, 9)});
+  const Region region =
+      region_of(star(random, {0.5, 0.5}, 0.5, 40), {star(random, {0.5, 0.5}, 0.1, 9)});
   const int samples = 40'000;
   int inside = 0;
-  for (int i = 0; i < samples; ++i) inside += region.contains({random.uniform(), random.uniform()}) ? 1 : 0;
+  for (int i = 0; i < samples; ++i)
+    inside += region.contains({random.uniform(), random.uniform()}) ? 1 : 0;
   // Five standard errors of the fraction.
   EXPECT_NEAR(static_cast<double>(inside) / samples, region.area(), 5.0 * 0.5 / std::sqrt(samples));
 }
@@ -225,7 +246,8 @@ TEST(Booleans, AgreeWithShapelyOnAThousandPairs) {
   std::string line_b;
   std::string line_areas;
   int pairs = 0;
-  while (std::getline(file, line_a) && std::getline(file, line_b) && std::getline(file, line_areas)) {
+  while (std::getline(file, line_a) && std::getline(file, line_b) &&
+         std::getline(file, line_areas)) {
     const Region a = parse_region(line_a);
     const Region b = parse_region(line_b);
     std::stringstream areas(line_areas.substr(2));
@@ -238,7 +260,9 @@ TEST(Booleans, AgreeWithShapelyOnAThousandPairs) {
     EXPECT_NEAR(intersect(a, b).area(), both, tolerance) << "pair " << pairs;
     EXPECT_NEAR(unite(a, b).area(), either, tolerance) << "pair " << pairs;
     EXPECT_NEAR(symmetric_difference(a, b).area(), difference, tolerance) << "pair " << pairs;
-    EXPECT_NEAR(overlap_areas(a, b).only_a_m2 + overlap_areas(a, b).only_b_m2, difference, tolerance) << "pair " << pairs;
+    EXPECT_NEAR(overlap_areas(a, b).only_a_m2 + overlap_areas(a, b).only_b_m2, difference,
+                tolerance)
+        << "pair " << pairs;
     ++pairs;
   }
   EXPECT_EQ(pairs, 1000);

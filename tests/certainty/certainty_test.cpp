@@ -22,14 +22,17 @@ TEST(LevelFromRange, IsTheFractionBetweenLeastAndGreatestMean) {
 }
 
 TEST(ProbabilityInside, IsThatOfANormal) {
-  const Field p = probability_inside(marginals_of({8.0, 9.0, 7.0, 8.0, 9.0, 7.0}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}), {8.0, std::nullopt});
+  const Field p = probability_inside(
+      marginals_of({8.0, 9.0, 7.0, 8.0, 9.0, 7.0}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}),
+      {8.0, std::nullopt});
   EXPECT_DOUBLE_EQ(p[0], 0.5);
   EXPECT_NEAR(p[1], 0.8413447460685429, 1e-15);  // Phi(1)
   EXPECT_NEAR(p[2], 0.15865525393145707, 1e-15);
   EXPECT_EQ(p[3], 1.0);  // at the level and sure of it: inside, by the half-open rule
   EXPECT_EQ(p[4], 1.0);
   EXPECT_EQ(p[5], 0.0);
-  EXPECT_NEAR(probability_inside(marginals_of({9.0}, {0.5}), {8.0, std::sqrt(0.5)})[0], 0.8413447460685429, 1e-15);
+  EXPECT_NEAR(probability_inside(marginals_of({9.0}, {0.5}), {8.0, std::sqrt(0.5)})[0],
+              0.8413447460685429, 1e-15);
 }
 
 TEST(ExpectedError, AddsUpTheAreaThatMayBeWrong) {

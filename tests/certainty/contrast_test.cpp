@@ -22,7 +22,8 @@ TEST(ShowsContrast, NeedsTwoPlateausOrASmoothField) {
   EXPECT_TRUE(shows_contrast(readings, 5.1));
   readings.push_back(9.0);
   EXPECT_TRUE(shows_contrast(readings, 0.0));
-  EXPECT_FALSE(shows_contrast(std::vector<double>{7.0, 7.01, 9.0}, 0.0));  // three readings say nothing
+  EXPECT_FALSE(
+      shows_contrast(std::vector<double>{7.0, 7.01, 9.0}, 0.0));  // three readings say nothing
 }
 
 TEST(ShowsContrast, IsSeldomFooledByNoise) {

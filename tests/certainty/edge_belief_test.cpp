@@ -25,31 +25,40 @@ Surface tissue() {
   return Surface(make_plane({.size_m = {0.025, 0.025}, .columns = 51, .rows = 51}, random));
 }
 
-double depth_in_disk(const Vec3& place) { return kRadius_m - (place - Vec3(0.0125, 0.0125, 0.0)).norm(); }
+double depth_in_disk(const Vec3& place) {
+  return kRadius_m - (place - Vec3(0.0125, 0.0125, 0.0)).norm();
+}
 
-double stiffness(const Vec3& place) { return kLow + (kHigh - kLow) / (1.0 + std::exp(-kSlope * depth_in_disk(place))); }
+double stiffness(const Vec3& place) {
+  return kLow + (kHigh - kLow) / (1.0 + std::exp(-kSlope * depth_in_disk(place)));
+}
 
 /// A belief of a disk from readings at random vertices, more of them near its edge.
 Belief belief_of_disk(const Surface& surface, double noise_sd, int count, Random& random) {
-  Belief belief(Prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0}), {.noise_sd = noise_sd});
+  Belief belief(Prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0}),
+                {.noise_sd = noise_sd});
   std::vector<Palpation> palpations;
   while (static_cast<int>(palpations.size()) < count) {
     const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
     const Vec3 place = surface.vertex(vertex);
     if (palpations.size() % 4 != 0 && std::abs(depth_in_disk(place)) > 0.0015) continue;
-    palpations.push_back({.where = surface.at_vertex(vertex), .reading = stiffness(place) + noise_sd * random.normal()});
+    palpations.push_back({.where = surface.at_vertex(vertex),
+                          .reading = stiffness(place) + noise_sd * random.normal()});
   }
   return belief.condition_on(palpations);
 }
 
 constexpr double kFirstLevels[] = {8.0};
 
-EdgeBelief edge_of(const Belief& belief) { return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value(); }
+EdgeBelief edge_of(const Belief& belief) {
+  return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value();
+}
 
 double wrong_area_m2(const Surface& surface, const Field& depth) {
   double area = 0.0;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    if ((depth[vertex] >= 0.0) != (depth_in_disk(surface.vertex(vertex)) >= 0.0)) area += surface.vertex_areas()[vertex];
+    if ((depth[vertex] >= 0.0) != (depth_in_disk(surface.vertex(vertex)) >= 0.0))
+      area += surface.vertex_areas()[vertex];
   }
   return area;
 }
@@ -73,9 +82,12 @@ TEST(EdgeBelief, TakesBackANoiseThatWasLearnedAndIsNotThere) {
   Random random(8);
   std::vector<Palpation> palpations = belief_of_disk(surface, 0.1, 100, random).palpations();
   const auto around = [&](double noise_log_sd) {
-    const Belief belief = Belief(Prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0}), {.noise_sd = 0.5});
+    const Belief belief =
+        Belief(Prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0}),
+               {.noise_sd = 0.5});
     const Belief known = belief.condition_on(palpations);
-    return EdgeBelief::around(known, known.at_vertices(), kFirstLevels, 0.5, {}, noise_log_sd).value();
+    return EdgeBelief::around(known, known.at_vertices(), kFirstLevels, 0.5, {}, noise_log_sd)
+        .value();
   };
   const EdgeBelief given = around(0.0), learned = around(0.07);
   EXPECT_EQ(given.noise_variance(), 0.25);
@@ -106,16 +118,21 @@ TEST(EdgeBelief, LearnsMoreFromItsOwnPicksThanFromTouchesAtRandom) {
   const Marginals marginals = belief.at_vertices();
   const EdgeBelief edge = edge_of(belief);
   std::vector<int> all(static_cast<std::size_t>(surface.vertex_count()));
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) all[static_cast<std::size_t>(vertex)] = vertex;
-  // A reading that comes as expected leaves the most probable boundary where it is, and only makes it surer.
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
+    all[static_cast<std::size_t>(vertex)] = vertex;
+  // A reading that comes as expected leaves the most probable boundary where it is, and only makes
+  // it surer.
   const auto left_with = [&](const std::vector<int>& vertices) {
     std::vector<Palpation> supposed;
     for (const int vertex : vertices) {
-      const double share = 1.0 / (1.0 + std::exp(-edge.profile().slope_per_m * edge.depth()[vertex]));
+      const double share =
+          1.0 / (1.0 + std::exp(-edge.profile().slope_per_m * edge.depth()[vertex]));
       supposed.push_back(
-          {.where = surface.at_vertex(vertex), .reading = edge.profile().low + share * (edge.profile().high - edge.profile().low)});
+          {.where = surface.at_vertex(vertex),
+           .reading = edge.profile().low + share * (edge.profile().high - edge.profile().low)});
     }
-    return EdgeBelief::around(belief.condition_on(supposed), marginals, kFirstLevels, 0.5)->expected_error_m2();
+    return EdgeBelief::around(belief.condition_on(supposed), marginals, kFirstLevels, 0.5)
+        ->expected_error_m2();
   };
   const std::vector<int> picks = edge.most_telling(all, 6, 0.0005, marginals.variance);
   ASSERT_EQ(picks.size(), 6u);
@@ -142,7 +159,8 @@ TEST(EdgeBelief, PicksAreApartAndAmongTheCandidates) {
   ASSERT_EQ(picks.size(), 10u);
   for (std::size_t i = 0; i < picks.size(); ++i) {
     EXPECT_EQ(picks[i] % 3, 0);
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GE((surface.vertex(picks[i]) - surface.vertex(picks[j])).norm(), 0.002);
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GE((surface.vertex(picks[i]) - surface.vertex(picks[j])).norm(), 0.002);
   }
   EXPECT_TRUE(edge.most_telling({}, 10, 0.002, belief.at_vertices().variance).empty());
 }
@@ -151,7 +169,8 @@ TEST(EdgeBelief, BandWidensWithItsProbability) {
   const Surface surface = tissue();
   Random random(6);
   const EdgeBelief edge = edge_of(belief_of_disk(surface, 0.1, 80, random));
-  const Certainty likely = certainty_of(surface, edge, 0.5), sure = certainty_of(surface, edge, 0.99);
+  const Certainty likely = certainty_of(surface, edge, 0.5),
+                  sure = certainty_of(surface, edge, 0.99);
   EXPECT_LT(likely.band_score, sure.band_score);
   EXPECT_LT(likely.half_width_m, sure.half_width_m);
   // A band for the whole outline is wider than that of one place.
@@ -163,11 +182,14 @@ TEST(EdgeBelief, BandWidensWithWhatIsNotKnownOfTheNoise) {
   Random random(6);
   const Belief belief = belief_of_disk(surface, 0.1, 80, random);
   const auto score_with = [&](double noise_log_sd) {
-    return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5, {}, noise_log_sd)->band_score(0.95);
+    return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5, {}, noise_log_sd)
+        ->band_score(0.95);
   };
-  const double known = score_with(0.0), of_many = score_with(learned_noise_log_sd(105)), of_few = score_with(learned_noise_log_sd(15));
+  const double known = score_with(0.0), of_many = score_with(learned_noise_log_sd(105)),
+               of_few = score_with(learned_noise_log_sd(15));
   EXPECT_DOUBLE_EQ(score_with(1e-9), known);
-  // As Student's distribution is wider than the normal one, three standard deviations out: 2 to 4 % with 105 readings.
+  // As Student's distribution is wider than the normal one, three standard deviations out: 2 to 4 %
+  // with 105 readings.
   EXPECT_GT(of_many, 1.015 * known);
   EXPECT_LT(of_many, 1.045 * known);
   EXPECT_GT(of_few, 1.1 * known);
@@ -184,12 +206,14 @@ TEST(EdgeBelief, IsNothingWhereNoBoundaryCanBeDrawn) {
   EXPECT_THROW(EdgeBelief::around(single, single.at_vertices(), kFirstLevels, 1.0), InvalidInput);
 }
 
-/// The most probable corrections and profile have no better neighbours: checked on the posterior density itself, written out.
+/// The most probable corrections and profile have no better neighbours: checked on the posterior
+/// density itself, written out.
 TEST(FitEdgeBelief, EndsWhereThePosteriorDensityIsGreatest) {
   const Surface surface = tissue();
   Random random(7);
-  const Prior correction(surface, Metric::Chart, Kernel{.family = KernelFamily::Matern52, .length_m = 0.009, .signal_sd = 0.001},
-                         {.sd = 0.0});
+  const Prior correction(
+      surface, Metric::Chart,
+      Kernel{.family = KernelFamily::Matern52, .length_m = 0.009, .signal_sd = 0.001}, {.sd = 0.0});
   EdgeData data;
   const int count = 12;
   data.reading.resize(count);
@@ -199,17 +223,22 @@ TEST(FitEdgeBelief, EndsWhereThePosteriorDensityIsGreatest) {
     const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
     data.places.push_back(surface.at_vertex(vertex));
     data.depth_m[i] = -0.0025 + 0.005 * i / (count - 1.0);
-    data.reading[i] = kLow + (kHigh - kLow) / (1.0 + std::exp(-kSlope * (data.depth_m[i] + 0.0003))) + 0.1 * random.normal();
+    data.reading[i] = kLow +
+                      (kHigh - kLow) / (1.0 + std::exp(-kSlope * (data.depth_m[i] + 0.0003))) +
+                      0.1 * random.normal();
   }
   const Eigen::MatrixXd covariance = correction.covariance(data.places, data.places);
   const ProfilePrior prior{{7.0, 9.0, std::log(1200.0)}, {4.0, 4.0, 0.25}};
   const EdgeFit fit = fit_edge_belief(data, covariance, prior);
   const Eigen::MatrixXd precision = covariance.inverse();
   const auto misfit = [&](const ProfileParameters& profile, const Eigen::VectorXd& offset) {
-    double sum = offset.dot(precision * offset) + ((profile - prior.mean).array().square() / prior.variance.array()).sum();
+    double sum = offset.dot(precision * offset) +
+                 ((profile - prior.mean).array().square() / prior.variance.array()).sum();
     for (int i = 0; i < count; ++i) {
-      const double share = 1.0 / (1.0 + std::exp(-std::exp(profile[2]) * (data.depth_m[i] + offset[i])));
-      sum += std::pow(data.reading[i] - profile[0] - share * (profile[1] - profile[0]), 2) / data.variance[i];
+      const double share =
+          1.0 / (1.0 + std::exp(-std::exp(profile[2]) * (data.depth_m[i] + offset[i])));
+      sum += std::pow(data.reading[i] - profile[0] - share * (profile[1] - profile[0]), 2) /
+             data.variance[i];
     }
     return sum;
   };

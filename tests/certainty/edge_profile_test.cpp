@@ -18,11 +18,15 @@ double profile(double depth_m) { return 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * de
 
 constexpr EdgePrior kPrior{.plateau = 8.0, .plateau_sd = 2.0};
 
-/// Readings every quarter of a millimetre from first to last depth, with noise of the given standard deviation.
-std::vector<EdgeReading> readings(double first_mm, double last_mm, double shift_mm, double noise_sd, Random& random) {
+/// Readings every quarter of a millimetre from first to last depth, with noise of the given
+/// standard deviation.
+std::vector<EdgeReading> readings(double first_mm, double last_mm, double shift_mm, double noise_sd,
+                                  Random& random) {
   std::vector<EdgeReading> made;
   for (double depth = first_mm; depth <= last_mm; depth += 0.25) {
-    made.push_back({depth / 1000.0, profile((depth + shift_mm) / 1000.0) + noise_sd * random.normal(), noise_sd * noise_sd});
+    made.push_back({depth / 1000.0,
+                    profile((depth + shift_mm) / 1000.0) + noise_sd * random.normal(),
+                    noise_sd * noise_sd});
   }
   return made;
 }
@@ -81,7 +85,8 @@ TEST(FitEdge, RefusesWhatIsNoReading) {
   const std::vector<EdgeReading> good{{.depth_m = 0.001, .reading = 8.5, .variance = 0.01}};
   EXPECT_THROW(fit_edge({}, 0.5, kPrior), InvalidInput);
   EXPECT_THROW(fit_edge(good, 1.0, kPrior), InvalidInput);
-  for (const EdgeReading& bad : {EdgeReading{0.001, 8.5, 0.0}, EdgeReading{0.001, NAN, 0.01}, EdgeReading{INFINITY, 8.5, 0.01}}) {
+  for (const EdgeReading& bad : {EdgeReading{0.001, 8.5, 0.0}, EdgeReading{0.001, NAN, 0.01},
+                                 EdgeReading{INFINITY, 8.5, 0.01}}) {
     EXPECT_THROW(fit_edge(std::vector{bad}, 0.5, kPrior), InvalidInput);
   }
   EXPECT_THROW(fit_edge(good, 0.5, {.plateau_sd = 0.0}), InvalidInput);
@@ -102,11 +107,13 @@ Scene touched(const Vec3& centre, double radius_m, double noise, int every) {
     for (int column = 0; column < 51; column += every) {
       const SurfacePoint where = tissue.at_vertex(51 * row + column);
       const double depth_m = radius_m - (tissue.position(where) - centre).norm();
-      palpations.push_back({.where = where, .reading = profile(depth_m) + 2.0 * noise * random.normal()});
+      palpations.push_back(
+          {.where = where, .reading = profile(depth_m) + 2.0 * noise * random.normal()});
     }
   }
-  const Belief belief =
-      Belief(Prior(tissue, Metric::Chart, {.length_m = 0.0035}), {.noise_sd = std::max(2.0 * noise, 1e-3)}).condition_on(palpations);
+  const Belief belief = Belief(Prior(tissue, Metric::Chart, {.length_m = 0.0035}),
+                               {.noise_sd = std::max(2.0 * noise, 1e-3)})
+                            .condition_on(palpations);
   return {tissue, belief, belief.at_vertices()};
 }
 
@@ -119,7 +126,8 @@ TEST(LevelFromEdge, IsTheTruthToWithinThreeOfItsStandardDeviations) {
   }
 }
 
-// A narrow tumour never shows its plateau: the greatest mean lies below it, and a level from the range with it.
+// A narrow tumour never shows its plateau: the greatest mean lies below it, and a level from the
+// range with it.
 TEST(LevelFromEdge, DoesNotNeedToSeeTheGreatestReading) {
   const Scene scene = touched({0.012, 0.014, 0.0}, 0.0015, 0.01, 2);
   const double by_edge = level_from_edge(scene.tissue, scene.belief, scene.marginals, 0.5).value;
@@ -139,7 +147,8 @@ TEST(LevelFromEdge, SaysHalfTheRangeWhereNothingIsKnown) {
   const Belief belief(Prior(tissue, Metric::Chart, {.length_m = 0.0035}), {.noise_sd = 0.1});
   const Level untouched = level_from_edge(tissue, belief, belief.at_vertices(), 0.5);
   EXPECT_EQ(untouched.stddev, 0.0);  // of a mean that is the same everywhere
-  const Belief once = belief.condition_on(std::vector<Palpation>{{.where = tissue.at_vertex(12), .reading = 7.0}});
+  const Belief once =
+      belief.condition_on(std::vector<Palpation>{{.where = tissue.at_vertex(12), .reading = 7.0}});
   const Level single = level_from_edge(tissue, once, once.at_vertices(), 0.5);
   EXPECT_TRUE(std::isfinite(single.value));
   EXPECT_GE(*single.stddev, 0.0);

@@ -19,14 +19,19 @@ constexpr double kHorseshoe_m = std::numbers::pi * (0.0095 + 0.0045 + 2.0 * 0.00
 
 double percent(double perimeter_m, double noise, bool plateaus_known) {
   return 100.0 / kSearchArea_m2 *
-         reference_bound({.perimeter_m = perimeter_m, .noise = noise, .plateaus_known = plateaus_known}).expected_error_m2;
+         reference_bound(
+             {.perimeter_m = perimeter_m, .noise = noise, .plateaus_known = plateaus_known})
+             .expected_error_m2;
 }
 
-// The published simulations' disk and horseshoe, 105 readings at 1, 5, 10 and 25 % noise: worked out by an independent program.
+// The published simulations' disk and horseshoe, 105 readings at 1, 5, 10 and 25 % noise: worked
+// out by an independent program.
 TEST(ReferenceBound, IsThatOfThePublishedShapes) {
   const std::vector<double> noises = {0.01, 0.05, 0.10, 0.25};
-  const std::vector<double> unknown_disk = {.028, .140, .280, .699}, unknown_horseshoe = {.049, .245, .490, 1.224};
-  const std::vector<double> known_disk = {.021, .105, .210, .524}, known_horseshoe = {.038, .192, .383, .958};
+  const std::vector<double> unknown_disk = {.028, .140, .280, .699},
+                            unknown_horseshoe = {.049, .245, .490, 1.224};
+  const std::vector<double> known_disk = {.021, .105, .210, .524},
+                            known_horseshoe = {.038, .192, .383, .958};
   for (std::size_t i = 0; i < noises.size(); ++i) {
     EXPECT_NEAR(percent(kDisk_m, noises[i], false), unknown_disk[i], 0.0005 + 1e-6);
     EXPECT_NEAR(percent(kHorseshoe_m, noises[i], false), unknown_horseshoe[i], 0.0005 + 1e-6);
@@ -41,16 +46,19 @@ TEST(ReferenceBound, CountsAModeForEveryFourAndAHalfMillimetres) {
   EXPECT_EQ(reference_bound({.perimeter_m = 0.001}).modes, 1);
 }
 
-// The twin: every split of the readings between boundary and plateaus, of which the best is taken. Boundary readings tell P offsets of the
-// line y = level, plateau readings the level, which is common to all.
+// The twin: every split of the readings between boundary and plateaus, of which the best is taken.
+// Boundary readings tell P offsets of the line y = level, plateau readings the level, which is
+// common to all.
 TEST(ReferenceBound, SpendsReadingsWhereTheyTellMost) {
   const int readings = 1000;
   for (const double fraction : {0.5, 0.7}) {
-    const ReferenceBound bound = reference_bound({.perimeter_m = kDisk_m, .noise = 0.1, .readings = readings, .fraction = fraction});
+    const ReferenceBound bound = reference_bound(
+        {.perimeter_m = kDisk_m, .noise = 0.1, .readings = readings, .fraction = fraction});
     double best = INFINITY;
     for (int on_plateaus = 1; on_plateaus < readings; ++on_plateaus) {
       for (int on_low = 1; on_low < on_plateaus; on_low += 3) {
-        const double level = (1 - fraction) * (1 - fraction) / on_low + fraction * fraction / (on_plateaus - on_low);
+        const double level =
+            (1 - fraction) * (1 - fraction) / on_low + fraction * fraction / (on_plateaus - on_low);
         best = std::min(best, 9.0 / (readings - on_plateaus) + level);
       }
     }

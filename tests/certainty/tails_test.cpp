@@ -14,7 +14,9 @@ namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_50;
 
-Marginals sure_by(double z) { return {Eigen::VectorXd::Constant(1, 8.0 + z), Eigen::VectorXd::Constant(1, 1.0)}; }
+Marginals sure_by(double z) {
+  return {Eigen::VectorXd::Constant(1, 8.0 + z), Eigen::VectorXd::Constant(1, 1.0)};
+}
 
 TEST(Tails, ProbabilityKeepsTwelveDigitsAsLongAsThereIsANumberForIt) {
   for (double z = -1.0; z > -37.0; z -= 0.5) {
@@ -23,7 +25,8 @@ TEST(Tails, ProbabilityKeepsTwelveDigitsAsLongAsThereIsANumberForIt) {
     EXPECT_LT(static_cast<double>(abs(Big(ours) / exact - 1)), 1e-12) << z;
     EXPECT_EQ(probability_inside(sure_by(-z), {8.0, std::nullopt})[0], 1.0 - ours);
   }
-  for (const double z : {-40.0, -1e3, -1e8, -1e154}) EXPECT_EQ(probability_inside(sure_by(z), {8.0, std::nullopt})[0], 0.0) << z;
+  for (const double z : {-40.0, -1e3, -1e8, -1e154})
+    EXPECT_EQ(probability_inside(sure_by(z), {8.0, std::nullopt})[0], 0.0) << z;
 }
 
 TEST(Tails, ACutRiskIsTheScoreThatHasIt) {
@@ -31,7 +34,8 @@ TEST(Tails, ACutRiskIsTheScoreThatHasIt) {
     const double score = Certainty::cut_score(risk);
     const Big exact = boost::math::erfc(Big(-score) / sqrt(Big(2))) / 2;
     // A score is known to its last digit, and the risk's logarithm is as steep as the score.
-    EXPECT_LT(static_cast<double>(abs(Big(exact) / Big(risk) - 1)), 4e-16 * (1.0 + score * score)) << risk;
+    EXPECT_LT(static_cast<double>(abs(Big(exact) / Big(risk) - 1)), 4e-16 * (1.0 + score * score))
+        << risk;
   }
 }
 

@@ -1,6 +1,6 @@
-// A stranger's program: other flags than the library's, no header but its own. What holds Eigen types crosses the border by value, both
-// ways: what one side allocates the other frees, and fixed-size members must lie at the same offsets. AddressSanitizer and the checks below
-// see to it.
+// A stranger's program: other flags than the library's, no header but its own. What holds Eigen
+// types crosses the border by value, both ways: what one side allocates the other frees, and
+// fixed-size members must lie at the same offsets. AddressSanitizer and the checks below see to it.
 #include <palpation/belief/belief.h>
 #include <palpation/boundary/level_set.h>
 #include <palpation/exploration/waypoint.h>
@@ -17,7 +17,9 @@ using namespace palpation;
 
 namespace {
 
-static_assert(alignof(Robot) == 16, "Eigen's alignment is the library's, whatever vector instructions the consumer may use");
+static_assert(
+    alignof(Robot) == 16,
+    "Eigen's alignment is the library's, whatever vector instructions the consumer may use");
 
 void check(bool holds, const char* claim) {
   if (holds) return;
@@ -47,7 +49,8 @@ Palpation touch(const SurfacePoint& where, double reading) {
 /// Soft at the first vertex, stiff at the last: what the belief makes of two touches.
 Marginals after_two_touches(const Surface& surface) {
   const Prior prior(surface, Metric::Ambient, {.length_m = 0.01, .signal_sd = 1.0});
-  const std::vector<Palpation> touches{touch(surface.at_vertex(0), -1.0), touch(surface.at_vertex(surface.vertex_count() - 1), 1.0)};
+  const std::vector<Palpation> touches{touch(surface.at_vertex(0), -1.0),
+                                       touch(surface.at_vertex(surface.vertex_count() - 1), 1.0)};
   const Belief before(prior, {.noise_sd = 0.01});
   Belief after = before;
   after = after.condition_on(touches);
@@ -58,14 +61,17 @@ Marginals after_two_touches(const Surface& surface) {
 
 int main() {
   const Surface mine(refine(two_triangles_of_my_own(), 0.002));
-  check(std::abs(mine.area() - 1e-4) < 1e-16, "a square of 10 mm has 100 mm2");  // rounding of 1e-4 is 1e-20
+  check(std::abs(mine.area() - 1e-4) < 1e-16,
+        "a square of 10 mm has 100 mm2");  // rounding of 1e-4 is 1e-20
 
   Random random(1);
-  const TriangleMesh theirs = make_plane({.size_m = {0.025, 0.050}, .columns = 6, .rows = 11}, random);
+  const TriangleMesh theirs =
+      make_plane({.size_m = {0.025, 0.050}, .columns = 6, .rows = 11}, random);
   const Surface surface(through_a_file(theirs));
 
   const Field mean = after_two_touches(surface).mean;
-  check(mean.size() == surface.vertex_count() && mean(0) < -0.5 && mean(mean.size() - 1) > 0.5, "the belief follows the touches");
+  check(mean.size() == surface.vertex_count() && mean(0) < -0.5 && mean(mean.size() - 1) > 0.5,
+        "the belief follows the touches");
   const Region stiff = superlevel_region(surface, mean, 0.0);
   check(stiff.area() > 0.0 && stiff.area() < surface.area(), "a part of the tissue is stiff");
 
@@ -73,7 +79,8 @@ int main() {
   robot.from_tissue(2, 3) = 0.1;
   const std::vector<SurfacePoint> targets{surface.project({0.0125, 0.025, 0.5})};
   const Waypoint waypoint = waypoints(surface, targets, robot).front();
-  check((waypoint.position - Vec3(0.0125, 0.025, 0.1)).norm() < 1e-9, "the waypoint is below the point");  // the file keeps 1e-12 m
+  check((waypoint.position - Vec3(0.0125, 0.025, 0.1)).norm() < 1e-9,
+        "the waypoint is below the point");  // the file keeps 1e-12 m
   const Eigen::Vector4d facing_down = quaternion(waypoint.rotation);
   check(std::abs(facing_down.norm() - 1.0) < 1e-12, "a pose has a unit quaternion");
 

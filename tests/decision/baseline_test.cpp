@@ -20,7 +20,8 @@ std::vector<Vec3> positions(const Surface& surface, const std::vector<SurfacePoi
   return places;
 }
 
-// 4 x 10 mm, three rows of eleven places along y, to and fro: 3 x 10 mm and two changes of 2 mm make 34 mm.
+// 4 x 10 mm, three rows of eleven places along y, to and fro: 3 x 10 mm and two changes of 2 mm
+// make 34 mm.
 TEST(RasterScan, GoesToAndFroAlongTheLongerSide) {
   const Surface tissue = sheet(0.004, 0.010, 0.001);
   const std::vector<Vec3> places = positions(tissue, raster_scan(tissue, 0.002, 0.001));
@@ -33,8 +34,8 @@ TEST(RasterScan, GoesToAndFroAlongTheLongerSide) {
   EXPECT_LT((places[32] - Vec3(0.004, 0.010, 0.0)).norm(), 1e-12);
 }
 
-// 2 mm fit twice into 5 mm: the millimetre that is left over is shared, so rows are at 0.5, 2.5 and 4.5 mm. Places every 4 mm of 10 mm: 1,
-// 5, 9.
+// 2 mm fit twice into 5 mm: the millimetre that is left over is shared, so rows are at 0.5, 2.5
+// and 4.5 mm. Places every 4 mm of 10 mm: 1, 5, 9.
 TEST(RasterScan, SharesOutWhatIsLeftOverAtBothEnds) {
   const Surface tissue = sheet(0.010, 0.005, 0.001);
   const std::vector<Vec3> places = positions(tissue, raster_scan(tissue, 0.002, 0.004));
@@ -44,8 +45,8 @@ TEST(RasterScan, SharesOutWhatIsLeftOverAtBothEnds) {
   EXPECT_LT((places[8] - Vec3(0.009, 0.0045, 0.0)).norm(), 1e-12);
 }
 
-// 9 x 9 places at whole millimetres of a square of 8 mm; the quarter that is cut away held 4 x 4 of them, its sides still belong to the
-// tissue.
+// 9 x 9 places at whole millimetres of a square of 8 mm; the quarter that is cut away held 4 x 4 of
+// them, its sides still belong to the tissue.
 TEST(RasterScan, LeavesOutPlacesOffTheTissue) {
   const Surface shape = l_shape(0.008, 8);
   const std::vector<Vec3> places = positions(shape, raster_scan(shape, 0.001, 0.001));
@@ -55,7 +56,8 @@ TEST(RasterScan, LeavesOutPlacesOffTheTissue) {
 
 TEST(RasterScan, RefusesStepsThatAreNoLengthsAndScansWithoutEnd) {
   const Surface tissue = sheet(0.004, 0.010, 0.001);
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(raster_scan(tissue, bad, 0.001), InvalidInput) << bad;
     EXPECT_THROW(raster_scan(tissue, 0.001, bad), InvalidInput) << bad;
   }
@@ -74,29 +76,39 @@ using Feel = std::function<double(const Vec3&)>;
 /// Readings by place in tenths of micrometres.
 using Touched = std::map<std::pair<long, long>, double>;
 
-std::pair<long, long> tenths_of_micrometres(double x_m, double y_m) { return {std::lround(1e7 * x_m), std::lround(1e7 * y_m)}; }
+std::pair<long, long> tenths_of_micrometres(double x_m, double y_m) {
+  return {std::lround(1e7 * x_m), std::lround(1e7 * y_m)};
+}
 
 /// Refines to the end; a place that is asked for twice fails the test.
-Touched refine_by_touch(RecursiveRefinement refinement, const Surface& surface, double level, const Feel& feel) {
+Touched refine_by_touch(RecursiveRefinement refinement, const Surface& surface, double level,
+                        const Feel& feel) {
   Touched touched;
-  for (std::vector<SurfacePoint> places = refinement.next(level); !places.empty(); places = refinement.next(level)) {
+  for (std::vector<SurfacePoint> places = refinement.next(level); !places.empty();
+       places = refinement.next(level)) {
     std::vector<Palpation> palpations;
     for (const SurfacePoint& place : places) {
       const Vec3 p = surface.position(place);
       palpations.push_back(felt(place, feel(p)));
-      EXPECT_TRUE(touched.emplace(tenths_of_micrometres(p.x(), p.y()), palpations.back().reading).second) << "asked for twice";
+      EXPECT_TRUE(
+          touched.emplace(tenths_of_micrometres(p.x(), p.y()), palpations.back().reading).second)
+          << "asked for twice";
     }
     refinement.record(palpations);
   }
   return touched;
 }
 
-// The paper's disk on its phantom: inside 9, outside 7. The finest grid, 0.3125 mm, would need 81 x 161 = 13,041 touches. Cells of 2.5 mm
-// are small beside the disk's radius of 6.25 mm, so that no part of this outline slips in and out between two neighbouring corners.
+// The paper's disk on its phantom: inside 9, outside 7. The finest grid, 0.3125 mm, would need 81 x
+// 161 = 13,041 touches. Cells of 2.5 mm are small beside the disk's radius of 6.25 mm, so that no
+// part of this outline slips in and out between two neighbouring corners.
 TEST(RecursiveRefinement, FindsTheWholeOutlineOfADiskWithATenthOfTheTouches) {
   const Surface phantom = sheet(0.025, 0.050, 0.0025);
-  const auto feel = [](const Vec3& p) { return (p - Vec3(0.011492, 0.030, 0.0)).norm() < 0.00625 ? 9.0 : 7.0; };
-  const Touched touched = refine_by_touch(RecursiveRefinement(phantom, 0.0025, 0.0003125), phantom, 8.0, feel);
+  const auto feel = [](const Vec3& p) {
+    return (p - Vec3(0.011492, 0.030, 0.0)).norm() < 0.00625 ? 9.0 : 7.0;
+  };
+  const Touched touched =
+      refine_by_touch(RecursiveRefinement(phantom, 0.0025, 0.0003125), phantom, 8.0, feel);
   EXPECT_LT(touched.size(), 1304u);
   EXPECT_GT(touched.size(), 11u * 21u);  // the coarse grid
   const double step = 0.0003125;
@@ -104,7 +116,8 @@ TEST(RecursiveRefinement, FindsTheWholeOutlineOfADiskWithATenthOfTheTouches) {
   for (int column = 0; column < 80; ++column) {
     for (int row = 0; row < 160; ++row) {
       int inside = 0, felt = 0;
-      for (const auto& [i, j] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
+      for (const auto& [i, j] :
+           {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
         const double x = (column + i) * step, y = (row + j) * step;
         inside += feel(Vec3(x, y, 0.0)) > 8.0;
         felt += static_cast<int>(touched.count(tenths_of_micrometres(x, y)));
@@ -120,15 +133,18 @@ TEST(RecursiveRefinement, FindsTheWholeOutlineOfADiskWithATenthOfTheTouches) {
 // 4 x 4 mm in cells of 2 mm: nine corners, all alike.
 TEST(RecursiveRefinement, TouchesTheCoarseGridOnlyWhereNothingStraddlesTheLevel) {
   const Surface tissue = sheet(0.004, 0.004, 0.001);
-  const Touched touched = refine_by_touch(RecursiveRefinement(tissue, 0.002, 0.0005), tissue, 8.0, [](const Vec3&) { return 7.0; });
+  const Touched touched = refine_by_touch(RecursiveRefinement(tissue, 0.002, 0.0005), tissue, 8.0,
+                                          [](const Vec3&) { return 7.0; });
   EXPECT_EQ(touched.size(), 9u);
 }
 
-// A straight edge at x = 1.2 mm on 4 x 2 mm, cells of 2 mm down to 1 mm: six corners; then the left cell is cut, five places more.
+// A straight edge at x = 1.2 mm on 4 x 2 mm, cells of 2 mm down to 1 mm: six corners; then the left
+// cell is cut, five places more.
 TEST(RecursiveRefinement, CutsACellInFour) {
   const Surface tissue = sheet(0.004, 0.002, 0.001);
   const auto feel = [](const Vec3& p) { return p.x() > 0.0012 ? 9.0 : 7.0; };
-  const Touched touched = refine_by_touch(RecursiveRefinement(tissue, 0.002, 0.001), tissue, 8.0, feel);
+  const Touched touched =
+      refine_by_touch(RecursiveRefinement(tissue, 0.002, 0.001), tissue, 8.0, feel);
   EXPECT_EQ(touched.size(), 11u);
   EXPECT_EQ(touched.count(tenths_of_micrometres(0.001, 0.001)), 1u);
   EXPECT_EQ(touched.count(tenths_of_micrometres(0.003, 0.001)), 0u);
@@ -137,7 +153,8 @@ TEST(RecursiveRefinement, CutsACellInFour) {
 // 5 mm in cells of 2 mm: corners at 0, 2, 4 and 5 mm, both ways.
 TEST(RecursiveRefinement, ShortensTheLastCellsToFit) {
   const Surface tissue = sheet(0.005, 0.005, 0.001);
-  const Touched touched = refine_by_touch(RecursiveRefinement(tissue, 0.002, 0.002), tissue, 8.0, [](const Vec3&) { return 7.0; });
+  const Touched touched = refine_by_touch(RecursiveRefinement(tissue, 0.002, 0.002), tissue, 8.0,
+                                          [](const Vec3&) { return 7.0; });
   EXPECT_EQ(touched.size(), 16u);
   EXPECT_EQ(touched.count(tenths_of_micrometres(0.005, 0.005)), 1u);
   EXPECT_EQ(touched.count(tenths_of_micrometres(0.004, 0.002)), 1u);
@@ -149,7 +166,8 @@ TEST(RecursiveRefinement, AsksForNothingOffTheTissue) {
   EXPECT_EQ(RecursiveRefinement(shape, 0.002, 0.002).next(8.0).size(), 8u);
 }
 
-// The right corners give no answer; what is left does not straddle the level, so the only cell is not cut.
+// The right corners give no answer; what is left does not straddle the level, so the only cell is
+// not cut.
 TEST(RecursiveRefinement, DoesNotAskAgainWhereNothingWasFelt) {
   const Surface tissue = sheet(0.002, 0.002, 0.001);
   RecursiveRefinement refinement(tissue, 0.002, 0.001);
@@ -162,7 +180,8 @@ TEST(RecursiveRefinement, DoesNotAskAgainWhereNothingWasFelt) {
   EXPECT_TRUE(refinement.next(8.0).empty());
 }
 
-// Corners felt 7, 7, 9, 9: nothing to do for a level of 10, but the cell is cut, five places, when the level turns out to be 8.
+// Corners felt 7, 7, 9, 9: nothing to do for a level of 10, but the cell is cut, five places, when
+// the level turns out to be 8.
 TEST(RecursiveRefinement, FollowsALevelThatMoves) {
   const Surface tissue = sheet(0.002, 0.002, 0.001);
   RecursiveRefinement refinement(tissue, 0.002, 0.001);
@@ -181,7 +200,8 @@ TEST(RecursiveRefinement, RefusesWhatItDidNotAskForAndReadingsThatAreNoNumbers) 
   const std::vector<SurfacePoint> places = refinement.next(8.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(refinement.record(std::vector<Palpation>{felt(places[0], nan)}), InvalidInput);
-  EXPECT_THROW(refinement.record(std::vector<Palpation>{felt(tissue.at_vertex(6), 7.0)}), InvalidInput);  // at (1, 1) mm
+  EXPECT_THROW(refinement.record(std::vector<Palpation>{felt(tissue.at_vertex(6), 7.0)}),
+               InvalidInput);  // at (1, 1) mm
   refinement.record(std::vector<Palpation>{felt(places[0], 7.0)});
   EXPECT_THROW(refinement.record(std::vector<Palpation>{felt(places[0], 7.0)}), InvalidInput);
   EXPECT_THROW(refinement.next(nan), InvalidInput);
@@ -191,7 +211,8 @@ TEST(RecursiveRefinement, RefusesCellsThatDoNotGetFinerOrAreTooMany) {
   const Surface tissue = sheet(0.004, 0.004, 0.001);
   EXPECT_THROW(RecursiveRefinement(tissue, 0.001, 0.002), InvalidInput);
   EXPECT_THROW(RecursiveRefinement(tissue, 0.001, 0.0), InvalidInput);
-  EXPECT_THROW(RecursiveRefinement(tissue, std::numeric_limits<double>::infinity(), 0.001), InvalidInput);
+  EXPECT_THROW(RecursiveRefinement(tissue, std::numeric_limits<double>::infinity(), 0.001),
+               InvalidInput);
   EXPECT_THROW(RecursiveRefinement(tissue, 1e300, 0.001), InvalidInput);
   EXPECT_THROW(RecursiveRefinement(tissue, 0.001, 1e-7), InvalidInput);
 }

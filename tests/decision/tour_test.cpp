@@ -51,8 +51,9 @@ std::vector<int> nearest_neighbour_order(const Eigen::MatrixXd& distance) {
   std::vector<int> order, left = identity(static_cast<int>(distance.rows()) - 1);
   int place = 0;
   while (!left.empty()) {
-    const auto next =
-        std::min_element(left.begin(), left.end(), [&](int a, int b) { return distance(place, a + 1) < distance(place, b + 1); });
+    const auto next = std::min_element(left.begin(), left.end(), [&](int a, int b) {
+      return distance(place, a + 1) < distance(place, b + 1);
+    });
     place = *next + 1;
     order.push_back(*next);
     left.erase(next);
@@ -73,7 +74,8 @@ TEST(ShortestTour, SweepsALineOnceFromWhereTheProbeIs) {
   EXPECT_EQ(tour_length(distance, order), 3.0);
 }
 
-// Stops at -1 and 1.5, 4: the nearest first and then to the other side costs 1 + 5 = 6; the path is open, so there is no way back to pay.
+// Stops at -1 and 1.5, 4: the nearest first and then to the other side costs 1 + 5 = 6; the path is
+// open, so there is no way back to pay.
 TEST(ShortestTour, IsAnOpenPath) {
   const Eigen::MatrixXd distance = distances_between({{0, 0}, {4, 0}, {-1, 0}, {1.5, 0}});
   EXPECT_EQ(shortest_tour(distance), (std::vector<int>{1, 2, 0}));
@@ -91,7 +93,8 @@ TEST(ShortestTour, IsAsShortAsTheBestOfAllOrdersOfEightStops) {
     const Eigen::MatrixXd distance = distances_between(random_places(9, random));
     const std::vector<int> order = shortest_tour(distance);
     ASSERT_TRUE(is_permutation_of_stops(order, 8));
-    EXPECT_NEAR(tour_length(distance, order), shortest_of_all_orders(distance), 1e-14);  // sums of 8 numbers below 2
+    EXPECT_NEAR(tour_length(distance, order), shortest_of_all_orders(distance),
+                1e-14);  // sums of 8 numbers below 2
   }
 }
 
@@ -101,7 +104,8 @@ TEST(ShortestTour, IsAsShortAsTheBestOfAllOrdersOfNineStopsWithoutTheTriangleIne
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < i; ++j) distance(i, j) = distance(j, i) = random.uniform();
   }
-  EXPECT_NEAR(tour_length(distance, shortest_tour(distance)), shortest_of_all_orders(distance), 1e-14);  // sums of 9 numbers below 1
+  EXPECT_NEAR(tour_length(distance, shortest_tour(distance)), shortest_of_all_orders(distance),
+              1e-14);  // sums of 9 numbers below 1
 }
 
 // All stops are one place: every order is as long as any other.
@@ -113,7 +117,8 @@ TEST(ShortestTour, OfEqualsTakesTheLowerIndexFirst) {
   }
 }
 
-// Twenty stops around half a circle of radius 1: the best path walks the arc, 19 chords and the step from the probe at its first end.
+// Twenty stops around half a circle of radius 1: the best path walks the arc, 19 chords and the
+// step from the probe at its first end.
 TEST(ShortestTour, WalksAnArcOfTwentyStopsFromOneEndToTheOther) {
   std::vector<Vec2> places = {{1.1, 0.0}};
   for (int i = 0; i < 20; ++i) {
@@ -132,11 +137,14 @@ TEST(ShortestTour, IsNeverLongerThanNearestNeighbour) {
     const Eigen::MatrixXd distance = distances_between(random_places(stops + 1, random));
     const std::vector<int> order = shortest_tour(distance);
     ASSERT_TRUE(is_permutation_of_stops(order, stops));
-    EXPECT_LE(tour_length(distance, order), tour_length(distance, nearest_neighbour_order(distance)) + 1e-12) << stops << " stops";
+    EXPECT_LE(tour_length(distance, order),
+              tour_length(distance, nearest_neighbour_order(distance)) + 1e-12)
+        << stops << " stops";
   }
 }
 
-// Beyond the exact range no reversal of a stretch and no move of one, two or three neighbours is left that would help.
+// Beyond the exact range no reversal of a stretch and no move of one, two or three neighbours is
+// left that would help.
 TEST(ShortestTour, LeavesNoReversalAndNoMoveThatHelps) {
   Random random(4);
   const int stops = 25;
@@ -147,13 +155,15 @@ TEST(ShortestTour, LeavesNoReversalAndNoMoveThatHelps) {
     for (int end = first + 1; end < stops; ++end) {
       std::vector<int> other = order;
       std::reverse(other.begin() + first, other.begin() + end + 1);
-      EXPECT_GE(tour_length(distance, other), length - 1e-11);  // a gain below 1e-12 of the longest distance is not taken
+      EXPECT_GE(tour_length(distance, other),
+                length - 1e-11);  // a gain below 1e-12 of the longest distance is not taken
     }
   }
   for (int first = 0; first < stops; ++first) {
     for (int size = 1; size <= 3 && first + size <= stops; ++size) {
       for (int behind = 0; behind + size <= stops; ++behind) {
-        std::vector<int> stretch(order.begin() + first, order.begin() + first + size), other = order;
+        std::vector<int> stretch(order.begin() + first, order.begin() + first + size),
+            other = order;
         other.erase(other.begin() + first, other.begin() + first + size);
         other.insert(other.begin() + behind, stretch.begin(), stretch.end());
         EXPECT_GE(tour_length(distance, other), length - 1e-11);
@@ -166,7 +176,8 @@ TEST(ShortestTour, RefusesWhatIsNoTableOfDistances) {
   const Eigen::MatrixXd good = distances_between({{0, 0}, {1, 0}, {2, 0}});
   EXPECT_THROW(shortest_tour(Eigen::MatrixXd(0, 0)), InvalidInput);
   EXPECT_THROW(shortest_tour(Eigen::MatrixXd::Zero(2, 3)), InvalidInput);
-  for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad :
+       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     Eigen::MatrixXd distance = good;
     distance(1, 2) = distance(2, 1) = bad;
     EXPECT_THROW(shortest_tour(distance), InvalidInput) << bad;

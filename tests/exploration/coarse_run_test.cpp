@@ -19,9 +19,12 @@ struct Felt {
   std::vector<int> vertices;  ///< touched, of the fine tissue
 };
 
-Phantom disk_phantom(const Surface& tissue) { return Phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05}); }
+Phantom disk_phantom(const Surface& tissue) {
+  return Phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05});
+}
 
-Felt felt_with(const CoarseMesh& coarse, const Surface& tissue, const Phantom& phantom, double way_step_m = 0.0) {
+Felt felt_with(const CoarseMesh& coarse, const Surface& tissue, const Phantom& phantom,
+               double way_step_m = 0.0) {
   Random random(1);
   Felt felt;
   Exploration planner(Surface(coarse.mesh), {}, {}, {.batches = 5}, 1);
@@ -29,7 +32,8 @@ Felt felt_with(const CoarseMesh& coarse, const Surface& tissue, const Phantom& p
       planner, coarse, tissue,
       [&](const SurfacePoint& where, const Vec3&) {
         for (int corner = 0; corner < 3; ++corner) {
-          if (where.barycentric[corner] == 1.0) felt.vertices.push_back(tissue.triangle(where.face)[corner]);
+          if (where.barycentric[corner] == 1.0)
+            felt.vertices.push_back(tissue.triangle(where.face)[corner]);
         }
         return std::optional(phantom.touch(where, random));
       },
@@ -40,13 +44,16 @@ Felt felt_with(const CoarseMesh& coarse, const Surface& tissue, const Phantom& p
 TEST(CoarseRun, OnTheWholeMeshIsTheRun) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue);
-  CoarseMesh whole{tissue.mesh(), std::vector<int>(static_cast<std::size_t>(tissue.vertex_count()))};
+  CoarseMesh whole{tissue.mesh(),
+                   std::vector<int>(static_cast<std::size_t>(tissue.vertex_count()))};
   std::iota(whole.vertices.begin(), whole.vertices.end(), 0);
   const Felt felt = felt_with(whole, tissue, phantom);
 
   Exploration exploration(tissue, {}, {}, {.batches = 5}, 1);
   Random random(1);
-  run(exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); });
+  run(exploration, [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  });
   ASSERT_EQ(felt.palpations.size(), exploration.palpations().size());
   for (std::size_t i = 0; i < felt.palpations.size(); ++i) {
     EXPECT_EQ(felt.palpations[i].reading, exploration.palpations()[i].reading);
@@ -60,7 +67,8 @@ TEST(CoarseRun, TouchesVerticesThatBothMeshesHave) {
   const CoarseMesh coarse = coarsen(tissue, 0.0015);
   const Felt felt = felt_with(coarse, tissue, phantom);
   EXPECT_EQ(felt.palpations.size(), 66u);
-  for (const int vertex : felt.vertices) EXPECT_TRUE(std::binary_search(coarse.vertices.begin(), coarse.vertices.end(), vertex));
+  for (const int vertex : felt.vertices)
+    EXPECT_TRUE(std::binary_search(coarse.vertices.begin(), coarse.vertices.end(), vertex));
 }
 
 TEST(CoarseRun, TakesReadingsOnTheWay) {
@@ -71,7 +79,8 @@ TEST(CoarseRun, TakesReadingsOnTheWay) {
   EXPECT_GT(ways.palpations.size(), 3 * stops.palpations.size());
 }
 
-/// The bound that is stated for plans on a coarser mesh: concluded on the whole one, the boundary is as good.
+/// The bound that is stated for plans on a coarser mesh: concluded on the whole one, the boundary
+/// is as good.
 TEST(CoarseRun, EndsWithABoundaryAsGoodAsThatOfThePlanOnTheWholeMesh) {
   const Surface tissue = plane(101, 201);
   const Phantom phantom = disk_phantom(tissue);
@@ -81,8 +90,10 @@ TEST(CoarseRun, EndsWithABoundaryAsGoodAsThatOfThePlanOnTheWholeMesh) {
     concluded.take_up(felt_with(coarsen(tissue, explore_m), tissue, phantom).palpations);
     ASSERT_TRUE(concluded.level());
     const Contour contour = concluded.contour();
-    const RegionError error = compare(tissue, superlevel_region(tissue, contour.field, contour.level), truth);
-    EXPECT_LT(error.symmetric_difference_m2, 8e-6) << "of a disk of 123 mm2, planned at " << explore_m;
+    const RegionError error =
+        compare(tissue, superlevel_region(tissue, contour.field, contour.level), truth);
+    EXPECT_LT(error.symmetric_difference_m2, 8e-6)
+        << "of a disk of 123 mm2, planned at " << explore_m;
     EXPECT_GT(error.dice, 0.96);
   }
 }

@@ -18,7 +18,9 @@ Phantom disk_phantom(const Surface& tissue, double noise) {
 }
 
 Probe probe_of(const Phantom& phantom, Random& random) {
-  return [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); };
+  return [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  };
 }
 
 TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
@@ -27,7 +29,8 @@ TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
   Exploration exploration(tissue, {}, {}, {.batches = 3}, 1);
   Random random(1);
   std::vector<std::size_t> sizes;
-  run(exploration, probe_of(phantom, random), [&](const Tour& tour) { sizes.push_back(tour.palpations.size()); });
+  run(exploration, probe_of(phantom, random),
+      [&](const Tour& tour) { sizes.push_back(tour.palpations.size()); });
   EXPECT_EQ(sizes, (std::vector<std::size_t>{16, 10, 10, 10}));
   EXPECT_EQ(exploration.stop_reason(), "budget");
   EXPECT_EQ(exploration.belief().palpations().size(), 46u);
@@ -41,7 +44,8 @@ TEST(Exploration, AnswersTheSameUntilSomethingIsRecorded) {
   const std::vector<int> first = exploration.next();
   EXPECT_EQ(exploration.next(), first);
   Random random(1);
-  exploration.record(travel(tissue, first, std::nullopt, probe_of(phantom, random), 0.0).palpations);
+  exploration.record(
+      travel(tissue, first, std::nullopt, probe_of(phantom, random), 0.0).palpations);
   EXPECT_NE(exploration.next(), first);
 }
 
@@ -60,7 +64,10 @@ TEST(Exploration, IsRepeatable) {
 TEST(Exploration, PlansTheSameWithForesightAndWithout) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  const FieldModel fixed{.belief = {.noise_sd = 0.1}, .learn_length = false, .learn_signal = false, .learn_noise = false};
+  const FieldModel fixed{.belief = {.noise_sd = 0.1},
+                         .learn_length = false,
+                         .learn_signal = false,
+                         .learn_noise = false};
   const auto planned = [&](bool foresees) {
     Exploration exploration(tissue, fixed, {.known = 8.0}, {.batches = 4}, 7);
     Random random(3);
@@ -70,7 +77,8 @@ TEST(Exploration, PlansTheSameWithForesightAndWithout) {
       stops.push_back(exploration.next());
       if (foresees) exploration.foresee();
       EXPECT_EQ(exploration.next(), stops.back());
-      std::vector<Palpation> felt = travel(tissue, stops.back(), here, probe_of(phantom, random), 0.0).palpations;
+      std::vector<Palpation> felt =
+          travel(tissue, stops.back(), here, probe_of(phantom, random), 0.0).palpations;
       here = tissue.at_vertex(stops.back().back());
       if (stops.size() == 3) felt.pop_back();  // no contact at the last stop
       exploration.record(felt);
@@ -83,8 +91,11 @@ TEST(Exploration, PlansTheSameWithForesightAndWithout) {
 TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
   const Surface tissue = plane(26, 51);
   const Phantom healthy(tissue, {}, {.noise = 0.05});
-  const FieldModel given{
-      .kernel = {.length_m = 0.0033}, .belief = {.noise_sd = 0.1}, .learn_length = false, .learn_signal = false, .learn_noise = false};
+  const FieldModel given{.kernel = {.length_m = 0.0033},
+                         .belief = {.noise_sd = 0.1},
+                         .learn_length = false,
+                         .learn_signal = false,
+                         .learn_noise = false};
   for (const LevelEstimate estimate : {LevelEstimate::Edge, LevelEstimate::Range}) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       Exploration exploration(tissue, given, {.estimate = estimate}, {.batches = 5}, seed);
@@ -103,7 +114,10 @@ TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
 TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
   const Surface tissue = plane(26, 51);
   Random random(3);
-  FieldModel given{.kernel = {.length_m = 0.0033}, .learn_length = false, .learn_signal = false, .learn_noise = false};
+  FieldModel given{.kernel = {.length_m = 0.0033},
+                   .learn_length = false,
+                   .learn_signal = false,
+                   .learn_noise = false};
   for (const double noise_sd : {0.1, 1e-7}) {
     given.belief.noise_sd = noise_sd;
     Exploration exploration(tissue, given, {.estimate = LevelEstimate::Range}, {.batches = 0}, 1);
@@ -136,11 +150,13 @@ TEST(Exploration, ExploresByVarianceUntilThereIsContrast) {
   run(exploration, probe_of(healthy, random));
   EXPECT_FALSE(exploration.contrast_seen());
   EXPECT_FALSE(exploration.level().has_value());  // the range of noise is no level
-  // Fifty-six touches of 25 x 50 mm, spread evenly, leave no vertex farther than about 4.5 mm from one.
+  // Fifty-six touches of 25 x 50 mm, spread evenly, leave no vertex farther than about 4.5 mm from
+  // one.
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
     double nearest = 1.0;
     for (const Palpation& palpation : exploration.belief().palpations()) {
-      nearest = std::min(nearest, (tissue.position(palpation.where) - tissue.vertex(vertex)).norm());
+      nearest =
+          std::min(nearest, (tissue.position(palpation.where) - tissue.vertex(vertex)).norm());
     }
     EXPECT_LT(nearest, 0.0045);
   }
@@ -172,7 +188,8 @@ TEST(Exploration, ForgetsStopsWithoutContact) {
 TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
   const Surface tissue = plane(4, 5);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  Exploration exploration(tissue, {}, {}, {.initial_count = 4, .batch = {.size = 5}, .batches = 10}, 1, {.touch_once = true});
+  Exploration exploration(tissue, {}, {}, {.initial_count = 4, .batch = {.size = 5}, .batches = 10},
+                          1, {.touch_once = true});
   Random random(1);
   run(exploration, probe_of(phantom, random));
   EXPECT_EQ(exploration.stop_reason(), "nothing left to touch");
@@ -182,7 +199,9 @@ TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
 TEST(Exploration, StopsAtTheExpectedErrorThatWasAskedFor) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.02);
-  Exploration exploration(tissue, {}, {.known = 8.0}, {.acquisition = straddle(), .batches = 40, .stop = {.error_m2 = 10e-6}}, 1);
+  Exploration exploration(tissue, {}, {.known = 8.0},
+                          {.acquisition = straddle(), .batches = 40, .stop = {.error_m2 = 10e-6}},
+                          1);
   Random random(1);
   run(exploration, probe_of(phantom, random));
   EXPECT_EQ(exploration.stop_reason(), "expected error");
@@ -199,7 +218,8 @@ TEST(Exploration, TakesUpReadingsMadeElsewhere) {
 
 TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   const Surface tissue = plane(51, 101);
-  const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05, .lag_m = 0.0015});
+  const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}},
+                        {.noise = 0.05, .lag_m = 0.0015});
   const auto wrong_mm2 = [&](const Exploration& exploration) {
     double wrong = 0.0;
     for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
@@ -209,12 +229,16 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
     return wrong;
   };
   const auto explored = [&](const LagModel& lag) {
-    Exploration exploration(tissue, {.lag = lag}, {.known = 8.0}, {.acquisition = straddle(), .batches = 9}, 2);
+    Exploration exploration(tissue, {.lag = lag}, {.known = 8.0},
+                            {.acquisition = straddle(), .batches = 9}, 2);
     Random random(2);
-    run(exploration, [&](const SurfacePoint& where, const Vec3& travel) { return std::optional(phantom.touch(where, travel, random)); });
+    run(exploration, [&](const SurfacePoint& where, const Vec3& travel) {
+      return std::optional(phantom.touch(where, travel, random));
+    });
     return exploration;
   };
-  const Exploration ignored = explored({}), learned = explored({.learn = true}), known = explored({.known_m = 0.0015});
+  const Exploration ignored = explored({}), learned = explored({.learn = true}),
+                    known = explored({.known_m = 0.0015});
   EXPECT_FALSE(ignored.lag().has_value());
   ASSERT_TRUE(learned.lag().has_value());
   EXPECT_NEAR(learned.lag()->value_m, 0.0015, 2.0 * learned.lag()->stddev_m);
@@ -224,8 +248,10 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   EXPECT_LT(wrong_mm2(known), 0.6 * wrong_mm2(ignored));
   const Palpation& raw = learned.palpations()[50];
   EXPECT_EQ(raw.where.barycentric.maxCoeff(), 1.0);  // a stop is a vertex
-  const Vec3 shift = tissue.position(raw.where) - tissue.position(learned.belief().palpations()[50].where);
-  EXPECT_NEAR((shift - learned.lag()->value_m * raw.travel).norm(), 0.0, 2e-5);  // the lag rests at a fiftieth of a millimetre
+  const Vec3 shift =
+      tissue.position(raw.where) - tissue.position(learned.belief().palpations()[50].where);
+  EXPECT_NEAR((shift - learned.lag()->value_m * raw.travel).norm(), 0.0,
+              2e-5);  // the lag rests at a fiftieth of a millimetre
 }
 
 /// An exploration of the disk phantom by a probe whose tip has this radius.
@@ -242,7 +268,9 @@ TEST(RoundTip, TakesTheBoundaryInWithItsBandAndItsExpectedError) {
   const Exploration sharp = explored_with_tip(0.0), round = explored_with_tip(0.002);
   EXPECT_FALSE(round.tip_hides_all());
   const double share = 4.25 / 6.25;  // of the disk's outline, 2 mm farther in
-  EXPECT_NEAR(round.certainty()->expected.symmetric_difference_m2() / sharp.certainty()->expected.symmetric_difference_m2(), share, 0.1);
+  EXPECT_NEAR(round.certainty()->expected.symmetric_difference_m2() /
+                  sharp.certainty()->expected.symmetric_difference_m2(),
+              share, 0.1);
   EXPECT_GT(round.certainty()->half_width_m, 0.0);
 }
 
@@ -263,7 +291,8 @@ TEST(Travel, ReadsOnTheWayOncePerMillimetre) {
   EXPECT_EQ(tour.palpations[0].kind, TouchKind::Stop);
   EXPECT_EQ(tour.palpations[1].kind, TouchKind::Way);
   EXPECT_EQ(tour.palpations[25].kind, TouchKind::Stop);
-  for (int i = 0; i < 26; ++i) EXPECT_NEAR(tissue.position(tour.palpations[i].where).x(), 0.001 * i, 1e-12);
+  for (int i = 0; i < 26; ++i)
+    EXPECT_NEAR(tissue.position(tour.palpations[i].where).x(), 0.001 * i, 1e-12);
   EXPECT_NEAR((tour.palpations[7].travel - Vec3::UnitX()).norm(), 0.0, 1e-9);
 }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr double kGain = 0.5;
 
 Hyperparameters in_force(const Belief& belief) {
-  return {belief.prior().kernel().length_m, belief.prior().kernel().signal_sd, belief.options().noise_sd};
+  return {belief.prior().kernel().length_m, belief.prior().kernel().signal_sd,
+          belief.options().noise_sd};
 }
 
 /// Hyperparameters after each batch of a run over a disk; `check` sees the belief.
@@ -21,7 +22,9 @@ std::vector<Hyperparameters> explored(const Surface& tissue, double rebuild_gain
                                       const std::function<void(const Belief&)>& check = {}) {
   const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05});
   Random random(3);
-  const Probe probe = [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); };
+  const Probe probe = [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  };
   Exploration exploration(tissue, {.rebuild_gain = rebuild_gain}, {}, {.batches = 8}, 7);
   std::vector<Hyperparameters> all;
   for (auto stops = exploration.next(); !stops.empty(); stops = exploration.next()) {

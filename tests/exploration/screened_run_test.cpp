@@ -1,4 +1,5 @@
-// Screening in the loop: what a probe's fault does to an exploration, and that a sound probe loses nothing.
+// Screening in the loop: what a probe's fault does to an exploration, and that a sound probe loses
+// nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace {
 
 int set_aside_in(const Exploration& exploration) {
   const std::vector<Palpation>& all = exploration.palpations();
-  return static_cast<int>(std::count_if(all.begin(), all.end(), [](const Palpation& one) { return !one.set_aside.empty(); }));
+  return static_cast<int>(std::count_if(
+      all.begin(), all.end(), [](const Palpation& one) { return !one.set_aside.empty(); }));
 }
 
 FieldModel screened_field() {
@@ -26,23 +28,33 @@ FieldModel screened_field() {
   return field;
 }
 
-// Tumours down to 2.5 mm, little and much noise, with a lag that is not known of, none, and one that is: next to nothing is set aside, and
-// never in the first touches, where one of them may be all that was felt of a tumour.
+// Tumours down to 2.5 mm, little and much noise, with a lag that is not known of, none, and one
+// that is: next to nothing is set aside, and never in the first touches, where one of them may be
+// all that was felt of a tumour.
 TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
   const Surface tissue = plane(26, 51);
   int readings = 0, lost = 0;
   for (const double noise : {0.01, 0.05, 0.25}) {
     for (const double lag_m : {0.0, 0.0015}) {
       for (const bool known : {false, true}) {
-        const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), noise > 0.1 ? 0.006 : 0.0025}}, {.noise = noise, .lag_m = lag_m});
+        const Phantom phantom(tissue,
+                              {Disk{Vec3(0.0115, 0.030, 0.0), noise > 0.1 ? 0.006 : 0.0025}},
+                              {.noise = noise, .lag_m = lag_m});
         FieldModel field = screened_field();
         if (known) field.lag.known_m = lag_m;
         Exploration exploration(tissue, field, {.known = 8.0},
-                                {.acquisition = straddle(), .initial = Design::Random, .initial_count = 10, .batches = 6}, 5);
+                                {.acquisition = straddle(),
+                                 .initial = Design::Random,
+                                 .initial_count = 10,
+                                 .batches = 6},
+                                5);
         Random random(5);
         int first = -1;
         run(
-            exploration, [&](const SurfacePoint& where, const Vec3& travel) { return std::optional(phantom.touch(where, travel, random)); },
+            exploration,
+            [&](const SurfacePoint& where, const Vec3& travel) {
+              return std::optional(phantom.touch(where, travel, random));
+            },
             [&](const Tour&) { first = first < 0 ? set_aside_in(exploration) : first; });
         EXPECT_EQ(first, 0) << noise << " " << lag_m;
         readings += static_cast<int>(exploration.palpations().size());
@@ -57,7 +69,9 @@ TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
 std::vector<Palpation> healthy_but_one(const Surface& tissue, int count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Palpation> readings;
-  for (int i = 0; i < count; ++i) readings.push_back(touch(tissue, random.below(tissue.vertex_count()), 7.0 + 0.1 * random.normal()));
+  for (int i = 0; i < count; ++i)
+    readings.push_back(
+        touch(tissue, random.below(tissue.vertex_count()), 7.0 + 0.1 * random.normal()));
   readings[static_cast<std::size_t>(count / 3)].reading = 8.5;
   return readings;
 }
@@ -72,7 +86,9 @@ TEST(Exploration, FindsNoTumourInOneReadingOfAHundred) {
       EXPECT_FALSE(exploration.contrast_seen()) << seed << " " << trend;
       EXPECT_FALSE(exploration.level()) << seed << " " << trend;
       ASSERT_TRUE(exploration.lone_reading()) << seed << " " << trend;
-      EXPECT_EQ(tissue.vertex_at(exploration.lone_reading()->where), tissue.vertex_at(readings[33].where)) << seed;
+      EXPECT_EQ(tissue.vertex_at(exploration.lone_reading()->where),
+                tissue.vertex_at(readings[33].where))
+          << seed;
     }
   }
 }
@@ -85,7 +101,9 @@ TEST(Exploration, FindsATumourBesideAReadingThatStandsAlone) {
     for (const bool learned : {false, true}) {
       std::vector<Palpation> readings = healthy_but_one(tissue, 200, 4);
       for (Palpation& palpation : readings) {
-        const double depth_m = 0.006 - (tissue.position(palpation.where) - tissue.position(tissue.at_vertex(20 * 41 + 20))).norm();
+        const double depth_m = 0.006 - (tissue.position(palpation.where) -
+                                        tissue.position(tissue.at_vertex(20 * 41 + 20)))
+                                           .norm();
         palpation.reading += 2.0 / (1.0 + std::exp(-1400.0 * depth_m));
       }
       readings[66].reading = wild;
@@ -102,7 +120,9 @@ TEST(Exploration, FindsATumourBesideAReadingThatStandsAlone) {
       EXPECT_EQ(exploration.palpations()[66].set_aside, kStandsAlone);
       ASSERT_TRUE(exploration.level()) << wild << learned;
       const Contour contour = exploration.contour();
-      EXPECT_NEAR(1e6 * superlevel_area(tissue, contour.field, contour.level), tumour_mm2, 0.1 * tumour_mm2) << wild << learned;
+      EXPECT_NEAR(1e6 * superlevel_area(tissue, contour.field, contour.level), tumour_mm2,
+                  0.1 * tumour_mm2)
+          << wild << learned;
     }
   }
 }
@@ -126,7 +146,8 @@ TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
   Exploration exploration(tissue, screened_field(), {}, {}, 1);
   exploration.take_up(hung);
   ASSERT_EQ(exploration.palpations().size(), 20u);
-  for (const Palpation& palpation : exploration.palpations()) EXPECT_EQ(palpation.set_aside, kFrozen);
+  for (const Palpation& palpation : exploration.palpations())
+    EXPECT_EQ(palpation.set_aside, kFrozen);
   EXPECT_EQ(exploration.belief().site_count(), 0);
   EXPECT_FALSE(exploration.level().has_value());
 }

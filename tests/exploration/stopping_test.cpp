@@ -19,7 +19,8 @@ Surface sheet(int columns, int rows) {
   return Surface(make_plane({.size_m = {0.025, 0.050}, .columns = columns, .rows = rows}, random));
 }
 
-// The integral of its definition by the trapezoidal rule with 20,000 steps, whose error is below 1e-9.
+// The integral of its definition by the trapezoidal rule with 20,000 steps, whose error is below
+// 1e-9.
 double slow_owens_t(double h, double a) {
   const int steps = 20'000;
   const auto at = [&](double x) { return std::exp(-0.5 * h * h * (1.0 + x * x)) / (1.0 + x * x); };
@@ -30,7 +31,8 @@ double slow_owens_t(double h, double a) {
 
 TEST(OwensT, IsTheIntegralOfItsDefinition) {
   for (const double h : {0.0, 0.3, 1.0, 2.5, 5.0, 9.0}) {
-    for (const double a : {0.0, 0.01, 0.5, 1.0, 1.5, 4.0}) EXPECT_NEAR(owens_t(h, a), slow_owens_t(h, a), 2e-9) << h << " " << a;
+    for (const double a : {0.0, 0.01, 0.5, 1.0, 1.5, 4.0})
+      EXPECT_NEAR(owens_t(h, a), slow_owens_t(h, a), 2e-9) << h << " " << a;
   }
   EXPECT_NEAR(owens_t(0.0, 1.0), 0.125, 1e-12);
   EXPECT_DOUBLE_EQ(owens_t(0.0, INFINITY), 0.25);
@@ -44,10 +46,13 @@ struct Felt {
   Belief belief;
   Certainty now;
 
-  Felt() : belief(believed(surface)), now(certainty_of(surface, belief, belief.at_vertices(), level)) {}
+  Felt()
+      : belief(believed(surface)),
+        now(certainty_of(surface, belief, belief.at_vertices(), level)) {}
 
   static Belief believed(const Surface& surface) {
-    const Phantom phantom(surface, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.007}}, {.noise = 0.05});
+    const Phantom phantom(surface, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.007}},
+                          {.noise = 0.05});
     Random random(3);
     std::vector<Palpation> palpations;
     for (int vertex = 0; vertex < surface.vertex_count(); vertex += 9)
@@ -57,8 +62,9 @@ struct Felt {
   }
 };
 
-// The twin: fields and readings are drawn from the belief itself, the belief is conditioned on them, and its new expected error averaged.
-// Each of 400 draws scatters by a few tenths of the mean, so four standard errors are well below a tenth of it.
+// The twin: fields and readings are drawn from the belief itself, the belief is conditioned on
+// them, and its new expected error averaged. Each of 400 draws scatters by a few tenths of the
+// mean, so four standard errors are well below a tenth of it.
 TEST(ExpectedErrorAfter, IsTheMeanOverWhatMayBeFelt) {
   Felt felt;
   felt.level.stddev = 0.0;
@@ -70,27 +76,33 @@ TEST(ExpectedErrorAfter, IsTheMeanOverWhatMayBeFelt) {
   const int draws = 400;
   for (int draw = 0; draw < draws; ++draw) {
     Belief grown = felt.belief;
-    for (const int stop : stops) {  // one after the other: each reading's distribution given those before it
+    for (const int stop :
+         stops) {  // one after the other: each reading's distribution given those before it
       const std::vector<SurfacePoint> place = {felt.surface.at_vertex(stop)};
       const Marginals here = grown.at(place);
       const double sd = std::sqrt(here.variance[0] + grown.noise_variance());
-      const std::vector<Palpation> touch = {{.where = place[0], .reading = here.mean[0] + sd * random.normal()}};
+      const std::vector<Palpation> touch = {
+          {.where = place[0], .reading = here.mean[0] + sd * random.normal()}};
       grown = grown.condition_on(touch);
     }
-    sum += expected_error(felt.surface, grown.at_vertices(), felt.level).symmetric_difference_m2() / draws;
+    sum += expected_error(felt.surface, grown.at_vertices(), felt.level).symmetric_difference_m2() /
+           draws;
   }
-  EXPECT_NEAR(expected_error_after(felt.surface, felt.belief, felt.now, felt.level, stops), sum, 0.05 * sum);
+  EXPECT_NEAR(expected_error_after(felt.surface, felt.belief, felt.now, felt.level, stops), sum,
+              0.05 * sum);
 }
 
 TEST(ExpectedErrorAfter, IsNowsWithoutTouchesAndFallsWithEach) {
   const Felt felt;
   double before = expected_error_after(felt.surface, felt.belief, felt.now, felt.level, {});
   const Marginals marginals = felt.belief.at_vertices();
-  EXPECT_NEAR(before, expected_error(felt.surface, marginals, felt.level).symmetric_difference_m2(), 1e-6 * before);
+  EXPECT_NEAR(before, expected_error(felt.surface, marginals, felt.level).symmetric_difference_m2(),
+              1e-6 * before);
   std::vector<int> stops;
   for (const int stop : {20, 150, 210, 300}) {
     stops.push_back(stop);
-    const double after = expected_error_after(felt.surface, felt.belief, felt.now, felt.level, stops);
+    const double after =
+        expected_error_after(felt.surface, felt.belief, felt.now, felt.level, stops);
     EXPECT_LE(after, before);
     before = after;
   }
@@ -98,10 +110,14 @@ TEST(ExpectedErrorAfter, IsNowsWithoutTouchesAndFallsWithEach) {
 
 std::string reason_of_a_run(const StopRule& stop, double noise, int batches = 30) {
   const Surface tissue = sheet(26, 51);
-  const Phantom phantom(tissue, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.006}}, {.noise = noise});
-  Exploration exploration(tissue, {}, {.estimate = LevelEstimate::Edge}, {.acquisition = straddle(), .batches = batches, .stop = stop}, 1);
+  const Phantom phantom(tissue, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.006}},
+                        {.noise = noise});
+  Exploration exploration(tissue, {}, {.estimate = LevelEstimate::Edge},
+                          {.acquisition = straddle(), .batches = batches, .stop = stop}, 1);
   Random random(1);
-  run(exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); });
+  run(exploration, [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  });
   if (stop.band_m > 0.0 && exploration.stop_reason() == "band") {
     EXPECT_LE(exploration.certainty()->half_width_m, stop.band_m);
   }
@@ -111,11 +127,17 @@ std::string reason_of_a_run(const StopRule& stop, double noise, int batches = 30
   return exploration.stop_reason();
 }
 
-TEST(Stopping, ComesWhenTheBandIsNarrowEnough) { EXPECT_EQ(reason_of_a_run({.band_m = 0.002}, 0.01), "band"); }
+TEST(Stopping, ComesWhenTheBandIsNarrowEnough) {
+  EXPECT_EQ(reason_of_a_run({.band_m = 0.002}, 0.01), "band");
+}
 
-TEST(Stopping, ComesWhenNothingIsToBeGained) { EXPECT_EQ(reason_of_a_run({.least_gain = 0.9}, 0.05), "nothing to gain"); }
+TEST(Stopping, ComesWhenNothingIsToBeGained) {
+  EXPECT_EQ(reason_of_a_run({.least_gain = 0.9}, 0.05), "nothing to gain");
+}
 
-TEST(Stopping, ComesWithTheBudgetWhereNothingElseIsAskedFor) { EXPECT_EQ(reason_of_a_run({}, 0.05, /*batches=*/5), "budget"); }
+TEST(Stopping, ComesWithTheBudgetWhereNothingElseIsAskedFor) {
+  EXPECT_EQ(reason_of_a_run({}, 0.05, /*batches=*/5), "budget");
+}
 
 TEST(StopRule, RefusesWhatIsNone) {
   EXPECT_THROW(check(StopRule{.error_m2 = -1.0}), InvalidInput);

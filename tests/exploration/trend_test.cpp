@@ -8,10 +8,13 @@
 namespace palpation {
 namespace {
 
-Exploration explored(const Surface& tissue, const Phantom& phantom, const FieldModel& field, const LevelRule& level, int batches) {
+Exploration explored(const Surface& tissue, const Phantom& phantom, const FieldModel& field,
+                     const LevelRule& level, int batches) {
   Exploration exploration(tissue, field, level, {.acquisition = straddle(), .batches = batches}, 1);
   Random random(1);
-  run(exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); });
+  run(exploration, [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  });
   return exploration;
 }
 
@@ -19,7 +22,8 @@ double wrong_mm2(const Exploration& exploration, const Phantom& phantom) {
   double wrong = 0.0;
   for (int vertex = 0; vertex < exploration.surface().vertex_count(); ++vertex) {
     const bool inside = exploration.component().mean[vertex] >= exploration.level()->value;
-    if (inside != (phantom.truth()[vertex] >= phantom.true_level())) wrong += 1e6 * exploration.surface().vertex_areas()[vertex];
+    if (inside != (phantom.truth()[vertex] >= phantom.true_level()))
+      wrong += 1e6 * exploration.surface().vertex_areas()[vertex];
   }
   return wrong;
 }
@@ -28,24 +32,30 @@ Phantom tilted_disk(const Surface& tissue, double bias) {
   return Phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.01, .bias = bias});
 }
 
-// The tilt adds as much from end to end as the tumour does. The outline passes 39 cells of 1 mm2: a third of these may be judged wrong.
-// Without the trend the level of the range takes much of one end for tumour; that of the edge finds an edge, but not the right one.
+// The tilt adds as much from end to end as the tumour does. The outline passes 39 cells of 1 mm2: a
+// third of these may be judged wrong. Without the trend the level of the range takes much of one
+// end for tumour; that of the edge finds an edge, but not the right one.
 TEST(Trend, IsTakenOutOfLevelAndBoundary) {
   const Surface tissue = plane(26, 51);
   for (const LevelEstimate estimate : {LevelEstimate::Edge, LevelEstimate::Range}) {
     const LevelRule level{.estimate = estimate};
     const Phantom tilted = tilted_disk(tissue, 1.0);
     EXPECT_LT(wrong_mm2(explored(tissue, tilted, {.linear_trend = true}, level, 6), tilted), 13.0);
-    EXPECT_GT(wrong_mm2(explored(tissue, tilted, {}, level, 6), tilted), estimate == LevelEstimate::Range ? 100.0 : 16.0);
+    EXPECT_GT(wrong_mm2(explored(tissue, tilted, {}, level, 6), tilted),
+              estimate == LevelEstimate::Range ? 100.0 : 16.0);
   }
 }
 
 TEST(Trend, ServesFieldsOfFixedHyperparametersToo) {
   const Surface tissue = plane(26, 51);
-  FieldModel field{.kernel = {.length_m = 0.0035, .signal_sd = 1.0}, .belief = {.noise_sd = 0.05}, .linear_trend = true};
+  FieldModel field{.kernel = {.length_m = 0.0035, .signal_sd = 1.0},
+                   .belief = {.noise_sd = 0.05},
+                   .linear_trend = true};
   field.learn_length = field.learn_signal = field.learn_noise = false;
   const Phantom tilted = tilted_disk(tissue, 1.0);
-  EXPECT_LT(wrong_mm2(explored(tissue, tilted, field, {.estimate = LevelEstimate::Edge}, 6), tilted), 13.0);
+  EXPECT_LT(
+      wrong_mm2(explored(tissue, tilted, field, {.estimate = LevelEstimate::Edge}, 6), tilted),
+      13.0);
 }
 
 TEST(Trend, IsNoTumour) {
@@ -59,7 +69,8 @@ TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
   const Surface tissue = plane(26, 51);
   Random random(4);
   const std::vector<Palpation> readings = bumpy_readings(tissue, 15, random);
-  Exploration exploration(tissue, {.linear_trend = true}, {}, {.batches = 3, .safe_start = false}, 1);
+  Exploration exploration(tissue, {.linear_trend = true}, {}, {.batches = 3, .safe_start = false},
+                          1);
   exploration.take_up(std::span(readings).first(14));
   EXPECT_TRUE(exploration.trend_is_missing());
   EXPECT_FALSE(exploration.level().has_value());
@@ -71,9 +82,11 @@ TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
 TEST(Trend, LeavesTheWholeFieldToItsMarginals) {
   const Surface tissue = plane(26, 51);
   const Phantom tilted = tilted_disk(tissue, 1.0);
-  const Exploration with = explored(tissue, tilted, {.linear_trend = true}, {}, 3), without = explored(tissue, tilted, {}, {}, 3);
+  const Exploration with = explored(tissue, tilted, {.linear_trend = true}, {}, 3),
+                    without = explored(tissue, tilted, {}, {}, 3);
   EXPECT_TRUE(with.component().variance == with.marginals().variance);
-  // What is taken out is the slope: 2 over 50 mm, known to a quarter from so few readings around a tumour.
+  // What is taken out is the slope: 2 over 50 mm, known to a quarter from so few readings around a
+  // tumour.
   const Eigen::VectorXd out = with.marginals().mean - with.component().mean;
   EXPECT_NEAR(out.maxCoeff() - out.minCoeff(), 2.0, 0.5);
   EXPECT_TRUE(without.component().mean == without.marginals().mean);

@@ -13,8 +13,12 @@ double wrong_mm2(double way_step_m) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.25});
   Random random(1);
-  Exploration exploration(tissue, {}, {}, {.acquisition = straddle(), .batch = {.way_reading_m = way_step_m}, .batches = 4}, 1);
-  const Probe probe = [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); };
+  Exploration exploration(
+      tissue, {}, {},
+      {.acquisition = straddle(), .batch = {.way_reading_m = way_step_m}, .batches = 4}, 1);
+  const Probe probe = [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  };
   run(exploration, probe, {}, way_step_m);
   double wrong = 0.0;
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {

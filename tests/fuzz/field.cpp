@@ -8,19 +8,24 @@
 namespace palpation::fuzz {
 namespace {
 
-/// Rounding of the corners of a region: a few last places of the sheet's size, along its whole boundary.
+/// Rounding of the corners of a region: a few last places of the sheet's size, along its whole
+/// boundary.
 double tolerance(const Surface& surface) { return 1e-12 * surface.area(); }
 
 void check_laws(const Surface& surface, const Field& field, double level) {
   const double area = superlevel_area(surface, field, level);
-  expect(area >= 0.0 && area <= surface.area() + tolerance(surface), "a part is no larger than the whole");
+  expect(area >= 0.0 && area <= surface.area() + tolerance(surface),
+         "a part is no larger than the whole");
   for (const LevelLoop& loop : level_loops(surface, field, level)) {
-    expect(loop.points.size() >= 2 && loop.on_border.size() == loop.points.size(), "a loop goes somewhere");
-    for (const SurfacePoint& point : loop.points) expect(surface.position(point).allFinite(), "a loop's points are places");
+    expect(loop.points.size() >= 2 && loop.on_border.size() == loop.points.size(),
+           "a loop goes somewhere");
+    for (const SurfacePoint& point : loop.points)
+      expect(surface.position(point).allFinite(), "a loop's points are places");
   }
   if (!surface.has_chart()) return;
   const Region region = superlevel_region(surface, field, level);
-  expect(std::abs(region.area() - area) <= tolerance(surface), "a region has the area of its triangles");
+  expect(std::abs(region.area() - area) <= tolerance(surface),
+         "a region has the area of its triangles");
 }
 
 }  // namespace

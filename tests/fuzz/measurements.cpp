@@ -12,7 +12,8 @@ constexpr std::size_t kFew = 60;
 
 void believe(const Surface& surface, const std::vector<Palpation>& palpations) {
   const Prior prior(surface, Metric::Chart, {.length_m = 0.005, .signal_sd = 1.0});
-  const Marginals marginals = Belief(prior, {.noise_sd = 0.1}).condition_on(palpations).at_vertices();
+  const Marginals marginals =
+      Belief(prior, {.noise_sd = 0.1}).condition_on(palpations).at_vertices();
   expect(marginals.mean.allFinite() && marginals.variance.allFinite(), "a belief is finite");
   expect(marginals.variance.minCoeff() >= 0.0, "variances are not negative");
 }

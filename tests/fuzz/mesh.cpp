@@ -11,7 +11,8 @@ constexpr Eigen::Index kSmall = 2000;
 
 void check_promises(const TriangleMesh& mesh) {
   expect(mesh.triangles.rows() > 0, "a mesh that was read has triangles");
-  expect(mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.vertices.rows(), "indices are in range");
+  expect(mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.vertices.rows(),
+         "indices are in range");
   expect(mesh.vertices.allFinite(), "coordinates are finite");
 }
 
@@ -20,8 +21,10 @@ void use(const Surface& surface) {
   const Field heights = surface.mesh().vertices.col(0);
   const double level = 0.5 * heights.minCoeff() + 0.5 * heights.maxCoeff();
   const double area = superlevel_area(surface, heights, level);
-  expect(area >= 0.0 && area <= surface.area() * (1.0 + 1e-9), "a part is no larger than the whole");
-  for (const LevelLoop& loop : level_loops(surface, heights, level)) expect(loop.points.size() >= 2, "a loop goes somewhere");
+  expect(area >= 0.0 && area <= surface.area() * (1.0 + 1e-9),
+         "a part is no larger than the whole");
+  for (const LevelLoop& loop : level_loops(surface, heights, level))
+    expect(loop.points.size() >= 2, "a loop goes somewhere");
 }
 
 }  // namespace
@@ -32,7 +35,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const fuzz::MemoryFile file(bytes, size);
   for (const bool weld : {false, true}) {
     try {
-      const MeshFile read = read_mesh_of_any_size(file.path(), LengthUnit::Millimetre, {.weld_equal_vertices = weld});
+      const MeshFile read =
+          read_mesh_of_any_size(file.path(), LengthUnit::Millimetre, {.weld_equal_vertices = weld});
       fuzz::check_promises(read.mesh);
       const Surface surface(read.mesh);
       if (surface.face_count() <= fuzz::kSmall) fuzz::use(surface);

@@ -1,6 +1,7 @@
 // A fuzz target without libFuzzer: runs it on files, and on random mutants of them.
 //   fuzz_TARGET [--mutants N] [--seed S] [--truncate] FILE_OR_FOLDER ...
-// An input that breaks a promise, crashes or takes longer than two seconds is written to ./find-<number> and ends the program.
+// An input that breaks a promise, crashes or takes longer than two seconds is written to
+// ./find-<number> and ends the program.
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,7 +32,8 @@ long runs = 0;
 void keep_find(int signal) {
   const std::string name = "find-" + std::to_string(runs);
   std::ofstream(name, std::ios::binary) << *current;
-  std::fprintf(stderr, "%s on input %ld, kept as ./%s\n", signal == SIGALRM ? "no end after two seconds" : strsignal(signal), runs,
+  std::fprintf(stderr, "%s on input %ld, kept as ./%s\n",
+               signal == SIGALRM ? "no end after two seconds" : strsignal(signal), runs,
                name.c_str());
   std::_Exit(1);
 }
@@ -124,7 +126,8 @@ void mutate(std::string& text, const std::vector<std::string>& inputs, Random& r
       text.resize(at);
       break;
     default: {
-      const std::string& other = inputs[static_cast<std::size_t>(random.below(static_cast<int>(inputs.size())))];
+      const std::string& other =
+          inputs[static_cast<std::size_t>(random.below(static_cast<int>(inputs.size())))];
       text = text.substr(0, at) + other.substr(position(other, random));
     }
   }
@@ -148,8 +151,10 @@ int main(int argc, char** argv) {
     } else if (fs::exists(argument)) {
       collect(argument, inputs);
     } else {
-      std::fprintf(stderr, "usage: %s [--mutants N] [--seed S] [--truncate] FILE_OR_FOLDER ...; there is no %s\n", argv[0],
-                   argument.c_str());
+      std::fprintf(
+          stderr,
+          "usage: %s [--mutants N] [--seed S] [--truncate] FILE_OR_FOLDER ...; there is no %s\n",
+          argv[0], argument.c_str());
       return 2;
     }
   }
@@ -157,14 +162,17 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s: no inputs\n", argv[0]);
     return 2;
   }
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGALRM}) std::signal(signal, keep_find);
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGALRM})
+    std::signal(signal, keep_find);
   for (const std::string& input : inputs) {
     run(input);
-    for (std::size_t length = 0; truncate && length < input.size(); ++length) run(input.substr(0, length));
+    for (std::size_t length = 0; truncate && length < input.size(); ++length)
+      run(input.substr(0, length));
   }
   Random random(seed);
   for (long i = 0; i < mutants; ++i) {
-    std::string mutant = inputs[static_cast<std::size_t>(random.below(static_cast<int>(inputs.size())))];
+    std::string mutant =
+        inputs[static_cast<std::size_t>(random.below(static_cast<int>(inputs.size())))];
     for (int steps = 1 + random.below(4); steps > 0; --steps) mutate(mutant, inputs, random);
     run(mutant);
   }

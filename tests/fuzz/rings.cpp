@@ -1,4 +1,5 @@
-// Rings of any doubles: regions of them, and the laws of Booleans. No error of the arithmetic is accepted here.
+// Rings of any doubles: regions of them, and the laws of Booleans. No error of the arithmetic is
+// accepted here.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,12 +27,16 @@ std::vector<Ring> rings_of(Numbers& numbers) {
 }
 
 void check_laws(const Region& a, const Region& b) {
-  const Region both = intersect(a, b), either = unite(a, b), difference = symmetric_difference(a, b);
-  expect(symmetric_difference(difference, unite(subtract(a, b), subtract(b, a))).empty(), "A ^ B is A - B and B - A");
-  expect(symmetric_difference(subtract(either, both), difference).empty(), "A ^ B is A + B without A & B");
+  const Region both = intersect(a, b), either = unite(a, b),
+               difference = symmetric_difference(a, b);
+  expect(symmetric_difference(difference, unite(subtract(a, b), subtract(b, a))).empty(),
+         "A ^ B is A - B and B - A");
+  expect(symmetric_difference(subtract(either, both), difference).empty(),
+         "A ^ B is A + B without A & B");
   expect(subtract(both, a).empty() && subtract(a, either).empty(), "A & B is in A, and A in A + B");
   expect(symmetric_difference(a, a).empty(), "A ^ A is empty");
-  for (const PolygonWithHoles& polygon : a.polygons()) expect(polygon.outer.size() >= 3, "a ring has three corners");
+  for (const PolygonWithHoles& polygon : a.polygons())
+    expect(polygon.outer.size() >= 3, "a ring has three corners");
 }
 
 }  // namespace
@@ -45,7 +50,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
     fuzz::check_laws(Region::even_odd(first), Region::even_odd(second));
     const std::vector<PolygonWithHoles> strict{{first.front(), {first.begin() + 1, first.end()}}};
     const Region region(strict);
-    fuzz::expect(symmetric_difference(region, Region::even_odd(first)).empty(), "what is valid is what the even-odd rule makes of it");
+    fuzz::expect(symmetric_difference(region, Region::even_odd(first)).empty(),
+                 "what is valid is what the even-odd rule makes of it");
   } catch (const InvalidInput&) {
   }
   return 0;

@@ -1,4 +1,5 @@
-// fuzz_seeds FOLDER: what the searches start from, one folder for each target: the catalogues' files and some sound ones.
+// fuzz_seeds FOLDER: what the searches start from, one folder for each target: the catalogues'
+// files and some sound ones.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -51,14 +52,20 @@ constexpr const char* kOutlines[] = {
 };
 
 constexpr const char* kBoundary =
-    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><PolyData>"
-    "<Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"2\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
-    "<CellData><DataArray type=\"String\" Name=\"kind_name\" NumberOfTuples=\"2\" format=\"ascii\">101 115 116 105 109 97 116 101 0 "
+    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+    "header_type=\"UInt64\"><PolyData>"
+    "<Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"2\" NumberOfStrips=\"0\" "
+    "NumberOfPolys=\"0\">"
+    "<CellData><DataArray type=\"String\" Name=\"kind_name\" NumberOfTuples=\"2\" "
+    "format=\"ascii\">101 115 116 105 109 97 116 101 0 "
     "98 97 110 100 0</DataArray></CellData>"
-    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0.001 0.001 0 0.02 0.001 0 0.02 0.02 0 0.001 0.02 0"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0.001 0.001 0 "
+    "0.02 0.001 0 0.02 0.02 0 0.001 0.02 0"
     "</DataArray></Points>"
-    "<Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 0 0 1 2 0</DataArray>"
-    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">5 9</DataArray></Lines></Piece></PolyData></VTKFile>";
+    "<Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 0 0 1 2 "
+    "0</DataArray>"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">5 "
+    "9</DataArray></Lines></Piece></PolyData></VTKFile>";
 
 std::string random_bytes(Random& random, int size) {
   std::string bytes;
@@ -74,8 +81,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   Folder folder(argv[1]);
-  for (const catalogue::MeshCase& one : catalogue::mesh_cases()) add_mesh(folder, one.file, one.bytes);
-  for (const catalogue::MeshSeed& seed : catalogue::mesh_seeds()) add_mesh(folder, seed.file, seed.bytes);
+  for (const catalogue::MeshCase& one : catalogue::mesh_cases())
+    add_mesh(folder, one.file, one.bytes);
+  for (const catalogue::MeshSeed& seed : catalogue::mesh_seeds())
+    add_mesh(folder, seed.file, seed.bytes);
   for (const catalogue::SceneCase& one : catalogue::scene_cases()) folder.add("scene", one.text);
   for (const catalogue::MeasurementCase& one : catalogue::measurement_cases()) {
     folder.add("measurements", one.text);

@@ -35,7 +35,8 @@ TriangleMesh without_middle() {
 }
 
 TriangleMesh bent(TriangleMesh mesh) {
-  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) mesh.vertices(i, 2) = 8.0 * mesh.vertices(i, 0) * mesh.vertices(i, 0);
+  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i)
+    mesh.vertices(i, 2) = 8.0 * mesh.vertices(i, 0) * mesh.vertices(i, 0);
   return mesh;
 }
 
@@ -56,13 +57,15 @@ TriangleMesh two_pieces() {
   mesh.vertices << one.vertices, one.vertices;
   mesh.vertices.bottomRows(one.vertices.rows()).col(0).array() += 0.05;
   mesh.triangles.resize(2 * one.triangles.rows(), 3);
-  mesh.triangles << one.triangles, (one.triangles.array() + static_cast<int>(one.vertices.rows())).matrix();
+  mesh.triangles << one.triangles,
+      (one.triangles.array() + static_cast<int>(one.vertices.rows())).matrix();
   return mesh;
 }
 
 }  // namespace
 
-MemoryFile::MemoryFile(const std::uint8_t* bytes, std::size_t size) : descriptor_(::memfd_create("input", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(const std::uint8_t* bytes, std::size_t size)
+    : descriptor_(::memfd_create("input", MFD_CLOEXEC)) {
   if (descriptor_ < 0) stop("no file in memory");
   for (std::size_t done = 0; done < size;) {
     const ssize_t count = ::write(descriptor_, bytes + done, size - done);
@@ -73,7 +76,9 @@ MemoryFile::MemoryFile(const std::uint8_t* bytes, std::size_t size) : descriptor
 
 MemoryFile::~MemoryFile() { ::close(descriptor_); }
 
-std::filesystem::path MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+std::filesystem::path MemoryFile::path() const {
+  return "/proc/self/fd/" + std::to_string(descriptor_);
+}
 
 void expect(bool holds, const char* claim) {
   if (!holds) stop(claim);

@@ -1,8 +1,10 @@
-/// What every fuzz target has in common. A target is one function of a file's bytes: whatever they are, it returns, or it stops the program
-/// because a promise was broken. Errors that the library throws on purpose are kept promises.
+/// What every fuzz target has in common. A target is one function of a file's bytes: whatever they
+/// are, it returns, or it stops the program because a promise was broken. Errors that the library
+/// throws on purpose are kept promises.
 ///
-/// Built by clang with libFuzzer (preset "fuzz") a target searches by coverage; in every other build it replays files and mutates them
-/// without guidance (replay.cpp), so that each find stays a test on any machine.
+/// Built by clang with libFuzzer (preset "fuzz") a target searches by coverage; in every other
+/// build it replays files and mutates them without guidance (replay.cpp), so that each find stays a
+/// test on any machine.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +41,8 @@ class Numbers {
   Numbers(const std::uint8_t* bytes, std::size_t size) : rest_(bytes, size) {}
   bool any_left() const { return !rest_.empty(); }
   std::uint8_t byte();
-  /// Any finite double: whole numbers, neighbours of them and raw bits, so that degenerate cases are as likely as wild ones.
+  /// Any finite double: whole numbers, neighbours of them and raw bits, so that degenerate cases
+  /// are as likely as wild ones.
   double real();
 
  private:

@@ -10,7 +10,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   try {
     const Region region = read_wkt(file.path()).region;
     fuzz::expect(region.area() >= 0.0, "an area is not negative");
-    fuzz::expect(symmetric_difference(region, region).empty(), "a region does not differ from itself");
+    fuzz::expect(symmetric_difference(region, region).empty(),
+                 "a region does not differ from itself");
     fuzz::expect(to_wkt(region).starts_with("MULTIPOLYGON"), "a region is a multipolygon");
   } catch (const InvalidInput&) {
   } catch (const IoError&) {

@@ -29,17 +29,20 @@ TEST(Chart, IsXAndYOnALevelPlane) {
 }
 
 TEST(Chart, KeepsLengthsAndAreasOfTiltedPlanesAndRunsCounterClockwise) {
-  const Surface plane(zoo::moved(zoo::jittered_square_mesh(6, 1), zoo::some_rotation(), Vec3(1.0, 2.0, 3.0)));
+  const Surface plane(
+      zoo::moved(zoo::jittered_square_mesh(6, 1), zoo::some_rotation(), Vec3(1.0, 2.0, 3.0)));
   const Points2& uv = plane.chart().uv;
   for (int v = 1; v < plane.vertex_count(); ++v) {
-    EXPECT_NEAR((uv.row(v) - uv.row(0)).norm(), (plane.vertex(v) - plane.vertex(0)).norm(), 1e-14);  // rounding of coordinates up to 4
+    EXPECT_NEAR((uv.row(v) - uv.row(0)).norm(), (plane.vertex(v) - plane.vertex(0)).norm(),
+                1e-14);  // rounding of coordinates up to 4
   }
-  for (int f = 0; f < plane.face_count(); ++f) EXPECT_NEAR(signed_area(uv, plane.triangle(f)), plane.face_area(f), 1e-14);
+  for (int f = 0; f < plane.face_count(); ++f)
+    EXPECT_NEAR(signed_area(uv, plane.triangle(f)), plane.face_area(f), 1e-14);
 }
 
 TEST(Chart, StartsAtTheVertexNearestToTheCentroidWithUAlongX) {
-  // 4 x 4 cells: vertex 12 is the middle. Tilted by 30 degrees about y: x goes to (cos 30, 0, -sin 30), whose projection to the plane it is
-  // itself.
+  // 4 x 4 cells: vertex 12 is the middle. Tilted by 30 degrees about y: x goes to (cos 30, 0, -sin
+  // 30), whose projection to the plane it is itself.
   const Eigen::Matrix3d tilt = rotation_about(Vec3::UnitY(), 30.0);
   const Surface plane(zoo::moved(zoo::unit_square_mesh(4), tilt, Vec3(5.0, 0.0, 1.0)));
   const Points2& uv = plane.chart().uv;
@@ -50,16 +53,26 @@ TEST(Chart, StartsAtTheVertexNearestToTheCentroidWithUAlongX) {
 
 TEST(Chart, TakesYForUWhereXIsWithinTenDegreesOfTheNormal) {
   // The square's x axis is turned to -z, its normal to x.
-  const Points2 steep = Surface(zoo::moved(zoo::unit_square_mesh(4), rotation_about(Vec3::UnitY(), 81.0), Vec3::Zero())).chart().uv;
-  EXPECT_LT((steep.row(17) - Eigen::RowVector2d(0.25, 0.0)).norm(), 1e-15) << "the square's y axis is u";
-  const Points2 less = Surface(zoo::moved(zoo::unit_square_mesh(4), rotation_about(Vec3::UnitY(), 79.0), Vec3::Zero())).chart().uv;
-  EXPECT_LT((less.row(13) - Eigen::RowVector2d(0.25, 0.0)).norm(), 1e-15) << "the square's x axis is u";
+  const Points2 steep = Surface(zoo::moved(zoo::unit_square_mesh(4),
+                                           rotation_about(Vec3::UnitY(), 81.0), Vec3::Zero()))
+                            .chart()
+                            .uv;
+  EXPECT_LT((steep.row(17) - Eigen::RowVector2d(0.25, 0.0)).norm(), 1e-15)
+      << "the square's y axis is u";
+  const Points2 less = Surface(zoo::moved(zoo::unit_square_mesh(4),
+                                          rotation_about(Vec3::UnitY(), 79.0), Vec3::Zero()))
+                           .chart()
+                           .uv;
+  EXPECT_LT((less.row(13) - Eigen::RowVector2d(0.25, 0.0)).norm(), 1e-15)
+      << "the square's x axis is u";
 }
 
 TEST(Chart, SeesAPlaneFromItsOutside) {
   // Turned upside down, a plane is seen from below: still counter-clockwise.
-  const Surface below(zoo::moved(zoo::unit_square_mesh(4), rotation_about(Vec3::UnitX(), 180.0), Vec3::Zero()));
-  for (int f = 0; f < below.face_count(); ++f) EXPECT_GT(signed_area(below.chart().uv, below.triangle(f)), 0.0);
+  const Surface below(
+      zoo::moved(zoo::unit_square_mesh(4), rotation_about(Vec3::UnitX(), 180.0), Vec3::Zero()));
+  for (int f = 0; f < below.face_count(); ++f)
+    EXPECT_GT(signed_area(below.chart().uv, below.triangle(f)), 0.0);
 }
 
 TEST(Chart, IsNoneWhereASurfaceIsNotFlat) {
@@ -84,13 +97,14 @@ std::string refusal(const TriangleMesh& mesh) {
 TEST(Chart, IsNoneWhereATriangleIsTurnedOver) {
   TriangleMesh mesh = zoo::unit_square_mesh(4);
   mesh.vertices.row(12) << 0.8, 0.5, 0.0;  // the middle vertex, dragged over its neighbour at 0.75
-  EXPECT_NE(refusal(mesh).find("folded has no chart: triangle"), std::string::npos) << refusal(mesh);
+  EXPECT_NE(refusal(mesh).find("folded has no chart: triangle"), std::string::npos)
+      << refusal(mesh);
   mesh.vertices.row(12) << 0.7, 0.5, 0.0;
   EXPECT_TRUE(Surface(mesh).has_chart());
 }
 
-// A disk without a slice: its border is not convex, and no two of the thousands of triangles at its middle can be told apart by their
-// boxes.
+// A disk without a slice: its border is not convex, and no two of the thousands of triangles at its
+// middle can be told apart by their boxes.
 TEST(Chart, OfAFanOfManyTrianglesIsThereAtOnce) {
   constexpr int kTriangles = 30000;
   TriangleMesh fan;
@@ -108,20 +122,28 @@ TEST(Chart, OfAFanOfManyTrianglesIsThereAtOnce) {
 TEST(Chart, IsNoneWhereTwoSheetsLieOverEachOther) {
   const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
   const TriangleMesh square = zoo::unit_square_mesh(4);
-  // Corner over corner, edges along mesh edges, vertices on vertices; and one sheet whole inside the other.
-  for (const Vec3& shift : {Vec3(0.5, 0.0, 0.0), Vec3(0.75, 0.75, 0.0), Vec3(0.0, 0.0, 0.0), Vec3(0.1, 0.9, 0.0), Vec3(-0.999, 0.0, 0.0)}) {
-    EXPECT_NE(refusal(zoo::together(square, zoo::moved(square, same, shift))).find("lies over itself"), std::string::npos);
+  // Corner over corner, edges along mesh edges, vertices on vertices; and one sheet whole inside
+  // the other.
+  for (const Vec3& shift : {Vec3(0.5, 0.0, 0.0), Vec3(0.75, 0.75, 0.0), Vec3(0.0, 0.0, 0.0),
+                            Vec3(0.1, 0.9, 0.0), Vec3(-0.999, 0.0, 0.0)}) {
+    EXPECT_NE(
+        refusal(zoo::together(square, zoo::moved(square, same, shift))).find("lies over itself"),
+        std::string::npos);
   }
-  EXPECT_NE(refusal(zoo::together(square, zoo::moved(square, same, Vec3(0.3, 0.3, 0.0), 0.1))).find("lies over itself"), std::string::npos);
+  EXPECT_NE(refusal(zoo::together(square, zoo::moved(square, same, Vec3(0.3, 0.3, 0.0), 0.1)))
+                .find("lies over itself"),
+            std::string::npos);
   // Side by side, corner to corner, and apart they have a chart, tilted too.
-  for (const Vec3& shift : {Vec3(1.0, 0.0, 0.0), Vec3(1.0, 1.0, 0.0), Vec3(1.0, 0.3, 0.0), Vec3(5.0, 0.0, 0.0)}) {
+  for (const Vec3& shift :
+       {Vec3(1.0, 0.0, 0.0), Vec3(1.0, 1.0, 0.0), Vec3(1.0, 0.3, 0.0), Vec3(5.0, 0.0, 0.0)}) {
     const TriangleMesh two = zoo::together(square, zoo::moved(square, same, shift));
     EXPECT_TRUE(Surface(two).has_chart());
     EXPECT_TRUE(Surface(zoo::moved(two, zoo::some_rotation(), Vec3(3.0, 1.0, 2.0))).has_chart());
   }
 }
 
-// A strip that winds around twice: every triangle runs counter-clockwise, and each place of the ring is covered two times.
+// A strip that winds around twice: every triangle runs counter-clockwise, and each place of the
+// ring is covered two times.
 TEST(Chart, IsNoneWhereAStripWindsAroundTwice) {
   const auto strip = [](double degrees) {
     return zoo::rolled_grid_mesh(40, 2, false, false, [=](double u, double v) {
@@ -137,7 +159,8 @@ TEST(Chart, IsNoneWhereAStripWindsAroundTwice) {
 }
 
 TEST(ChartHash, IsFnvOfNanometres) {
-  // By hand, offset basis 0xcbf29ce484222325 and prime 0x100000001b3: no bytes; and the 16 bytes of (1, 0) nanometres.
+  // By hand, offset basis 0xcbf29ce484222325 and prime 0x100000001b3: no bytes; and the 16 bytes of
+  // (1, 0) nanometres.
   Chart chart{Points2(0, 2)};
   EXPECT_EQ(chart.hash(), "cbf29ce484222325");
   chart.uv = Points2(1, 2);

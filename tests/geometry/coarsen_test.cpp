@@ -18,7 +18,8 @@ std::vector<double> edges_of(const Surface& surface) {
   std::vector<double> lengths;
   for (int face = 0; face < surface.face_count(); ++face) {
     const Eigen::Vector3i corners = surface.triangle(face);
-    for (int i = 0; i < 3; ++i) lengths.push_back((surface.vertex(corners[(i + 1) % 3]) - surface.vertex(corners[i])).norm());
+    for (int i = 0; i < 3; ++i)
+      lengths.push_back((surface.vertex(corners[(i + 1) % 3]) - surface.vertex(corners[i])).norm());
   }
   std::sort(lengths.begin(), lengths.end());
   return lengths;
@@ -29,7 +30,8 @@ TEST(Coarsen, LeavesVerticesOfTheSurfaceAboutAsFarApartAsAsked) {
   const CoarseMesh coarse = coarsen(fine, 0.1);
   const Surface surface(coarse.mesh);
   EXPECT_TRUE(std::is_sorted(coarse.vertices.begin(), coarse.vertices.end()));
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) EXPECT_EQ(surface.vertex(vertex), fine.vertex(coarse.vertices[vertex]));
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
+    EXPECT_EQ(surface.vertex(vertex), fine.vertex(coarse.vertices[vertex]));
   EXPECT_GT(surface.vertex_count(), 70);
   EXPECT_LT(surface.vertex_count(), 250);
   const std::vector<double> edges = edges_of(surface);
@@ -63,7 +65,9 @@ TEST(Coarsen, StaysNearCurvedTissue) {
   EXPECT_NEAR(coarse.area() / fine.area(), 1.0, 0.01);
   double farthest = 0.0;
   for (int vertex = 0; vertex < fine.vertex_count(); ++vertex) {
-    farthest = std::max(farthest, (coarse.position(coarse.project(fine.vertex(vertex))) - fine.vertex(vertex)).norm());
+    farthest = std::max(
+        farthest,
+        (coarse.position(coarse.project(fine.vertex(vertex))) - fine.vertex(vertex)).norm());
   }
   EXPECT_LT(farthest, 0.0002) << "of edges of 1.5 to 2.25 mm";
 }
@@ -77,7 +81,8 @@ TEST(Coarsen, LeavesAMeshThatIsCoarseEnough) {
 
 TEST(Coarsen, RefusesLengthsThatAreNone) {
   const Surface fine = zoo::unit_square(4);
-  for (const double edge_m : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+  for (const double edge_m : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(coarsen(fine, edge_m), InvalidInput);
 }
 

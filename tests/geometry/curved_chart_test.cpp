@@ -22,7 +22,8 @@ TriangleMesh dome_mesh(int cells, double radius = 0.8) {
   return mesh;
 }
 
-/// Vertices along uneven lines of a cylinder around the y axis, unevenly: strips of flat facets. Unrolled, it is `plane`.
+/// Vertices along uneven lines of a cylinder around the y axis, unevenly: strips of flat facets.
+/// Unrolled, it is `plane`.
 struct Faceted {
   TriangleMesh curved, plane;
 };
@@ -35,12 +36,14 @@ Faceted faceted_cylinder(int columns, int rows) {
   }
   const auto grid = [&](const auto& place) {
     return zoo::rolled_grid_mesh(columns, rows, false, false, [&](double u, double v) {
-      const int c = static_cast<int>(std::lround(u * columns)), r = static_cast<int>(std::lround(v * rows));
+      const int c = static_cast<int>(std::lround(u * columns)),
+                r = static_cast<int>(std::lround(v * rows));
       return place(c, v + (c * 7 + r * 5) % 3 * shifts[c]);
     });
   };
   std::vector<double> along = {0.0};
-  for (int c = 1; c <= columns; ++c) along.push_back(along.back() + 2.0 * std::sin(0.5 * (angles[c] - angles[c - 1])));
+  for (int c = 1; c <= columns; ++c)
+    along.push_back(along.back() + 2.0 * std::sin(0.5 * (angles[c] - angles[c - 1])));
   return {grid([&](int c, double y) { return Vec3(-std::cos(angles[c]), y, std::sin(angles[c])); }),
           grid([&](int c, double y) { return Vec3(along[c], y, 0.0); })};
 }
@@ -55,7 +58,8 @@ double difference(const Points2& a, const Points2& b) {
   double greatest = 0.0;
   for (Eigen::Index v = 1; v < a.rows(); ++v) {
     for (const Eigen::Index w : {Eigen::Index{0}, v / 2})
-      greatest = std::max(greatest, std::abs((a.row(v) - a.row(w)).norm() - (b.row(v) - b.row(w)).norm()));
+      greatest =
+          std::max(greatest, std::abs((a.row(v) - a.row(w)).norm() - (b.row(v) - b.row(w)).norm()));
   }
   return greatest / a.cwiseAbs().maxCoeff();
 }
@@ -87,7 +91,8 @@ TEST(CurvedChart, UnfoldsTwoTrianglesThatMeetAtARightAngle) {
   mesh.triangles << 0, 1, 2, 2, 1, 3;
   const Surface surface(mesh);
   EXPECT_TRUE(surface.chart().isometric);
-  for (int f = 0; f < 2; ++f) EXPECT_NEAR(signed_area(surface.chart().uv, surface.triangle(f)), surface.face_area(f), 1e-15);
+  for (int f = 0; f < 2; ++f)
+    EXPECT_NEAR(signed_area(surface.chart().uv, surface.triangle(f)), surface.face_area(f), 1e-15);
 }
 
 TEST(CurvedChart, RunsCounterClockwiseCoversTheTissuesAreaAndTellsItsDistortion) {
@@ -109,8 +114,8 @@ TEST(CurvedChart, RunsCounterClockwiseCoversTheTissuesAreaAndTellsItsDistortion)
     for (int f = 0; f < dome.face_count(); ++f) {
       for (int i = 0; i < 3; ++i) {
         const Eigen::Vector3i t = dome.triangle(f);
-        const double stretch =
-            (chart.uv.row(t[i]) - chart.uv.row(t[(i + 1) % 3])).norm() / (dome.vertex(t[i]) - dome.vertex(t[(i + 1) % 3])).norm();
+        const double stretch = (chart.uv.row(t[i]) - chart.uv.row(t[(i + 1) % 3])).norm() /
+                               (dome.vertex(t[i]) - dome.vertex(t[(i + 1) % 3])).norm();
         EXPECT_GT(stretch, chart.distortion.least_stretch - 1e-12);
         EXPECT_LT(stretch, chart.distortion.greatest_stretch + 1e-12);
       }
@@ -120,7 +125,8 @@ TEST(CurvedChart, RunsCounterClockwiseCoversTheTissuesAreaAndTellsItsDistortion)
   }
 }
 
-/// Liu et al. (2008) as written: rotations by singular values, then the vertices by a dense solve, over and over.
+/// Liu et al. (2008) as written: rotations by singular values, then the vertices by a dense solve,
+/// over and over.
 Points2 local_global(const TriangleMesh& mesh, Points2 uv, int rounds) {
   const Eigen::Index n = mesh.vertices.rows();
   struct Flat {
@@ -131,11 +137,13 @@ Points2 local_global(const TriangleMesh& mesh, Points2 uv, int rounds) {
   Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
   for (const auto& t : mesh.triangles.rowwise()) {
     Flat& f = flat.emplace_back();
-    const Vec3 b = mesh.vertices.row(t[1]) - mesh.vertices.row(t[0]), c = mesh.vertices.row(t[2]) - mesh.vertices.row(t[0]);
+    const Vec3 b = mesh.vertices.row(t[1]) - mesh.vertices.row(t[0]),
+               c = mesh.vertices.row(t[2]) - mesh.vertices.row(t[0]);
     const Vec3 ahead = b.normalized();
     f.x << 0.0, b.norm(), ahead.dot(c), 0.0, 0.0, ahead.cross(c).norm();
     for (int i = 0; i < 3; ++i) {
-      const Vec3 p = mesh.vertices.row(t[(i + 2) % 3]), q = mesh.vertices.row(t[i]), r = mesh.vertices.row(t[(i + 1) % 3]);
+      const Vec3 p = mesh.vertices.row(t[(i + 2) % 3]), q = mesh.vertices.row(t[i]),
+                 r = mesh.vertices.row(t[(i + 1) % 3]);
       f.cotangent[i] = (q - p).dot(r - p) / (q - p).cross(r - p).norm();
       const int a = t[i], d = t[(i + 1) % 3];
       laplacian(a, a) += f.cotangent[i];
@@ -153,10 +161,12 @@ Points2 local_global(const TriangleMesh& mesh, Points2 uv, int rounds) {
       const Flat& f = flat[face];
       Eigen::Matrix2d s = Eigen::Matrix2d::Zero();
       for (int i = 0; i < 3; ++i)
-        s += f.cotangent[i] * (uv.row(t[i]) - uv.row(t[(i + 1) % 3])).transpose() * (f.x.col(i) - f.x.col((i + 1) % 3)).transpose();
+        s += f.cotangent[i] * (uv.row(t[i]) - uv.row(t[(i + 1) % 3])).transpose() *
+             (f.x.col(i) - f.x.col((i + 1) % 3)).transpose();
       const Eigen::JacobiSVD<Eigen::Matrix2d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-      const Eigen::Matrix2d rotation = svd.matrixU() * Vec2(1.0, sign).asDiagonal() * svd.matrixV().transpose();
+      const Eigen::Matrix2d rotation =
+          svd.matrixU() * Vec2(1.0, sign).asDiagonal() * svd.matrixV().transpose();
       for (int i = 0; i < 3; ++i) {
         const Vec2 pull = f.cotangent[i] * rotation * (f.x.col(i) - f.x.col((i + 1) % 3));
         right.row(t[i]) += pull.transpose();
@@ -186,7 +196,8 @@ TEST(CurvedChart, HasItsOriginAtTheVertexNearestToTheCentroidAndUAlongX) {
     if (uv.row(v).norm() == 0.0) origin = v;
   }
   ASSERT_GE(origin, 0);
-  // Around the origin u runs along x and v along y, but for the curvature over an edge and the small stretch there.
+  // Around the origin u runs along x and v along y, but for the curvature over an edge and the
+  // small stretch there.
   for (int v = 0; v < dome.vertex_count(); ++v) {
     const Vec3 arm = dome.vertex(v) - dome.vertex(origin);
     if (arm.norm() < 0.15) {
@@ -202,7 +213,8 @@ TEST(CurvedChart, IsTheSameUnderAnyNamesOfVerticesAndFaces) {
   const std::vector<int> names = zoo::shuffled(static_cast<int>(mesh.vertices.rows()), random);
   const Surface dome(mesh), other(zoo::reordered(zoo::relabelled(mesh, names), random));
   for (int v = 0; v < dome.vertex_count(); ++v)
-    EXPECT_LT((dome.chart().uv.row(v) - other.chart().uv.row(names[v])).norm(), 1e-9);  // the promise; rounding gives 1e-11
+    EXPECT_LT((dome.chart().uv.row(v) - other.chart().uv.row(names[v])).norm(),
+              1e-9);  // the promise; rounding gives 1e-11
 }
 
 TEST(CurvedChart, MovesWithTheTissueAndScalesWithIt) {
@@ -210,23 +222,31 @@ TEST(CurvedChart, MovesWithTheTissueAndScalesWithIt) {
   const Points2 uv = Surface(mesh).chart().uv;
   const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
   for (const double scale : {1e-3, 1e3})
-    EXPECT_LT((Surface(zoo::moved(mesh, same, Vec3::Zero(), scale)).chart().uv / scale - uv).norm(), 1e-9);
+    EXPECT_LT((Surface(zoo::moved(mesh, same, Vec3::Zero(), scale)).chart().uv / scale - uv).norm(),
+              1e-9);
   EXPECT_LT((Surface(zoo::moved(mesh, same, Vec3(1.0, 2.0, 3.0))).chart().uv - uv).norm(), 1e-9);
   // Turned, its x axis is another direction on the tissue: the same chart, turned.
-  EXPECT_LT(difference(Surface(zoo::moved(mesh, zoo::some_rotation(), Vec3(1.0, 2.0, 3.0))).chart().uv, uv), 1e-9);
+  EXPECT_LT(
+      difference(Surface(zoo::moved(mesh, zoo::some_rotation(), Vec3(1.0, 2.0, 3.0))).chart().uv,
+                 uv),
+      1e-9);
 }
 
 TEST(CurvedChart, IsRefusedWithTheLoopsHandlesOrComponentsInTheWay) {
   EXPECT_NE(refusal(zoo::icosphere_mesh(1)).find("no border (it is closed)"), std::string::npos);
-  EXPECT_NE(refusal(zoo::torus_mesh(2.0, 0.7, 12, 8)).find("1 handle, no border"), std::string::npos);
+  EXPECT_NE(refusal(zoo::torus_mesh(2.0, 0.7, 12, 8)).find("1 handle, no border"),
+            std::string::npos);
   EXPECT_NE(refusal(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).find("2 border loops"), std::string::npos);
-  EXPECT_NE(refusal(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).find("mm long around ("), std::string::npos);
-  EXPECT_NE(
-      refusal(zoo::together(dome_mesh(4), zoo::moved(dome_mesh(4), zoo::some_rotation(), Vec3(5, 0, 0)))).find("2 components, 2 border"),
-      std::string::npos);
+  EXPECT_NE(refusal(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).find("mm long around ("),
+            std::string::npos);
+  EXPECT_NE(refusal(zoo::together(dome_mesh(4),
+                                  zoo::moved(dome_mesh(4), zoo::some_rotation(), Vec3(5, 0, 0))))
+                .find("2 components, 2 border"),
+            std::string::npos);
 }
 
-// A ramp that winds around once and a tenth, rising: a disk, and each place of it is flat enough, but the sheet would lie over itself.
+// A ramp that winds around once and a tenth, rising: a disk, and each place of it is flat enough,
+// but the sheet would lie over itself.
 TEST(CurvedChart, IsRefusedWhereTheFlattenedSheetLiesOverItself) {
   const TriangleMesh ramp = zoo::rolled_grid_mesh(60, 3, false, false, [](double u, double v) {
     const double angle = -2.2 * std::numbers::pi * u, radius = 1.0 + v;
@@ -242,7 +262,8 @@ TEST(CurvedChart, TurnsNothingOverOnAnAlmostClosedBall) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index f = 0; f < ball.triangles.rows(); ++f) {
     const auto t = ball.triangles.row(f);
-    if (std::max({ball.vertices(t[0], 2), ball.vertices(t[1], 2), ball.vertices(t[2], 2)}) < 0.75) kept.push_back(f);
+    if (std::max({ball.vertices(t[0], 2), ball.vertices(t[1], 2), ball.vertices(t[2], 2)}) < 0.75)
+      kept.push_back(f);
   }
   std::vector<int> names(ball.vertices.rows(), -1);
   TriangleMesh open{Points(0, 3), Triangles(static_cast<Eigen::Index>(kept.size()), 3)};
@@ -259,7 +280,8 @@ TEST(CurvedChart, TurnsNothingOverOnAnAlmostClosedBall) {
   }
   const Surface surface(open);
   ASSERT_TRUE(surface.has_chart());
-  for (int f = 0; f < surface.face_count(); ++f) EXPECT_GT(signed_area(surface.chart().uv, surface.triangle(f)), 0.0);
+  for (int f = 0; f < surface.face_count(); ++f)
+    EXPECT_GT(signed_area(surface.chart().uv, surface.triangle(f)), 0.0);
   EXPECT_GT(surface.chart().distortion.greatest_stretch, 1.5);
 }
 
@@ -270,14 +292,16 @@ TEST(CurvedChart, SurvivesASliver) {
   const Eigen::Index n = mesh.vertices.rows(), m = mesh.triangles.rows();
   const Eigen::Vector3i t = mesh.triangles.row(10);
   mesh.vertices.conservativeResize(n + 1, 3);
-  mesh.vertices.row(n) = (0.5 - 1e-9) * mesh.vertices.row(t[0]) + 0.5 * mesh.vertices.row(t[1]) + 1e-9 * mesh.vertices.row(t[2]);
+  mesh.vertices.row(n) = (0.5 - 1e-9) * mesh.vertices.row(t[0]) + 0.5 * mesh.vertices.row(t[1]) +
+                         1e-9 * mesh.vertices.row(t[2]);
   mesh.triangles.conservativeResize(m + 2, 3);
   const int middle = static_cast<int>(n);
   mesh.triangles.row(10) << t[0], t[1], middle;
   mesh.triangles.row(m) << t[1], t[2], middle;
   mesh.triangles.row(m + 1) << t[2], t[0], middle;
   const Surface surface(mesh);
-  for (int f = 0; f < surface.face_count(); ++f) EXPECT_GT(signed_area(surface.chart().uv, surface.triangle(f)), 0.0);
+  for (int f = 0; f < surface.face_count(); ++f)
+    EXPECT_GT(signed_area(surface.chart().uv, surface.triangle(f)), 0.0);
   EXPECT_LT((surface.chart().uv.topRows(n) - uv).cwiseAbs().maxCoeff(), 1e-2);
 }
 

@@ -16,10 +16,13 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Field distance_from_one(const Surface& surface, const SurfacePoint& source) { return distance_from(surface, std::span(&source, 1)); }
+Field distance_from_one(const Surface& surface, const SurfacePoint& source) {
+  return distance_from(surface, std::span(&source, 1));
+}
 
 TEST(Distance, IsStraightOnAConvexPlaneAndCostsNothing) {
-  const Surface plane(zoo::moved(zoo::jittered_square_mesh(9, 1), zoo::some_rotation(), Vec3(1.0, 2.0, 3.0)));
+  const Surface plane(
+      zoo::moved(zoo::jittered_square_mesh(9, 1), zoo::some_rotation(), Vec3(1.0, 2.0, 3.0)));
   const SurfacePoint source{31, Vec3(0.2, 0.3, 0.5)};
   const Field distance = distance_from_one(plane, source);
   for (int v = 0; v < plane.vertex_count(); ++v) {
@@ -31,17 +34,20 @@ TEST(Distance, IsStraightOnAConvexPlaneAndCostsNothing) {
 TEST(Distance, UnfoldsAPlaneToStraightLines) {
   // A second piece far away makes the surface no convex disk, so the faces are unfolded.
   const TriangleMesh square = zoo::jittered_square_mesh(9, 1);
-  const Surface two(zoo::together(square, zoo::moved(square, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
+  const Surface two(
+      zoo::together(square, zoo::moved(square, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
   const SurfacePoint source{31, Vec3(0.2, 0.3, 0.5)};
   const Field distance = distance_from_one(two, source);
   for (int v = 0; v < 100; ++v)
-    EXPECT_NEAR(distance[v], (two.vertex(v) - two.position(source)).norm(), 1e-13);  // a chain of ten unfoldings
+    EXPECT_NEAR(distance[v], (two.vertex(v) - two.position(source)).norm(),
+                1e-13);  // a chain of ten unfoldings
   EXPECT_EQ(two.computed(), std::vector<std::string>{"geodesics"});
 }
 
 TEST(Distance, IsInfiniteWhereNothingLeads) {
   const TriangleMesh square = zoo::unit_square_mesh(2);
-  const Surface two(zoo::together(square, zoo::moved(square, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
+  const Surface two(
+      zoo::together(square, zoo::moved(square, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
   const Field distance = distance_from_one(two, two.at_vertex(0));
   EXPECT_TRUE(distance.head(9).allFinite());
   for (int v = 9; v < 18; ++v) EXPECT_EQ(distance[v], std::numeric_limits<double>::infinity());
@@ -58,7 +64,8 @@ TEST(Distance, IsThatOfTheUnrolledCylinder) {
   for (int v = 0; v < cylinder.vertex_count(); ++v) {
     const int columns = std::abs(v % kAround - 5), rows = v / kAround - 3;
     const double expected = std::hypot(chord * std::min(columns, kAround - columns), step * rows);
-    EXPECT_NEAR(distance[v], expected, 1e-13) << "vertex " << v;  // rounding along some twenty unfoldings
+    EXPECT_NEAR(distance[v], expected, 1e-13)
+        << "vertex " << v;  // rounding along some twenty unfoldings
   }
 }
 
@@ -67,13 +74,17 @@ TEST(Distance, ComesCloseToThatOfTheRoundCylinder) {
   const Field distance = distance_from_one(cylinder, cylinder.at_vertex(0));
   for (int v = 0; v < cylinder.vertex_count(); ++v) {
     const int columns = v % 48;
-    const double expected = std::hypot(2.0 * kPi * std::min(columns, 48 - columns) / 48.0, 0.1 * (v / 48));
-    EXPECT_NEAR(distance[v], expected, 0.003);  // a chord is shorter than its arc by 1 - sin(a) / a = 0.07 %, of at most pi
+    const double expected =
+        std::hypot(2.0 * kPi * std::min(columns, 48 - columns) / 48.0, 0.1 * (v / 48));
+    EXPECT_NEAR(
+        distance[v], expected,
+        0.003);  // a chord is shorter than its arc by 1 - sin(a) / a = 0.07 %, of at most pi
   }
 }
 
 TEST(Distance, StartsInsideAFaceWhereTheSourceIs) {
-  // The source in the middle of a strip of the cylinder, unrolled by hand: face 0 is the lower right triangle of the first cell.
+  // The source in the middle of a strip of the cylinder, unrolled by hand: face 0 is the lower
+  // right triangle of the first cell.
   const Surface cylinder(zoo::cylinder_mesh(1.0, 1.0, 8, 4));
   const SurfacePoint source{0, Vec3(0.5, 0.2, 0.3)};
   const double chord = 2.0 * std::sin(kPi / 8.0);
@@ -81,13 +92,15 @@ TEST(Distance, StartsInsideAFaceWhereTheSourceIs) {
   const Field distance = distance_from_one(cylinder, source);
   for (int row = 0; row <= 4; ++row) {
     for (int column = -3; column <= 4; ++column) {
-      EXPECT_NEAR(distance[8 * row + (column + 8) % 8], std::hypot(chord * column - u, 0.25 * row - height), 1e-13);
+      EXPECT_NEAR(distance[8 * row + (column + 8) % 8],
+                  std::hypot(chord * column - u, 0.25 * row - height), 1e-13);
     }
   }
 }
 
 TEST(Distance, GoesAroundTheHoleOfAnAnnulus) {
-  // From the inner circle's rightmost point to the outer's leftmost: along the inner circle to the tangent, then straight.
+  // From the inner circle's rightmost point to the outer's leftmost: along the inner circle to the
+  // tangent, then straight.
   constexpr int kAround = 90, kAcross = 8;
   const Surface annulus(zoo::annulus_mesh(0.5, 1.0, kAround, kAcross));
   const Field distance = distance_from_one(annulus, annulus.at_vertex(0));
@@ -103,7 +116,8 @@ TEST(Distance, NearsHalfTheGreatCircleOnASphere) {
   const Field distance = distance_from_one(sphere, source);
   for (int v = 0; v < sphere.vertex_count(); ++v) {
     const double cosine = std::clamp(sphere.vertex(0).dot(sphere.vertex(v)), -1.0, 1.0);
-    EXPECT_NEAR(distance[v], std::acos(cosine), 0.012);  // faces of 0.14 rad lie up to 0.3 % inside the sphere, over at most pi
+    EXPECT_NEAR(distance[v], std::acos(cosine),
+                0.012);  // faces of 0.14 rad lie up to 0.3 % inside the sphere, over at most pi
   }
 }
 
@@ -117,7 +131,9 @@ TEST(Distance, KeepsTheTriangleInequalityAlongEveryEdge) {
         const int a = surface.triangle(f)[i], b = surface.triangle(f)[(i + 1) % 3];
         if (!std::isfinite(distance[a])) continue;
         const double rounding = 1e-12 * surface.diameter();
-        EXPECT_LE(std::abs(distance[a] - distance[b]), (surface.vertex(a) - surface.vertex(b)).norm() + rounding) << animal.name;
+        EXPECT_LE(std::abs(distance[a] - distance[b]),
+                  (surface.vertex(a) - surface.vertex(b)).norm() + rounding)
+            << animal.name;
         EXPECT_GE(distance[a], (surface.vertex(a) - source).norm() - rounding)
             << animal.name << ": nothing is shorter than a straight line";
       }
@@ -129,27 +145,34 @@ TEST(Distance, IsTheSameBothWays) {
   for (const zoo::Animal& animal : zoo::animals()) {
     const Surface surface(animal.mesh);
     const int a = 0, b = surface.face_count() > 4 ? 17 : 3;
-    const double there = distance_from_one(surface, surface.at_vertex(a))[b], back = distance_from_one(surface, surface.at_vertex(b))[a];
+    const double there = distance_from_one(surface, surface.at_vertex(a))[b],
+                 back = distance_from_one(surface, surface.at_vertex(b))[a];
     EXPECT_NEAR(there, back, 1e-12 * surface.diameter()) << animal.name;
   }
 }
 
 TEST(Distance, IsTheLeastOverTheSources) {
-  for (const TriangleMesh& mesh : {zoo::torus_mesh(2.0, 0.7, 16, 10), zoo::jittered_square_mesh(8, 2)}) {
+  for (const TriangleMesh& mesh :
+       {zoo::torus_mesh(2.0, 0.7, 16, 10), zoo::jittered_square_mesh(8, 2)}) {
     const Surface surface(mesh);
     Random random(3);
     const std::vector<SurfacePoint> sources = sample_uniformly(surface, 5, random);
     Field least = distance_from_one(surface, sources[0]);
-    for (const SurfacePoint& source : sources) least = least.cwiseMin(distance_from_one(surface, source));
+    for (const SurfacePoint& source : sources)
+      least = least.cwiseMin(distance_from_one(surface, source));
     EXPECT_LT((distance_from(surface, sources) - least).cwiseAbs().maxCoeff(), 1e-12);
   }
 }
 
 TEST(Distance, MovesAndScalesWithTheSurface) {
   const Surface torus(zoo::torus_mesh(2.0, 0.7, 16, 10));
-  const Surface small(zoo::moved(torus.mesh(), zoo::some_rotation(), Vec3(0.01, -0.02, 0.03), 1e-3));
+  const Surface small(
+      zoo::moved(torus.mesh(), zoo::some_rotation(), Vec3(0.01, -0.02, 0.03), 1e-3));
   const SurfacePoint source{44, Vec3(0.1, 0.6, 0.3)};
-  EXPECT_LT((distance_from_one(small, source) - 1e-3 * distance_from_one(torus, source)).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((distance_from_one(small, source) - 1e-3 * distance_from_one(torus, source))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-14);
 }
 
 TEST(Distance, IsTheSameUnderOtherNumbers) {
@@ -157,7 +180,8 @@ TEST(Distance, IsTheSameUnderOtherNumbers) {
   Random random(4);
   const std::vector<int> number = zoo::shuffled(160, random);
   const Surface torus(mesh), other(zoo::reordered(zoo::relabelled(mesh, number), random));
-  const Field distance = distance_from_one(torus, torus.at_vertex(7)), again = distance_from_one(other, other.at_vertex(number[7]));
+  const Field distance = distance_from_one(torus, torus.at_vertex(7)),
+              again = distance_from_one(other, other.at_vertex(number[7]));
   for (int v = 0; v < 160; ++v) EXPECT_NEAR(again[number[v]], distance[v], 1e-12);
 }
 
@@ -184,7 +208,8 @@ Surface phantom(const Sheet& sheet, double edge_m) {
 }
 
 TEST(DistancesBetween, AreThoseOfUnfoldingToAPercent) {
-  for (const Sheet& sheet : {cylinder_sheet(), dome_sheet(), saddle_sheet(), wave_sheet(), folded_sheet()}) {
+  for (const Sheet& sheet :
+       {cylinder_sheet(), dome_sheet(), saddle_sheet(), wave_sheet(), folded_sheet()}) {
     const Surface surface = phantom(sheet, 0.001);
     Random random(1);
     std::vector<SurfacePoint> places = sample_uniformly(surface, 12, random);
@@ -209,16 +234,19 @@ TEST(DistancesBetween, AreStraightOnAPlaneAndCostNothing) {
   const Eigen::MatrixXd distances = distances_between(plane, places);
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 5; ++j)
-      EXPECT_EQ(distances(i, j),
-                (plane.position(places[static_cast<std::size_t>(i)]) - plane.position(places[static_cast<std::size_t>(j)])).norm());
+      EXPECT_EQ(distances(i, j), (plane.position(places[static_cast<std::size_t>(i)]) -
+                                  plane.position(places[static_cast<std::size_t>(j)]))
+                                     .norm());
   }
   EXPECT_TRUE(plane.computed().empty());
 }
 
 TEST(DistancesBetween, AreInfiniteWhereNothingLeads) {
   const TriangleMesh bent = zoo::cylinder_mesh(1.0, 2.0, 8, 3);
-  const Surface two(zoo::together(bent, zoo::moved(bent, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
-  const std::vector<SurfacePoint> places = {two.at_vertex(0), two.at_vertex(two.vertex_count() - 1)};
+  const Surface two(
+      zoo::together(bent, zoo::moved(bent, Eigen::Matrix3d::Identity(), Vec3(3.0, 0.0, 0.0))));
+  const std::vector<SurfacePoint> places = {two.at_vertex(0),
+                                            two.at_vertex(two.vertex_count() - 1)};
   EXPECT_EQ(distances_between(two, places)(0, 1), std::numeric_limits<double>::infinity());
 }
 

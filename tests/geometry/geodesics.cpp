@@ -12,10 +12,12 @@
 namespace palpation {
 namespace {
 
-using ShortestPaths = CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<CgalKernel, CgalMesh>>;
+using ShortestPaths =
+    CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<CgalKernel, CgalMesh>>;
 
 /// CGAL counts corners from the target of the face's own half-edge, wherever that is.
-ShortestPaths::Barycentric_coordinates cgal_weights(const CgalMesh& copy, const TriangleMesh& mesh, const SurfacePoint& point) {
+ShortestPaths::Barycentric_coordinates cgal_weights(const CgalMesh& copy, const TriangleMesh& mesh,
+                                                    const SurfacePoint& point) {
   std::array<double, 3> weights{};
   const CgalMesh::Face_index face(static_cast<CgalMesh::size_type>(point.face));
   CgalMesh::Halfedge_index half_edge = copy.halfedge(face);
@@ -39,7 +41,8 @@ Field distances_to_all(const TriangleMesh& mesh, std::span<const SurfacePoint> s
   Field distances(mesh.vertices.rows());
   for (const CgalMesh::Vertex_index vertex : copy.vertices()) {
     const double distance = paths.shortest_distance_to_source_points(vertex).first;
-    distances[vertex.idx()] = distance < 0.0 ? std::numeric_limits<double>::infinity() : distance;  // below 0: no path
+    distances[vertex.idx()] =
+        distance < 0.0 ? std::numeric_limits<double>::infinity() : distance;  // below 0: no path
   }
   return distances;
 }
@@ -50,7 +53,8 @@ Field unfold_distances(const TriangleMesh& mesh, std::span<const SurfacePoint> s
   try {
     return distances_to_all(mesh, sources);
   } catch (const CGAL::Failure_exception& failure) {
-    throw NumericalError("unfold_distances: unfolding the faces failed: " + failure.message() + " (" + failure.expression() + ")");
+    throw NumericalError("unfold_distances: unfolding the faces failed: " + failure.message() +
+                         " (" + failure.expression() + ")");
   }
 }
 

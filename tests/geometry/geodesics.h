@@ -8,7 +8,8 @@
 
 namespace palpation {
 
-/// From every vertex of a valid mesh to the nearest source, by unfolding (Xin and Wang 2009); infinite where none can be reached.
+/// From every vertex of a valid mesh to the nearest source, by unfolding (Xin and Wang 2009);
+/// infinite where none can be reached.
 Field unfold_distances(const TriangleMesh& mesh, std::span<const SurfacePoint> sources);
 
 }  // namespace palpation

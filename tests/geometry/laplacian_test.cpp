@@ -11,13 +11,15 @@
 namespace palpation {
 namespace {
 
-// A linear function's energy is its slope squared times the area; constants have none; the mass is the area.
+// A linear function's energy is its slope squared times the area; constants have none; the mass is
+// the area.
 TEST(Laplacian, MeasuresAreasAndSlopesExactly) {
   const Surface square = zoo::jittered_square(9, 4);
   MetricMesh mesh = metric_of(square);
   for (int pass = 0; pass < 2; ++pass) {
     const Laplacian laplacian = laplacian_of(mesh);
-    const Field height = square.mesh().vertices * Vec3(3.0, 4.0, 0.0), ones = Field::Ones(square.vertex_count());
+    const Field height = square.mesh().vertices * Vec3(3.0, 4.0, 0.0),
+                ones = Field::Ones(square.vertex_count());
     EXPECT_NEAR(height.dot(laplacian.stiffness * height), 25.0, 1e-10);
     EXPECT_NEAR((laplacian.stiffness * ones).cwiseAbs().maxCoeff(), 0.0, 1e-12);
     EXPECT_NEAR(ones.dot(laplacian.mass * ones), 1.0, 1e-12);
@@ -27,7 +29,8 @@ TEST(Laplacian, MeasuresAreasAndSlopesExactly) {
 
 // Stretched cells: weights of the wrong sign, and none after the flips.
 TEST(Laplacian, HasNoNegativeWeightOnceFlipped) {
-  MetricMesh mesh = closed::periodic_rectangle(Vec2(8.0, 1.0), 12, 12).mesh;  // at a border weights may be negative all the same
+  MetricMesh mesh = closed::periodic_rectangle(Vec2(8.0, 1.0), 12, 12)
+                        .mesh;  // at a border weights may be negative all the same
   const auto greatest_weight = [](const MetricMesh& of) {
     const Eigen::MatrixXd stiffness(laplacian_of(of).stiffness);
     return (stiffness - Eigen::MatrixXd(stiffness.diagonal().asDiagonal())).maxCoeff();

@@ -24,14 +24,16 @@ TEST(MakePlane, MakesThePapersPhantomByDefault) {
   EXPECT_EQ(phantom.vertex(39'800), Vec3(0.0, 0.050, 0.0));
   EXPECT_EQ(phantom.vertex(39'999), Vec3(0.025, 0.050, 0.0));
   EXPECT_NEAR(phantom.area(), 0.00125,
-              1e-17);  // rounding of the coordinates, 1e-16 of a side for each of 200 columns, cancels but for a few
+              1e-17);  // rounding of the coordinates, 1e-16 of a side for each of 200 columns,
+                       // cancels but for a few
   EXPECT_TRUE(phantom.is_planar());
   EXPECT_TRUE(phantom.topology().is_disk());
   EXPECT_GT(phantom.face_normal(0).z(), 0.0);
 }
 
 TEST(MakePlane, StartsAtTheCornerRowByRow) {
-  const TriangleMesh mesh = plane({.size_m = Vec2(2.0, 1.0), .columns = 3, .rows = 2, .corner_m = Vec2(10.0, -5.0)});
+  const TriangleMesh mesh =
+      plane({.size_m = Vec2(2.0, 1.0), .columns = 3, .rows = 2, .corner_m = Vec2(10.0, -5.0)});
   Points expected(6, 3);
   expected << 10, -5, 0, 11, -5, 0, 12, -5, 0, 10, -4, 0, 11, -4, 0, 12, -4, 0;
   EXPECT_EQ(mesh.vertices, expected);
@@ -46,14 +48,16 @@ TEST(MakePlane, TurnsEverySecondDiagonal) {
 
 TEST(MakePlane, StaysAValidRectangleUnderTheStrongestJitter) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Surface jittered(plane({.size_m = Vec2(3.0, 2.0), .columns = 31, .rows = 21, .jitter = 0.45}, seed));
+    const Surface jittered(
+        plane({.size_m = Vec2(3.0, 2.0), .columns = 31, .rows = 21, .jitter = 0.45}, seed));
     EXPECT_TRUE(jittered.is_planar()) << "a triangle is turned over with seed " << seed;
     EXPECT_NEAR(jittered.area(), 6.0, 1e-12) << "rounding of a sum of 1200 terms";
   }
 }
 
 TEST(MakePlane, KeepsJitteredBorderVerticesOnTheBorderAndCornersInPlace) {
-  const TriangleMesh mesh = plane({.size_m = Vec2(1.0, 1.0), .columns = 8, .rows = 8, .jitter = 0.45});
+  const TriangleMesh mesh =
+      plane({.size_m = Vec2(1.0, 1.0), .columns = 8, .rows = 8, .jitter = 0.45});
   for (int k = 0; k < 8; ++k) {
     EXPECT_EQ(mesh.vertices(k, 1), 0.0);
     EXPECT_EQ(mesh.vertices(56 + k, 1), 1.0);

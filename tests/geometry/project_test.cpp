@@ -14,14 +14,16 @@ namespace {
 /// Distance to a triangle by Voronoi regions (Ericson 2005, 5.1.5): another way than the library's.
 double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp),
+               d6 = ac.dot(cp);
   if (d1 <= 0.0 && d2 <= 0.0) return ap.norm();
   if (d3 >= 0.0 && d4 <= d3) return bp.norm();
   if (d6 >= 0.0 && d5 <= d6) return cp.norm();
   const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
   if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return (ap - d1 / (d1 - d3) * ab).norm();
   if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return (ap - d2 / (d2 - d6) * ac).norm();
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
+    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
   return std::abs(ab.cross(ac).normalized().dot(ap));
 }
 
@@ -29,13 +31,15 @@ double distance_by_brute_force(const Surface& surface, const Vec3& place) {
   double least = std::numeric_limits<double>::infinity();
   for (int f = 0; f < surface.face_count(); ++f) {
     const Eigen::Vector3i t = surface.triangle(f);
-    least = std::min(least, distance_to_triangle(place, surface.vertex(t[0]), surface.vertex(t[1]), surface.vertex(t[2])));
+    least = std::min(least, distance_to_triangle(place, surface.vertex(t[0]), surface.vertex(t[1]),
+                                                 surface.vertex(t[2])));
   }
   return least;
 }
 
 Vec3 somewhere_around(const Surface& surface, Random& random) {
-  const Vec3 low = surface.mesh().vertices.colwise().minCoeff(), high = surface.mesh().vertices.colwise().maxCoeff();
+  const Vec3 low = surface.mesh().vertices.colwise().minCoeff(),
+             high = surface.mesh().vertices.colwise().maxCoeff();
   const Vec3 share(random.uniform(), random.uniform(), random.uniform());
   return 0.5 * (low + high) + surface.diameter() * (share - Vec3::Constant(0.5));
 }
@@ -54,7 +58,8 @@ TEST(Project, FindsWhatASearchOfAllFacesFinds) {
       const SurfacePoint found = surface.project(place);
       expect_weights(found);
       // Ties are broken within 1e-12 of the diameter.
-      EXPECT_NEAR((surface.position(found) - place).norm(), distance_by_brute_force(surface, place), 2e-12 * surface.diameter())
+      EXPECT_NEAR((surface.position(found) - place).norm(), distance_by_brute_force(surface, place),
+                  2e-12 * surface.diameter())
           << animal.name;
     }
   }
@@ -66,7 +71,9 @@ TEST(Project, LeavesPointsOfTheSurfaceInPlace) {
     Random random(6);
     for (const SurfacePoint& point : sample_uniformly(surface, 100, random)) {
       const Vec3 place = surface.position(point);
-      EXPECT_LT((surface.position(surface.project(place)) - place).norm(), 2e-12 * surface.diameter()) << animal.name;
+      EXPECT_LT((surface.position(surface.project(place)) - place).norm(),
+                2e-12 * surface.diameter())
+          << animal.name;
     }
   }
 }
@@ -75,13 +82,16 @@ TEST(Project, GivesTiesToTheLowestFace) {
   for (const zoo::Animal& animal : zoo::animals()) {
     const Surface surface(animal.mesh);
     for (int v = 0; v < surface.vertex_count(); ++v) {
-      EXPECT_EQ(surface.project(surface.vertex(v)).face, surface.face_of_vertex(v)) << animal.name << " at vertex " << v;
+      EXPECT_EQ(surface.project(surface.vertex(v)).face, surface.face_of_vertex(v))
+          << animal.name << " at vertex " << v;
     }
     for (int f = 0; f < surface.face_count(); ++f) {
       for (int i = 0; i < 3; ++i) {
-        const Vec3 middle = 0.5 * (surface.vertex(surface.triangle(f)[i]) + surface.vertex(surface.triangle(f)[(i + 1) % 3]));
+        const Vec3 middle = 0.5 * (surface.vertex(surface.triangle(f)[i]) +
+                                   surface.vertex(surface.triangle(f)[(i + 1) % 3]));
         const int across = surface.neighbour(f, i);
-        EXPECT_EQ(surface.project(middle).face, across < 0 ? f : std::min(f, across)) << animal.name;
+        EXPECT_EQ(surface.project(middle).face, across < 0 ? f : std::min(f, across))
+            << animal.name;
       }
     }
   }
@@ -102,7 +112,8 @@ TEST(Project, MovesWithTheSurface) {
     const Vec3 place = somewhere_around(torus, random);
     const Vec3 expected = 0.01 * (rotation * torus.position(torus.project(place))) + shift;
     const Vec3 found = moved.position(moved.project(0.01 * (rotation * place) + shift));
-    // Distances agree to 1e-12; the closest point itself only to the root of that, where the surface bends towards the place.
+    // Distances agree to 1e-12; the closest point itself only to the root of that, where the
+    // surface bends towards the place.
     EXPECT_LT((found - expected).norm(), 1e-6 * moved.diameter());
   }
 }
@@ -110,10 +121,13 @@ TEST(Project, MovesWithTheSurface) {
 TEST(Project, FindsTheSamePlaceUnderOtherNumbers) {
   const TriangleMesh mesh = zoo::jittered_square_mesh(12, 3);
   Random random(9);
-  const Surface square(mesh), other(zoo::reordered(zoo::relabelled(mesh, zoo::shuffled(169, random)), random));
+  const Surface square(mesh),
+      other(zoo::reordered(zoo::relabelled(mesh, zoo::shuffled(169, random)), random));
   for (int k = 0; k < 200; ++k) {
     const Vec3 place = somewhere_around(square, random);
-    EXPECT_LT((square.position(square.project(place)) - other.position(other.project(place))).norm(), 3e-12);
+    EXPECT_LT(
+        (square.position(square.project(place)) - other.position(other.project(place))).norm(),
+        3e-12);
   }
 }
 
@@ -123,7 +137,9 @@ TEST(Project, WorksFarAwayAndOnOneTriangle) {
   mesh.triangles << 0, 1, 2;
   const Surface triangle(mesh);
   EXPECT_EQ(triangle.position(triangle.project(Vec3(1e9, 0.0, 3.0))), Vec3(1.0, 0.0, 0.0));
-  EXPECT_LT((triangle.position(triangle.project(Vec3(0.25, 0.25, 1e6))) - Vec3(0.25, 0.25, 0.0)).norm(), 1e-9);
+  EXPECT_LT(
+      (triangle.position(triangle.project(Vec3(0.25, 0.25, 1e6))) - Vec3(0.25, 0.25, 0.0)).norm(),
+      1e-9);
 }
 
 TEST(Project, KeepsItsDigitsOnSlivers) {
@@ -137,7 +153,9 @@ TEST(Project, KeepsItsDigitsOnSlivers) {
 }
 
 TEST(Project, RefusesPlacesThatAreNone) {
-  EXPECT_THROW(zoo::unit_square(2).project(Vec3(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0)), InvalidInput);
+  EXPECT_THROW(
+      zoo::unit_square(2).project(Vec3(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0)),
+      InvalidInput);
 }
 
 TEST(Project, BuildsTheTreeOnlyWhenAsked) {

@@ -23,7 +23,8 @@ TEST(Sampling, GivesPointsOfTheSurface) {
 }
 
 TEST(Sampling, IsUniformByAreaAndNotByFace) {
-  // A jittered square: cells of 1/4 by 1/4 hold 1/16 of the points each, whatever triangles they are made of.
+  // A jittered square: cells of 1/4 by 1/4 hold 1/16 of the points each, whatever triangles they
+  // are made of.
   const Surface square = zoo::jittered_square(9, 4);
   Random random(2);
   constexpr int kCount = 16'000;
@@ -38,7 +39,8 @@ TEST(Sampling, IsUniformByAreaAndNotByFace) {
 }
 
 TEST(Sampling, IsUniformInsideATriangle) {
-  // The medians cut a triangle into six parts of equal area: the order of the weights says in which a point is.
+  // The medians cut a triangle into six parts of equal area: the order of the weights says in which
+  // a point is.
   TriangleMesh mesh{Points(3, 3), Triangles(1, 3)};
   mesh.vertices << 0, 0, 0, 5, 0, 0, 1, 2, 0;
   mesh.triangles << 0, 1, 2;
@@ -49,7 +51,8 @@ TEST(Sampling, IsUniformInsideATriangle) {
     ++in_part[4 * (b[0] < b[1]) + 2 * (b[1] < b[2]) + (b[2] < b[0])];
   }
   double chi_squared = 0.0;
-  for (const int count : in_part) chi_squared += count == 0 ? 0.0 : (count - 1000.0) * (count - 1000.0) / 1000.0;
+  for (const int count : in_part)
+    chi_squared += count == 0 ? 0.0 : (count - 1000.0) * (count - 1000.0) / 1000.0;
   EXPECT_LT(chi_squared, 25.7);  // 5 degrees of freedom, one in ten thousand
   EXPECT_EQ(in_part[0] + in_part[7], 0);
 }

@@ -34,7 +34,8 @@ TEST(ScatteredField, ReproducesLinearFunctions) {
       const std::optional<double> value = field.at(place, kAnywhere);
       if (!value) continue;
       ++inside;
-      EXPECT_NEAR(*value, 2.0 * place.x() - 3.0 * place.y() + 5.0, 1e-12);  // rounding, grown by slivers at the hull
+      EXPECT_NEAR(*value, 2.0 * place.x() - 3.0 * place.y() + 5.0,
+                  1e-12);  // rounding, grown by slivers at the hull
     }
     EXPECT_GT(inside, 450);
   }
@@ -87,7 +88,8 @@ TEST(ScatteredField, DoesNotDependOnTheOrderOfThePointsEvenOnAGrid) {
   // Four points of a grid cell are on one circle: either diagonal is Delaunay.
   const Points2 points = grid_points(12);
   Eigen::VectorXd values(points.rows());
-  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = std::cos(3.0 * static_cast<double>(i));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = std::cos(3.0 * static_cast<double>(i));
   Random random(6);
   const std::vector<int> order = zoo::shuffled(static_cast<int>(points.rows()), random);
   const ScatteredField field(points, values), other(points(order, Eigen::all), values(order));
@@ -101,7 +103,8 @@ TEST(ScatteredField, GivesTheSameValuesInEveryThread) {
   const Points2 points = random_points(500, 7), places = random_points(4000, 8);
   const ScatteredField field(points, points.col(0).array().square());
   const auto evaluate = [&](std::vector<double>& values) {
-    for (const auto& place : places.rowwise()) values.push_back(field.at(place, 1.0).value_or(-1.0));
+    for (const auto& place : places.rowwise())
+      values.push_back(field.at(place, 1.0).value_or(-1.0));
   };
   std::vector<double> alone;
   evaluate(alone);

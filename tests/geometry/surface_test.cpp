@@ -22,11 +22,12 @@ class EveryAnimal : public testing::TestWithParam<zoo::Animal> {
   const Surface surface_{GetParam().mesh};
 };
 
-INSTANTIATE_TEST_SUITE_P(Zoo, EveryAnimal, testing::ValuesIn(zoo::animals()), [](const auto& animal) {
-  std::string name = animal.param.name;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Zoo, EveryAnimal, testing::ValuesIn(zoo::animals()),
+                         [](const auto& animal) {
+                           std::string name = animal.param.name;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
 
 TEST_P(EveryAnimal, HasTheTopologyItIsKnownFor) {
   EXPECT_EQ(surface_.topology().components, GetParam().topology.components);
@@ -53,7 +54,8 @@ TEST_P(EveryAnimal, HasNeighboursThatAgreeOnTheirEdge) {
       const int start = surface_.triangle(f)[i], end = surface_.triangle(f)[(i + 1) % 3];
       int shared = -1;
       for (int j = 0; j < 3; ++j) {
-        if (surface_.triangle(across)[j] == end && surface_.triangle(across)[(j + 1) % 3] == start) shared = j;
+        if (surface_.triangle(across)[j] == end && surface_.triangle(across)[(j + 1) % 3] == start)
+          shared = j;
       }
       ASSERT_GE(shared, 0) << "faces " << f << " and " << across;
       EXPECT_EQ(surface_.neighbour(across, shared), f);
@@ -74,7 +76,9 @@ TEST_P(EveryAnimal, HasBordersWithTheTissueOnTheirLeftFromTheLowestVertex) {
       const int start = loop[k], end = loop[(k + 1) % loop.size()];
       bool runs_along_a_face = false;
       for (int f = 0; f < surface_.face_count(); ++f) {
-        for (int i = 0; i < 3; ++i) runs_along_a_face |= surface_.triangle(f)[i] == start && surface_.triangle(f)[(i + 1) % 3] == end;
+        for (int i = 0; i < 3; ++i)
+          runs_along_a_face |=
+              surface_.triangle(f)[i] == start && surface_.triangle(f)[(i + 1) % 3] == end;
       }
       EXPECT_TRUE(runs_along_a_face) << start << " to " << end;
     }
@@ -93,8 +97,10 @@ TEST_P(EveryAnimal, MovesWithItsMesh) {
   const Vec3 shift(3.0, -2.0, 5.0);
   const double scale = 0.01;
   const Surface other(zoo::moved(mesh(), rotation, shift, scale));
-  // The shift costs two digits: coordinates of 5 with rounding 1e-15 on a body of size 1e-2, relative 1e-13.
-  EXPECT_NEAR(other.area(), scale * scale * surface_.area(), 1e-11 * scale * scale * surface_.area());
+  // The shift costs two digits: coordinates of 5 with rounding 1e-15 on a body of size 1e-2,
+  // relative 1e-13.
+  EXPECT_NEAR(other.area(), scale * scale * surface_.area(),
+              1e-11 * scale * scale * surface_.area());
   for (int v = 0; v < surface_.vertex_count(); ++v) {
     const Vec3 normal = rotation * surface_.vertex_normals().row(v).transpose();
     EXPECT_LT((other.vertex_normals().row(v).transpose() - normal).norm(), 1e-11) << "vertex " << v;
@@ -119,7 +125,8 @@ TEST_P(EveryAnimal, IsTheSameUnderOtherNumbers) {
   EXPECT_EQ(other.topology().euler, surface_.topology().euler);
   EXPECT_EQ(other.topology().borders, surface_.topology().borders);
   for (int v = 0; v < surface_.vertex_count(); ++v) {
-    EXPECT_LT((other.vertex_normals().row(number[v]) - surface_.vertex_normals().row(v)).norm(), 1e-13);
+    EXPECT_LT((other.vertex_normals().row(number[v]) - surface_.vertex_normals().row(v)).norm(),
+              1e-13);
     EXPECT_NEAR(other.vertex_areas()[number[v]], surface_.vertex_areas()[v], 1e-14);
   }
 }
@@ -128,7 +135,8 @@ TEST_P(EveryAnimal, FindsEachVertexInItsLowestFace) {
   for (int v = 0; v < surface_.vertex_count(); ++v) {
     EXPECT_EQ(surface_.position(surface_.at_vertex(v)), surface_.vertex(v));
     EXPECT_EQ(surface_.at_vertex(v).face, surface_.face_of_vertex(v));
-    for (int f = 0; f < surface_.face_of_vertex(v); ++f) EXPECT_TRUE((surface_.triangle(f).array() != v).all());
+    for (int f = 0; f < surface_.face_of_vertex(v); ++f)
+      EXPECT_TRUE((surface_.triangle(f).array() != v).all());
     EXPECT_EQ(surface_.nearest_vertex(surface_.vertex(v)), v);
   }
 }
@@ -138,7 +146,8 @@ TEST_P(EveryAnimal, InterpolatesLinearFieldsExactly) {
   const Field field = (mesh().vertices * slope).array() + 3.0;
   for (int f = 0; f < surface_.face_count(); f += 3) {
     const SurfacePoint point{f, Vec3(0.2, 0.3, 0.5)};
-    EXPECT_NEAR(surface_.interpolate(field, point), slope.dot(surface_.position(point)) + 3.0, 1e-13);  // rounding of numbers up to 10
+    EXPECT_NEAR(surface_.interpolate(field, point), slope.dot(surface_.position(point)) + 3.0,
+                1e-13);  // rounding of numbers up to 10
   }
 }
 
@@ -146,7 +155,8 @@ TEST(Surface, KnowsAreasOfShapesThatAreKnown) {
   EXPECT_DOUBLE_EQ(zoo::unit_square(9).area(), 1.0);
   EXPECT_DOUBLE_EQ(Surface(zoo::tetrahedron_mesh()).area(), 1.5 + std::sqrt(3.0) / 2.0);
   // A cylinder of 12 flat strips: 12 chords of length 2 sin(pi / 12), 2 high.
-  EXPECT_NEAR(Surface(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).area(), 12.0 * 2.0 * std::sin(kPi / 12.0) * 2.0, 1e-13);
+  EXPECT_NEAR(Surface(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).area(),
+              12.0 * 2.0 * std::sin(kPi / 12.0) * 2.0, 1e-13);
 }
 
 TEST(Surface, ConvergesToTheAreaOfASphereWithTheSquareOfTheEdge) {
@@ -182,7 +192,9 @@ TEST(Surface, InterpolatesNormalsToUnitLength) {
 
 TEST(Surface, IsPlanarWhereverThePlaneIs) {
   EXPECT_TRUE(Surface(zoo::annulus_mesh(0.5, 1.0, 20, 3)).is_planar());
-  EXPECT_TRUE(Surface(zoo::moved(zoo::jittered_square_mesh(8, 2), zoo::some_rotation(), Vec3(1.0, 2.0, 3.0))).is_planar());
+  EXPECT_TRUE(Surface(zoo::moved(zoo::jittered_square_mesh(8, 2), zoo::some_rotation(),
+                                 Vec3(1.0, 2.0, 3.0)))
+                  .is_planar());
   EXPECT_FALSE(Surface(zoo::cylinder_mesh(1.0, 2.0, 12, 5)).is_planar());
   EXPECT_FALSE(Surface(zoo::tetrahedron_mesh()).is_planar());
 }
@@ -225,9 +237,11 @@ TEST(Surface, RefusesElementsAndPointsThatItDoesNotHave) {
   EXPECT_THROW(square.position({2, Vec3(1.0, 0.0, 0.0)}), InvalidInput);
   EXPECT_THROW(square.position({0, Vec3(0.5, 0.0, 0.0)}), InvalidInput);
   EXPECT_THROW(square.position({0, Vec3(1.5, -0.5, 0.0)}), InvalidInput);
-  EXPECT_THROW(square.position({0, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}), InvalidInput);
+  EXPECT_THROW(square.position({0, Vec3::Constant(std::numeric_limits<double>::quiet_NaN())}),
+               InvalidInput);
   EXPECT_THROW(square.interpolate(Field::Zero(3), square.at_vertex(0)), InvalidInput);
-  EXPECT_THROW(square.nearest_vertex(Vec3(0.0, 0.0, std::numeric_limits<double>::infinity())), InvalidInput);
+  EXPECT_THROW(square.nearest_vertex(Vec3(0.0, 0.0, std::numeric_limits<double>::infinity())),
+               InvalidInput);
 }
 
 TEST(Surface, ComputesNothingCostlyForAPlanarScene) {

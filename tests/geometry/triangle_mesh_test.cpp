@@ -13,7 +13,9 @@ namespace {
 double longest_edge(const TriangleMesh& mesh) {
   double longest = 0.0;
   for (const auto& t : mesh.triangles.rowwise()) {
-    for (int i = 0; i < 3; ++i) longest = std::max(longest, (mesh.vertices.row(t[i]) - mesh.vertices.row(t[(i + 1) % 3])).norm());
+    for (int i = 0; i < 3; ++i)
+      longest =
+          std::max(longest, (mesh.vertices.row(t[i]) - mesh.vertices.row(t[(i + 1) % 3])).norm());
   }
   return longest;
 }
@@ -29,8 +31,10 @@ TEST(Refine, KeepsAreaAndTopologyOfEveryAnimal) {
   for (const zoo::Animal& animal : zoo::animals()) {
     const Surface coarse(animal.mesh);
     const Surface fine(refine(animal.mesh, 0.4 * longest_edge(animal.mesh)));
-    EXPECT_EQ(fine.face_count(), 16 * coarse.face_count()) << animal.name;  // 0.4 takes two halvings
-    EXPECT_NEAR(fine.area(), coarse.area(), 1e-13 * coarse.area()) << animal.name << ": rounding of sums of some thousand terms";
+    EXPECT_EQ(fine.face_count(), 16 * coarse.face_count())
+        << animal.name;  // 0.4 takes two halvings
+    EXPECT_NEAR(fine.area(), coarse.area(), 1e-13 * coarse.area())
+        << animal.name << ": rounding of sums of some thousand terms";
     EXPECT_EQ(fine.topology().components, coarse.topology().components) << animal.name;
     EXPECT_EQ(fine.topology().borders, coarse.topology().borders) << animal.name;
     EXPECT_EQ(fine.topology().euler, coarse.topology().euler) << animal.name;
@@ -67,14 +71,16 @@ TEST(Refine, KeepsTheOldVerticesFirst) {
 }
 
 TEST(Refine, RefusesLengthsThatAreNone) {
-  for (const double length : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double length : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(refine(zoo::tetrahedron_mesh(), length), InvalidInput) << length;
   }
 }
 
 TEST(Refine, RefusesMoreTrianglesThanFitBeforeMakingThem) {
   EXPECT_THROW(refine(zoo::tetrahedron_mesh(), 1e-6), InvalidInput);
-  EXPECT_THROW(refine(zoo::tetrahedron_mesh(), std::numeric_limits<double>::denorm_min()), InvalidInput);
+  EXPECT_THROW(refine(zoo::tetrahedron_mesh(), std::numeric_limits<double>::denorm_min()),
+               InvalidInput);
 }
 
 TEST(Refine, RefusesIndicesAndCoordinatesThatAreNone) {

@@ -41,19 +41,28 @@ TEST(Unfolding, AgreesWithItsTwinOnCurvedTissue) {
     for (const SurfacePoint& source : sources) {
       const std::span<const SurfacePoint> one(&source, 1);
       // Rounding along some hundred unfoldings of 1e-3 m.
-      EXPECT_LT(greatest_difference(unfolded_distances(surface, one), unfold_distances(surface.mesh(), one)), 1e-12) << name;
+      EXPECT_LT(greatest_difference(unfolded_distances(surface, one),
+                                    unfold_distances(surface.mesh(), one)),
+                1e-12)
+          << name;
     }
-    EXPECT_LT(greatest_difference(unfolded_distances(surface, sources), unfold_distances(surface.mesh(), sources)), 1e-12) << name;
+    EXPECT_LT(greatest_difference(unfolded_distances(surface, sources),
+                                  unfold_distances(surface.mesh(), sources)),
+              1e-12)
+        << name;
   }
 }
 
 TEST(Unfolding, AgreesWithItsTwinOnRegularMeshesWhereLightMeetsCornersExactly) {
-  for (const TriangleMesh& mesh : {zoo::cylinder_mesh(1.0, 2.0, 16, 10), zoo::unit_square_mesh(8), zoo::cylinder_mesh(1.0, 2.0, 5, 3)}) {
+  for (const TriangleMesh& mesh : {zoo::cylinder_mesh(1.0, 2.0, 16, 10), zoo::unit_square_mesh(8),
+                                   zoo::cylinder_mesh(1.0, 2.0, 5, 3)}) {
     const Surface surface(mesh);
     for (int vertex = 0; vertex < surface.vertex_count(); vertex += 7) {
       const SurfacePoint source = surface.at_vertex(vertex);
       const std::span<const SurfacePoint> one(&source, 1);
-      EXPECT_LT(greatest_difference(unfolded_distances(surface, one), unfold_distances(surface.mesh(), one)), 1e-13);
+      EXPECT_LT(greatest_difference(unfolded_distances(surface, one),
+                                    unfold_distances(surface.mesh(), one)),
+                1e-13);
     }
   }
 }
@@ -74,7 +83,9 @@ TEST(Unfolding, StopsAtTheRadius) {
 double length_of(const Surface& surface, const std::vector<Piece>& pieces) {
   double length = 0.0;
   for (const Piece& piece : pieces)
-    length += (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from})).norm();
+    length +=
+        (surface.position({piece.face, piece.to}) - surface.position({piece.face, piece.from}))
+            .norm();
   return length;
 }
 
@@ -91,11 +102,19 @@ TEST(Unfolding, FindsAPathThatHangsTogetherAndIsAsLongAsTheDistance) {
       ASSERT_TRUE(path) << name;
       ASSERT_FALSE(path->pieces.empty()) << name;
       EXPECT_NEAR(length_of(surface, path->pieces), path->length_m, 1e-12) << name;
-      EXPECT_NEAR((surface.position({path->pieces.front().face, path->pieces.front().from}) - surface.position(from)).norm(), 0.0, 1e-15);
-      EXPECT_NEAR((surface.position({path->pieces.back().face, path->pieces.back().to}) - surface.position(to)).norm(), 0.0, 1e-15);
+      EXPECT_NEAR((surface.position({path->pieces.front().face, path->pieces.front().from}) -
+                   surface.position(from))
+                      .norm(),
+                  0.0, 1e-15);
+      EXPECT_NEAR((surface.position({path->pieces.back().face, path->pieces.back().to}) -
+                   surface.position(to))
+                      .norm(),
+                  0.0, 1e-15);
       for (std::size_t p = 1; p < path->pieces.size(); ++p) {
         const Vec3 end = surface.position({path->pieces[p - 1].face, path->pieces[p - 1].to});
-        EXPECT_NEAR((surface.position({path->pieces[p].face, path->pieces[p].from}) - end).norm(), 0.0, 1e-15) << name;
+        EXPECT_NEAR((surface.position({path->pieces[p].face, path->pieces[p].from}) - end).norm(),
+                    0.0, 1e-15)
+            << name;
       }
       const Field distance = unfolded_distances(surface, std::span(&from, 1));
       if (k % 4 >= 2) {

@@ -11,7 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-long files_in(const fs::path& folder) { return std::distance(fs::directory_iterator(folder), fs::directory_iterator()); }
+long files_in(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
 
 TEST(WriteAtomically, ReplacesTheOldContentAndLeavesNothingElse) {
   const TemporaryFolder folder;

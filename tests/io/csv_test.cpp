@@ -15,7 +15,8 @@ using Rows = std::vector<std::vector<std::string>>;
 Rows rows_of(const CsvTable& table) {
   Rows rows(table.row_count());
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    for (std::size_t column = 0; column < table.columns().size(); ++column) rows[row].emplace_back(table.cell(row, column));
+    for (std::size_t column = 0; column < table.columns().size(); ++column)
+      rows[row].emplace_back(table.cell(row, column));
   }
   return rows;
 }
@@ -34,10 +35,10 @@ TEST(ParseCsv, KeepsCellsAndTheLinesTheyStandOn) {
 
 TEST(ParseCsv, ReadsTheSameWithAnyLineEndsMarksAndQuotes) {
   const CsvTable plain = parse_csv("a,b\n1,2\n3,\n", "t.csv");
-  for (const char* text :
-       {"\xEF\xBB\xBF"
-        "a,b\n1,2\n3,\n",
-        "a,b\r\n1,2\r\n3,\r\n", "a,b\r1,2\r3,", "a,b\n1,2\n3,", "\n a ,\tb\n\n \n1 , 2\n3,\n\n", "\"a\",\"b\"\n\"1\",2\n3,\"\"\n"}) {
+  for (const char* text : {"\xEF\xBB\xBF"
+                           "a,b\n1,2\n3,\n",
+                           "a,b\r\n1,2\r\n3,\r\n", "a,b\r1,2\r3,", "a,b\n1,2\n3,",
+                           "\n a ,\tb\n\n \n1 , 2\n3,\n\n", "\"a\",\"b\"\n\"1\",2\n3,\"\"\n"}) {
     const CsvTable other = parse_csv(text, "t.csv");
     EXPECT_EQ(plain.columns(), other.columns()) << text;
     EXPECT_EQ(rows_of(plain), rows_of(other)) << text;
@@ -73,16 +74,20 @@ TEST(NumberAt, TellsAnEmptyCellFromNanAndFromZero) {
 
 TEST(NumberAt, NamesLineColumnAndValueOfACellThatIsNone) {
   const CsvTable table = parse_csv("x,y\n1,2\n1e400,0x10\n1e-400,\"0,5\"\n", "t.csv");
-  const auto fault_at = [&](std::size_t row, std::size_t column) { return io_error_of([&] { number_at(table, row, column); }); };
+  const auto fault_at = [&](std::size_t row, std::size_t column) {
+    return io_error_of([&] { number_at(table, row, column); });
+  };
   EXPECT_EQ(fault_at(1, 1), "t.csv:3: column y: \"0x10\" is not a number");
   EXPECT_EQ(fault_at(1, 0), "t.csv:3: column x: \"1e400\" is too large for a double");
   EXPECT_EQ(fault_at(2, 0), "t.csv:4: column x: \"1e-400\" is too small for a double: write 0");
   EXPECT_EQ(fault_at(2, 1), "t.csv:4: column y: \"0,5\" is not a number: decimals take a point");
-  EXPECT_EQ(io_error_of([&] { column_index(table, "z"); }), "t.csv:1: no column \"z\" among \"x, y\"");
+  EXPECT_EQ(io_error_of([&] { column_index(table, "z"); }),
+            "t.csv:1: no column \"z\" among \"x, y\"");
 }
 
 TEST(CsvLine, ComesBackAsTheSameCells) {
-  const std::array<std::string, 5> cells = {"plain", "with, comma", "with \"quote\"", " blanks ", ""};
+  const std::array<std::string, 5> cells = {"plain", "with, comma", "with \"quote\"", " blanks ",
+                                            ""};
   const CsvTable table = parse_csv("a,b,c,d,e\n" + csv_line(cells), "t.csv");
   EXPECT_EQ(rows_of(table), (Rows{{cells.begin(), cells.end()}}));
 }

@@ -16,7 +16,8 @@ std::vector<Palpation> measured(const std::string& text) {
 }
 
 TEST(ReadMeasurements, NeedsOnlyPositionsAndReadings) {
-  const std::vector<Palpation> palpations = measured("reading,x,y,z,operator\n7.5,0.01,0.005,0.002,anna\n");
+  const std::vector<Palpation> palpations =
+      measured("reading,x,y,z,operator\n7.5,0.01,0.005,0.002,anna\n");
   ASSERT_EQ(palpations.size(), 1u);
   EXPECT_EQ(palpations[0].reading, 7.5);
   EXPECT_TRUE(std::isnan(palpations[0].noise_variance));
@@ -27,7 +28,8 @@ TEST(ReadMeasurements, NeedsOnlyPositionsAndReadings) {
 }
 
 TEST(ReadMeasurements, TellsAnUnknownNoiseFromNoNoise) {
-  const std::vector<Palpation> palpations = measured("x,y,z,reading,noise_variance\n0,0,0,1,\n0,0,0,1,0\n0,0,0,1,0.25\n");
+  const std::vector<Palpation> palpations =
+      measured("x,y,z,reading,noise_variance\n0,0,0,1,\n0,0,0,1,0\n0,0,0,1,0.25\n");
   EXPECT_TRUE(std::isnan(palpations[0].noise_variance));
   EXPECT_EQ(palpations[1].noise_variance, 0.0);
   EXPECT_EQ(palpations[2].noise_variance, 0.25);
@@ -37,14 +39,16 @@ TEST(ReadMeasurements, TakesEmptyVariancesForNoneWhereTheFieldHasNoNoise) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.file("m.csv", "x,y,z,reading\n0,0,0,1\n0,0,0,2\n");
   EXPECT_EQ(read_measurements(path, square()).places, 1);
-  const std::string error = io_error_of([&] { read_measurements(path, square(), {.empty_noise_is_none = true}); });
+  const std::string error =
+      io_error_of([&] { read_measurements(path, square(), {.empty_noise_is_none = true}); });
   EXPECT_TRUE(contains(error, "m.csv:3: the reading 2 contradicts 1 in line 2")) << error;
 }
 
 TEST(ReadMeasurements, SetsAsideRowsThatWereGivenTwice) {
   const TemporaryFolder folder;
   const std::string rows = "0,0,0,1.5\n0.01,0,0,2.25\n0,0.01,0,1.75\n";
-  const MeasurementsFile file = read_measurements(folder.file("m.csv", "x,y,z,reading\n" + rows + rows), square());
+  const MeasurementsFile file =
+      read_measurements(folder.file("m.csv", "x,y,z,reading\n" + rows + rows), square());
   ASSERT_EQ(file.palpations.size(), 6u);
   for (std::size_t row = 0; row < 3; ++row) {
     EXPECT_EQ(file.palpations[row].set_aside, "");
@@ -56,7 +60,8 @@ TEST(ReadMeasurements, SetsAsideRowsThatWereGivenTwice) {
 }
 
 TEST(ReadMeasurements, KeepsWhatASensorThatCountsRepeatsNowAndThen) {
-  for (const Palpation& palpation : measured("x,y,z,reading\n0,0,0,7\n0,0,0,8\n0,0,0,7\n0,0,0,6\n0,0,0,9\n"))
+  for (const Palpation& palpation :
+       measured("x,y,z,reading\n0,0,0,7\n0,0,0,8\n0,0,0,7\n0,0,0,6\n0,0,0,9\n"))
     EXPECT_EQ(palpation.set_aside, "");
 }
 
@@ -73,7 +78,9 @@ TEST(MeasurementsCsv, ComesBackAsItWasWritten) {
   palpations[1].where = surface.at_vertex(0);
   palpations[1].reading = -1e30;
   const std::string text = measurements_csv(surface, palpations);
-  EXPECT_TRUE(contains(text, "0.02,0.02,0,0.3333333333333333,0.1,3,way,0.6,0.8,0,\"jammed, \"\"again\"\"\"\n")) << text;
+  EXPECT_TRUE(contains(
+      text, "0.02,0.02,0,0.3333333333333333,0.1,3,way,0.6,0.8,0,\"jammed, \"\"again\"\"\"\n"))
+      << text;
   EXPECT_TRUE(contains(text, "0,0,0,-1e+30,,0,stop,,,,\n")) << text;
   EXPECT_EQ(measurements_csv(surface, measured(text)), text);
 }

@@ -1,4 +1,5 @@
-/// Hostile and odd mesh files, row by row of the catalogue M01 to M46, and what reading each must give.
+/// Hostile and odd mesh files, row by row of the catalogue M01 to M46, and what reading each must
+/// give.
 #pragma once
 
 #include <string>
@@ -7,14 +8,16 @@
 
 namespace palpation::catalogue {
 
-/// The file is an error. The message is the path, `place` (":7", ", byte 80", or nothing where the file as a whole is at fault), ": ", and
-/// words in which all `parts` occur: the element, the value and the rule.
+/// The file is an error. The message is the path, `place` (":7", ", byte 80", or nothing where the
+/// file as a whole is at fault), ": ", and words in which all `parts` occur: the element, the value
+/// and the rule.
 struct Refused {
   std::string place;
   std::vector<std::string> parts;
 };
 
-/// The file is a mesh. In each of its warnings one of these parts occurs, and each part in one of them.
+/// The file is a mesh. In each of its warnings one of these parts occurs, and each part in one of
+/// them.
 struct Accepted {
   int vertices, faces;
   std::vector<std::string> warnings = {};

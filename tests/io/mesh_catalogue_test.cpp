@@ -29,13 +29,17 @@ constexpr int kRows = 46;
 
 std::string row_name(int row) { return (row < 10 ? "M0" : "M") + std::to_string(row); }
 
-std::string name_of(const MeshCase& example) { return example.row + ", " + example.name + ", " + example.file; }
+std::string name_of(const MeshCase& example) {
+  return example.row + ", " + example.name + ", " + example.file;
+}
 
 /// That a message begins with the path and the place, and says all that it should.
-void expect_refusal(const std::string& message, const std::filesystem::path& path, const Refused& expected) {
+void expect_refusal(const std::string& message, const std::filesystem::path& path,
+                    const Refused& expected) {
   const std::string start = path.string() + expected.place + ": ";
   EXPECT_EQ(message.substr(0, start.size()), start) << message;
-  for (const std::string& part : expected.parts) EXPECT_TRUE(contains(message, part)) << part << "\n" << message;
+  for (const std::string& part : expected.parts)
+    EXPECT_TRUE(contains(message, part)) << part << "\n" << message;
 }
 
 void expect_warnings(const MeshFile& file, const std::vector<std::string>& parts) {
@@ -43,8 +47,9 @@ void expect_warnings(const MeshFile& file, const std::vector<std::string>& parts
   for (const MeshWarning& warning : file.warnings) {
     all += warning.text + "\n";
     EXPECT_FALSE(warning.advice.empty()) << warning.text;
-    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const std::string& part) { return contains(warning.text, part); }))
-        << warning.text;
+    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {
+      return contains(warning.text, part);
+    })) << warning.text;
   }
   for (const std::string& part : parts) EXPECT_TRUE(contains(all, part)) << part << "\n" << all;
 }
@@ -79,7 +84,8 @@ struct Judge {
       Surface surface(file.mesh);
       ADD_FAILURE() << "a surface";
     } catch (const InvalidMesh& error) {
-      for (const std::string& part : expected.parts) EXPECT_TRUE(contains(error.what(), part)) << part << "\n" << error.what();
+      for (const std::string& part : expected.parts)
+        EXPECT_TRUE(contains(error.what(), part)) << part << "\n" << error.what();
     }
   }
 };
@@ -107,12 +113,16 @@ TEST(MeshCatalogue, EveryErrorNamesFileAndPlaceAndRule) {
     if (!std::holds_alternative<Refused>(example.expected)) continue;
     const MemoryFile file(folder, example.file);
     const std::filesystem::path& path = file.with(example.bytes);
-    const std::string message = io_error_of([&] { read_mesh_of_any_size(path, LengthUnit::Metre); });
+    const std::string message =
+        io_error_of([&] { read_mesh_of_any_size(path, LengthUnit::Metre); });
     ASSERT_EQ(message.substr(0, path.string().size()), path.string());
     const std::string rest = message.substr(path.string().size());
-    EXPECT_TRUE(std::regex_search(rest, line_or_byte) || std::regex_search(rest, element)) << name_of(example) << rest;
+    EXPECT_TRUE(std::regex_search(rest, line_or_byte) || std::regex_search(rest, element))
+        << name_of(example) << rest;
     EXPECT_LT(rest.size(), 400u) << name_of(example) << " quotes too much of the file";
-    EXPECT_TRUE(std::all_of(rest.begin(), rest.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x20; })) << name_of(example);
+    EXPECT_TRUE(std::all_of(rest.begin(), rest.end(), [](char c) {
+      return static_cast<unsigned char>(c) >= 0x20;
+    })) << name_of(example);
   }
 }
 
@@ -123,9 +133,11 @@ TEST(MeshCatalogue, EveryRowIsCovered) {
   const ::testing::UnitTest& tests = *::testing::UnitTest::GetInstance();
   for (int suite = 0; suite < tests.total_test_suite_count(); ++suite) {
     const ::testing::TestSuite& group = *tests.GetTestSuite(suite);
-    for (int i = 0; i < group.total_test_count(); ++i) covered += std::string(group.GetTestInfo(i)->name()).substr(0, 3) + " ";
+    for (int i = 0; i < group.total_test_count(); ++i)
+      covered += std::string(group.GetTestInfo(i)->name()).substr(0, 3) + " ";
   }
-  for (int row = 1; row <= kRows; ++row) EXPECT_TRUE(contains(covered, row_name(row))) << row_name(row);
+  for (int row = 1; row <= kRows; ++row)
+    EXPECT_TRUE(contains(covered, row_name(row))) << row_name(row);
 }
 
 TEST(MeshCatalogue, M01NamesPathAndReasonWhereThereIsNothingToRead) {
@@ -135,30 +147,39 @@ TEST(MeshCatalogue, M01NamesPathAndReasonWhereThereIsNothingToRead) {
   std::filesystem::create_symlink("nowhere.obj", folder.path() / "dangling.obj");
   std::filesystem::create_symlink("/dev/null", folder.path() / "null.obj");
   ASSERT_EQ(::mkfifo((folder.path() / "fifo.obj").c_str(), 0600), 0);
-  std::filesystem::permissions(folder.file("locked.obj", catalogue::obj_of(catalogue::square())), std::filesystem::perms::none);
+  std::filesystem::permissions(folder.file("locked.obj", catalogue::obj_of(catalogue::square())),
+                               std::filesystem::perms::none);
   const std::vector<std::pair<std::string, std::string>> reasons = {
-      {"none.obj", "No such file"},    {"folder.obj", "is a folder"},   {"loop.obj", "symbolic links"},    {"dangling.obj", "No such file"},
-      {"null.obj", "no regular file"}, {"fifo.obj", "no regular file"}, {"none.obj/a.obj", "No such file"}};
+      {"none.obj", "No such file"},      {"folder.obj", "is a folder"},
+      {"loop.obj", "symbolic links"},    {"dangling.obj", "No such file"},
+      {"null.obj", "no regular file"},   {"fifo.obj", "no regular file"},
+      {"none.obj/a.obj", "No such file"}};
   for (const auto& [name, reason] : reasons) {
     const std::filesystem::path path = folder.path() / name;
     const std::string message = io_error_of([&] { read_mesh(path, LengthUnit::Metre); });
-    EXPECT_TRUE(contains(message, path.string() + ": cannot read: ") && contains(message, reason)) << message;
+    EXPECT_TRUE(contains(message, path.string() + ": cannot read: ") && contains(message, reason))
+        << message;
   }
   if (::geteuid() == 0) return;  // who may read everything
-  EXPECT_TRUE(contains(io_error_of([&] { read_mesh(folder.path() / "locked.obj", LengthUnit::Metre); }), "Permission denied"));
+  EXPECT_TRUE(
+      contains(io_error_of([&] { read_mesh(folder.path() / "locked.obj", LengthUnit::Metre); }),
+               "Permission denied"));
 }
 
 TEST(MeshCatalogue, M01FollowsALinkToAFile) {
   const TemporaryFolder folder;
   folder.file("square.obj", catalogue::obj_of(catalogue::square()));
   std::filesystem::create_symlink("square.obj", folder.path() / "link.obj");
-  EXPECT_EQ(read_mesh_of_any_size(folder.path() / "link.obj", LengthUnit::Metre).mesh.triangles.rows(), 2);
+  EXPECT_EQ(
+      read_mesh_of_any_size(folder.path() / "link.obj", LengthUnit::Metre).mesh.triangles.rows(),
+      2);
 }
 
 TEST(MeshCatalogue, M13ReadsTheDecimalPointInAnyLocale) {
   const TemporaryFolder folder;
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is not installed, the table still refuses the comma
+  std::setlocale(LC_ALL,
+                 "de_DE.UTF-8");  // where it is not installed, the table still refuses the comma
   const auto path = folder.file("a.obj", "v 0 0 0\nv 1.5 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(read_mesh_of_any_size(path, LengthUnit::Metre).mesh.vertices(1, 0), 1.5);
   std::setlocale(LC_ALL, before.c_str());
@@ -166,7 +187,9 @@ TEST(MeshCatalogue, M13ReadsTheDecimalPointInAnyLocale) {
 
 Surface surface_of(const catalogue::Shape& shape) {
   const TemporaryFolder folder;
-  return Surface(read_mesh_of_any_size(folder.file("a.off", catalogue::off_of(shape)), LengthUnit::Metre).mesh);
+  return Surface(
+      read_mesh_of_any_size(folder.file("a.off", catalogue::off_of(shape)), LengthUnit::Metre)
+          .mesh);
 }
 
 TEST(MeshCatalogue, M35TakesAClosedSurfaceWhichHasNoChart) {
@@ -183,15 +206,18 @@ catalogue::Shape band(int around, int along, bool joined) {
   const int rings = joined ? along : along + 1;
   for (int ring = 0; ring < rings; ++ring) {
     for (int i = 0; i < around; ++i) {
-      const double u = 2.0 * std::numbers::pi * i / around, v = 2.0 * std::numbers::pi * ring / (joined ? along : 4 * along);
+      const double u = 2.0 * std::numbers::pi * i / around,
+                   v = 2.0 * std::numbers::pi * ring / (joined ? along : 4 * along);
       const double radius = joined ? 3.0 + std::cos(v) : 1.0 + ring;
-      shape.points.push_back({radius * std::cos(u), radius * std::sin(u), joined ? std::sin(v) : 0.0});
+      shape.points.push_back(
+          {radius * std::cos(u), radius * std::sin(u), joined ? std::sin(v) : 0.0});
     }
   }
   for (int ring = 0; ring < along; ++ring) {
     for (int i = 0; i < around; ++i) {
       const int next = (i + 1) % around, upper = (ring + 1) % rings;
-      const int a = ring * around + i, b = ring * around + next, c = upper * around + next, d = upper * around + i;
+      const int a = ring * around + i, b = ring * around + next, c = upper * around + next,
+                d = upper * around + i;
       shape.faces.push_back({a, c, b});
       shape.faces.push_back({a, d, c});
     }
@@ -221,7 +247,9 @@ catalogue::Shape moved(catalogue::Shape shape, double factor, double offset) {
 TEST(MeshCatalogue, M38TakesASurfaceThatRunsThroughItselfAndFindsWhere) {
   catalogue::Shape shape = catalogue::square();
   // A second sheet, upright through the middle of the first.
-  for (const std::array<double, 3>& point : {std::array{-0.4, 0.3, -1.0}, {0.8, 0.3, -1.0}, {0.5, 0.3, 1.0}}) shape.points.push_back(point);
+  for (const std::array<double, 3>& point :
+       {std::array{-0.4, 0.3, -1.0}, {0.8, 0.3, -1.0}, {0.5, 0.3, 1.0}})
+    shape.points.push_back(point);
   shape.faces.push_back({4, 5, 6});
   const SelfIntersections found = self_intersections(surface_of(shape));
   EXPECT_EQ(found.pairs, 2);
@@ -231,7 +259,9 @@ TEST(MeshCatalogue, M38TakesASurfaceThatRunsThroughItselfAndFindsWhere) {
 TEST(MeshCatalogue, M39GivesTheSameAtAnyScale) {
   const double area = surface_of(catalogue::grid()).area();
   for (const double factor : {1e-9, 1e-6, 1e6, 1e9}) {
-    EXPECT_NEAR(surface_of(moved(catalogue::grid(), factor, 0.0)).area() / (factor * factor * area), 1.0, 1e-9) << factor;
+    EXPECT_NEAR(surface_of(moved(catalogue::grid(), factor, 0.0)).area() / (factor * factor * area),
+                1.0, 1e-9)
+        << factor;
   }
 }
 
@@ -239,7 +269,8 @@ TEST(MeshCatalogue, M41GivesTheSameFarFromTheOrigin) {
   // Multiples of 2^-20: at 1e6 they are doubles still.
   catalogue::Shape shape = catalogue::grid();
   for (auto& point : shape.points) {
-    for (double& coordinate : point) coordinate = std::round(std::ldexp(1e-3 * coordinate, 20)) / std::ldexp(1.0, 20);
+    for (double& coordinate : point)
+      coordinate = std::round(std::ldexp(1e-3 * coordinate, 20)) / std::ldexp(1.0, 20);
   }
   for (auto& point : shape.points) point[2] = 0.0;
   EXPECT_NEAR(surface_of(moved(shape, 1.0, 1e6)).area() / surface_of(shape).area(), 1.0, 1e-9);
@@ -248,23 +279,31 @@ TEST(MeshCatalogue, M41GivesTheSameFarFromTheOrigin) {
 
 TEST(MeshCatalogue, M40RefusesASizeThatNoTissueHasAndSuggestsTheUnit) {
   const TemporaryFolder folder;
-  const std::filesystem::path path = folder.file("a.obj", "v 0 0 0\nv 120 0 0\nv 0 120 0\nf 1 2 3\n");
-  EXPECT_EQ(extent_m(read_mesh(path, LengthUnit::Millimetre).mesh), 0.12);  // 120 / 1000 is rounded once
+  const std::filesystem::path path =
+      folder.file("a.obj", "v 0 0 0\nv 120 0 0\nv 0 120 0\nf 1 2 3\n");
+  EXPECT_EQ(extent_m(read_mesh(path, LengthUnit::Millimetre).mesh),
+            0.12);  // 120 / 1000 is rounded once
   const std::string message = io_error_of([&] { read_mesh(path, LengthUnit::Metre); });
   EXPECT_TRUE(contains(message, path.string() + ": read in m the mesh is 120 m long")) << message;
   EXPECT_TRUE(contains(message, "is its unit mm or cm?")) << message;
   EXPECT_EQ(extent_m(read_mesh_of_any_size(path, LengthUnit::Metre).mesh), 120.0);
-  const std::filesystem::path speck = folder.file("b.obj", "v 0 0 0\nv 1e-6 0 0\nv 0 1e-6 0\nf 1 2 3\n");
-  EXPECT_TRUE(contains(io_error_of([&] { read_mesh(speck, LengthUnit::Metre); }), "no known unit makes it so"));
+  const std::filesystem::path speck =
+      folder.file("b.obj", "v 0 0 0\nv 1e-6 0 0\nv 0 1e-6 0\nf 1 2 3\n");
+  EXPECT_TRUE(contains(io_error_of([&] { read_mesh(speck, LengthUnit::Metre); }),
+                       "no known unit makes it so"));
 }
 
 TEST(MeshCatalogue, M42ReadsAMillionVertices) {
   const int side = 1000;
   std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 1000000\nproperty ushort x\nproperty ushort y\nproperty uchar z\nelement "
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1000000\nproperty ushort x\nproperty "
+      "ushort y\nproperty uchar z\nelement "
       "face " +
-      std::to_string(2 * (side - 1) * (side - 1)) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  const auto add = [&bytes](auto number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
+      std::to_string(2 * (side - 1) * (side - 1)) +
+      "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto add = [&bytes](auto number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
   for (int i = 0; i < side * side; ++i) {
     add(static_cast<std::uint16_t>(i % side));
     add(static_cast<std::uint16_t>(i / side));
@@ -273,7 +312,8 @@ TEST(MeshCatalogue, M42ReadsAMillionVertices) {
   for (int row = 0; row + 1 < side; ++row) {
     for (int column = 0; column + 1 < side; ++column) {
       const int a = row * side + column;
-      for (const auto& face : {std::array{a, a + 1, a + side + 1}, std::array{a, a + side + 1, a + side}}) {
+      for (const auto& face :
+           {std::array{a, a + 1, a + side + 1}, std::array{a, a + side + 1, a + side}}) {
         bytes += '\3';
         for (const int corner : face) add(std::int32_t{corner});
       }
@@ -291,8 +331,11 @@ TEST(MeshCatalogue, M44OpensNoOtherFile) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder.path() / "library").c_str(), 0600), 0);
   const std::string text =
-      "mtllib library\nmtllib ../../../etc/passwd\nmaplib library\nusemtl skin\ncall library\n" + catalogue::obj_of(catalogue::square());
-  EXPECT_EQ(read_mesh_of_any_size(folder.file("a.obj", text), LengthUnit::Metre).mesh.triangles.rows(), 2);
+      "mtllib library\nmtllib ../../../etc/passwd\nmaplib library\nusemtl skin\ncall library\n" +
+      catalogue::obj_of(catalogue::square());
+  EXPECT_EQ(
+      read_mesh_of_any_size(folder.file("a.obj", text), LengthUnit::Metre).mesh.triangles.rows(),
+      2);
 }
 
 }  // namespace

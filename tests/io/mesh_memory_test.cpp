@@ -1,4 +1,5 @@
-// No file makes its reader take more than 64 MB and twenty times its size: neither a sound one nor one that was laid out to.
+// No file makes its reader take more than 64 MB and twenty times its size: neither a sound one nor
+// one that was laid out to.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,8 +23,8 @@ using catalogue::Shape;
 #else
 #define PALPATION_HAS_FEATURE(feature) 0
 #endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || PALPATION_HAS_FEATURE(address_sanitizer) || \
-    PALPATION_HAS_FEATURE(thread_sanitizer)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    PALPATION_HAS_FEATURE(address_sanitizer) || PALPATION_HAS_FEATURE(thread_sanitizer)
 constexpr bool kIsSanitized = true;
 #else
 constexpr bool kIsSanitized = false;
@@ -40,7 +41,8 @@ std::int64_t kilobytes(const std::string& key) {
   return -1;
 }
 
-/// What reading adds to the memory of a process, at its peak: seen in a child, whose peak can be set back.
+/// What reading adds to the memory of a process, at its peak: seen in a child, whose peak can be
+/// set back.
 std::int64_t peak_kilobytes(const std::filesystem::path& path) {
   int ends[2];
   if (::pipe(ends) != 0) return -1;
@@ -69,12 +71,14 @@ void expect_modest(const std::string& name, const std::string& bytes) {
   const MemoryFile file(folder, name);
   const std::int64_t peak = peak_kilobytes(file.with(bytes));
   EXPECT_GT(peak, 0) << name;
-  EXPECT_LE(peak, (64 << 10) + 20 * static_cast<std::int64_t>(bytes.size()) / 1024) << name << " of " << bytes.size() << " bytes";
+  EXPECT_LE(peak, (64 << 10) + 20 * static_cast<std::int64_t>(bytes.size()) / 1024)
+      << name << " of " << bytes.size() << " bytes";
 }
 
 Shape sheet(int side) {
   Shape shape;
-  for (int i = 0; i < side * side; ++i) shape.points.push_back({i % side / 64.0, i / side / 64.0, (i * 7919 % 64) / 64.0});
+  for (int i = 0; i < side * side; ++i)
+    shape.points.push_back({i % side / 64.0, i / side / 64.0, (i * 7919 % 64) / 64.0});
   for (int i = 0; i < side * side; ++i) {
     if (i % side == side - 1 || i / side == side - 1) continue;
     shape.faces.push_back({i, i + 1, i + side + 1});
@@ -91,20 +95,26 @@ TEST(MeshMemory, IsModestForSoundMeshes) {
   expect_modest("a.ply", catalogue::ply_of(sheet(360), catalogue::PlyEncoding::Ascii));
   expect_modest("a.ply", catalogue::ply_of(sheet(400), catalogue::PlyEncoding::Little));
   expect_modest("a.vtp", catalogue::vtp_of(sheet(360)));
-  expect_modest("a.vtp", catalogue::vtp_of(sheet(300), {.arrays = catalogue::VtpStyle::Arrays::Base64}));
+  expect_modest("a.vtp",
+                catalogue::vtp_of(sheet(300), {.arrays = catalogue::VtpStyle::Arrays::Base64}));
 }
 
-std::string ply_header(int vertices, const std::string& coordinate, std::int64_t faces, const std::string& index) {
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) + "\nproperty " + coordinate + " x\nproperty " +
-         coordinate + " y\nproperty " + coordinate + " z\nelement face " + std::to_string(faces) + "\nproperty list uchar " + index +
+std::string ply_header(int vertices, const std::string& coordinate, std::int64_t faces,
+                       const std::string& index) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) +
+         "\nproperty " + coordinate + " x\nproperty " + coordinate + " y\nproperty " + coordinate +
+         " z\nelement face " + std::to_string(faces) + "\nproperty list uchar " + index +
          " vertex_indices\nend_header\n";
 }
 
 TEST(MeshMemory, IsModestForFacesOfFewBytes) {
-  expect_modest("empty.ply", ply_header(1, "uchar", kBytes, "uchar") + std::string(3 + kBytes, '\0'));
-  std::string triangles = ply_header(256, "uchar", kBytes / 4, "uchar") + std::string(3 * 256, '\7');
+  expect_modest("empty.ply",
+                ply_header(1, "uchar", kBytes, "uchar") + std::string(3 + kBytes, '\0'));
+  std::string triangles =
+      ply_header(256, "uchar", kBytes / 4, "uchar") + std::string(3 * 256, '\7');
   for (int i = 0; i < kBytes / 4; ++i)
-    triangles += {'\3', static_cast<char>(i % 84), static_cast<char>(84 + i / 84 % 84), static_cast<char>(168 + i / 7056 % 84)};
+    triangles += {'\3', static_cast<char>(i % 84), static_cast<char>(84 + i / 84 % 84),
+                  static_cast<char>(168 + i / 7056 % 84)};
   expect_modest("bytes.ply", triangles);
 }
 
@@ -113,12 +123,15 @@ TEST(MeshMemory, IsModestForPolygonsOfManyCorners) {
   const int polygons = kBytes / 511;
   std::string binary = ply_header(65536, "ushort", polygons, "ushort");
   for (int i = 0; i < 65536; ++i)
-    binary += bytes_of(static_cast<std::uint16_t>(i)) + bytes_of(static_cast<std::uint16_t>(i % 251 * i % 509)) + std::string(2, '\0');
+    binary += bytes_of(static_cast<std::uint16_t>(i)) +
+              bytes_of(static_cast<std::uint16_t>(i % 251 * i % 509)) + std::string(2, '\0');
   std::string text;
-  for (int i = 0; i < 1000; ++i) text += "v " + std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
+  for (int i = 0; i < 1000; ++i)
+    text += "v " + std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
   for (int polygon = 0; polygon < polygons; ++polygon) {
     binary += '\xFF';
-    for (int i = 0; i < 255; ++i) binary += bytes_of(static_cast<std::uint16_t>(257 * i + (polygon * i) % 257));
+    for (int i = 0; i < 255; ++i)
+      binary += bytes_of(static_cast<std::uint16_t>(257 * i + (polygon * i) % 257));
     text += "f";
     for (int i = 0; i < 255; ++i) text += " " + std::to_string(1 + 3 * i + (polygon + i) % 3);
     text += "\n";
@@ -144,8 +157,10 @@ TEST(MeshMemory, IsModestForVtpFilesOfManyElements) {
   };
   expect_modest("elements.vtp", head + repeated("<a/>") + tail);
   expect_modest("pieces.vtp", head + repeated("<Piece/>") + tail);
-  expect_modest("arrays.vtp", head + "<Piece><PointData>" + repeated("<DataArray type=\"Int8\" Name=\"a\" format=\"ascii\"/>") +
-                                  "</PointData></Piece>" + tail);
+  expect_modest("arrays.vtp",
+                head + "<Piece><PointData>" +
+                    repeated("<DataArray type=\"Int8\" Name=\"a\" format=\"ascii\"/>") +
+                    "</PointData></Piece>" + tail);
 }
 
 // Many pieces whose points are all the same bytes.
@@ -153,12 +168,15 @@ TEST(MeshMemory, IsModestForVtpPiecesThatShareTheirBytes) {
   std::string pieces;
   for (int i = 0; i < 1000; ++i) {
     pieces +=
-        "<Piece NumberOfPoints=\"600000\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" "
+        "<Piece NumberOfPoints=\"600000\"><Points><DataArray type=\"Float32\" "
+        "NumberOfComponents=\"3\" format=\"appended\" "
         "offset=\"0\"/></Points></Piece>";
   }
   const std::string block(12 * 600'000, '\0');
-  expect_modest("shared.vtp", "<VTKFile type=\"PolyData\"><PolyData>" + pieces + "</PolyData><AppendedData encoding=\"raw\">_" +
-                                  bytes_of(static_cast<std::uint32_t>(block.size())) + block + "</AppendedData></VTKFile>");
+  expect_modest("shared.vtp", "<VTKFile type=\"PolyData\"><PolyData>" + pieces +
+                                  "</PolyData><AppendedData encoding=\"raw\">_" +
+                                  bytes_of(static_cast<std::uint32_t>(block.size())) + block +
+                                  "</AppendedData></VTKFile>");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// Small sound meshes in every format and in every way a format can be written, to be damaged by tests and by who looks for crashes.
+/// Small sound meshes in every format and in every way a format can be written, to be damaged by
+/// tests and by who looks for crashes.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ struct Shape {
 
 Shape square();       ///< corners (0,0,0), (1,0,0), (1,1,0), (0,1,0); faces 0 1 2 and 0 2 3
 Shape tetrahedron();  ///< closed; the normals look outward
-Shape grid();         ///< 3 x 3 vertices off the plane, at coordinates with many digits, eight faces
+Shape grid();  ///< 3 x 3 vertices off the plane, at coordinates with many digits, eight faces
 
 std::string obj_of(const Shape& shape);
 std::string off_of(const Shape& shape);

@@ -11,7 +11,8 @@ namespace palpation {
 namespace {
 
 TEST(RealFaults, FourPokesThatJammedAreFoundAmong861) {
-  const std::filesystem::path path = PALPATION_SOURCE_DIR "/../shared/data/dvrk-palp/dense_grid.csv";
+  const std::filesystem::path path =
+      PALPATION_SOURCE_DIR "/../shared/data/dvrk-palp/dense_grid.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
   const RecordedReadings recording = read_recording(path);
   Random unused(0);

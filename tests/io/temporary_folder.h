@@ -16,8 +16,9 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("palpation-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
-                                                      std::to_string(::getpid()) + "-" + std::to_string(next_number()));
+    path_ = std::filesystem::temp_directory_path() /
+            ("palpation-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
+             std::to_string(::getpid()) + "-" + std::to_string(next_number()));
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
@@ -55,6 +56,8 @@ std::string io_error_of(Action&& action) {
   return {};
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace palpation

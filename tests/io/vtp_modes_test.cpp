@@ -25,7 +25,8 @@ constexpr int kSide = 40;
 vtkSmartPointer<vtkPolyData> sheet(int precision) {
   vtkNew<vtkPoints> points;
   points->SetDataType(precision);
-  for (int i = 0; i < kSide * kSide; ++i) points->InsertNextPoint(i % kSide / 3.0, i / kSide / 7.0, std::sin(0.1 * i));
+  for (int i = 0; i < kSide * kSide; ++i)
+    points->InsertNextPoint(i % kSide / 3.0, i / kSide / 7.0, std::sin(0.1 * i));
   vtkNew<vtkCellArray> polys, strips;
   for (int row = 0; row + 1 < kSide; ++row) {
     for (int column = 0; column + 1 < kSide; ++column) {
@@ -49,7 +50,8 @@ vtkSmartPointer<vtkPolyData> sheet(int precision) {
   poly->GetPointData()->AddArray(stiffness);
   vtkNew<vtkStringArray> names;
   names->SetName("names");
-  for (vtkIdType cell = 0; cell < poly->GetNumberOfCells(); ++cell) names->InsertNextValue(cell % 2 == 0 ? "even" : "");
+  for (vtkIdType cell = 0; cell < poly->GetNumberOfCells(); ++cell)
+    names->InsertNextValue(cell % 2 == 0 ? "even" : "");
   poly->GetCellData()->AddArray(names);
   vtkNew<vtkDoubleArray> time;
   time->SetName("TimeValue");
@@ -60,7 +62,8 @@ vtkSmartPointer<vtkPolyData> sheet(int precision) {
 
 enum class Mode { Ascii, Binary, AppendedRaw, AppendedBase64 };
 
-void write(vtkPolyData* poly, const std::filesystem::path& path, Mode mode, int compressor, bool big_endian, bool wide) {
+void write(vtkPolyData* poly, const std::filesystem::path& path, Mode mode, int compressor,
+           bool big_endian, bool wide) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(poly);
   writer->SetFileName(path.c_str());
@@ -79,7 +82,8 @@ void expect_sheet(const MeshFile& file, vtkPolyData* poly, const std::string& wa
   EXPECT_TRUE(file.warnings.empty()) << way << file.warnings.front().text;
   ASSERT_EQ(file.mesh.vertices.rows(), kSide * kSide) << way;
   ASSERT_EQ(file.mesh.triangles.rows(), 2 * (kSide - 1) * (kSide - 1)) << way;
-  for (int i = 0; i < kSide * kSide; ++i) ASSERT_EQ(Vec3(file.mesh.vertices.row(i)), Vec3(poly->GetPoint(i))) << way;
+  for (int i = 0; i < kSide * kSide; ++i)
+    ASSERT_EQ(Vec3(file.mesh.vertices.row(i)), Vec3(poly->GetPoint(i))) << way;
 }
 
 TEST(ReadVtp, ReadsWhatVtkWritesInEveryMode) {
@@ -88,10 +92,12 @@ TEST(ReadVtp, ReadsWhatVtkWritesInEveryMode) {
   for (const int precision : {VTK_FLOAT, VTK_DOUBLE}) {
     const vtkSmartPointer<vtkPolyData> poly = sheet(precision);
     for (const Mode mode : {Mode::Ascii, Mode::Binary, Mode::AppendedRaw, Mode::AppendedBase64}) {
-      for (const int compressor : {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4, vtkXMLWriter::LZMA}) {
+      for (const int compressor :
+           {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4, vtkXMLWriter::LZMA}) {
         for (const bool big_endian : {false, true}) {
           write(poly, path, mode, compressor, big_endian, /*wide=*/!big_endian);
-          const std::string way = "mode " + std::to_string(static_cast<int>(mode)) + ", compressor " + std::to_string(compressor) +
+          const std::string way = "mode " + std::to_string(static_cast<int>(mode)) +
+                                  ", compressor " + std::to_string(compressor) +
                                   (big_endian ? ", big-endian" : ", little-endian");
           try {
             expect_sheet(read_mesh_of_any_size(path, LengthUnit::Metre), poly, way);
@@ -108,19 +114,24 @@ TEST(ReadVtp, ReadsAFileWithoutCells) {
   const TemporaryFolder folder;
   vtkNew<vtkPolyData> empty;
   write(empty, folder.path() / "a.vtp", Mode::AppendedRaw, vtkXMLWriter::ZLIB, false, true);
-  EXPECT_TRUE(contains(io_error_of([&] { read_mesh_of_any_size(folder.path() / "a.vtp", LengthUnit::Metre); }), "holds no vertices"));
+  EXPECT_TRUE(contains(
+      io_error_of([&] { read_mesh_of_any_size(folder.path() / "a.vtp", LengthUnit::Metre); }),
+      "holds no vertices"));
 }
 
 TEST(ReadVtp, PrintsNothing) {
   ::testing::internal::CaptureStderr();
   ::testing::internal::CaptureStdout();
   const TemporaryFolder folder;
-  write(sheet(VTK_FLOAT), folder.path() / "a.vtp", Mode::AppendedRaw, vtkXMLWriter::LZ4, false, true);
+  write(sheet(VTK_FLOAT), folder.path() / "a.vtp", Mode::AppendedRaw, vtkXMLWriter::LZ4, false,
+        true);
   std::fstream file(folder.path() / "a.vtp", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(-3000, std::ios::end);
   file << "damaged blocks make VTK's compressors complain";
   file.close();
-  EXPECT_TRUE(contains(io_error_of([&] { read_mesh_of_any_size(folder.path() / "a.vtp", LengthUnit::Metre); }), "a.vtp, byte"));
+  EXPECT_TRUE(contains(
+      io_error_of([&] { read_mesh_of_any_size(folder.path() / "a.vtp", LengthUnit::Metre); }),
+      "a.vtp, byte"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }

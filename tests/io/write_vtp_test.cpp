@@ -58,13 +58,17 @@ std::string text_in(const fs::path& path) {
 }
 
 BoundaryCurve triangle_curve(CurveKind kind, int part, bool hole) {
-  return {.points = {{0.001, 0.001, 0.1}, {0.009, 0.002, 0.1}, {0.004, 0.008, 0.1}}, .kind = kind, .part = part, .hole = hole};
+  return {.points = {{0.001, 0.001, 0.1}, {0.009, 0.002, 0.1}, {0.004, 0.008, 0.1}},
+          .kind = kind,
+          .part = part,
+          .hole = hole};
 }
 
 TEST_F(WriteVtp, KeepsEveryBitOfPositionsAndFields) {
   const Surface surface = high_square();
   const Field mean = (Field(4) << 1.0 / 3.0, -0.0, 1e-300, 7.9).finished();
-  const Field stddev = (Field(4) << 0.1, 0.2, std::numeric_limits<double>::quiet_NaN(), 1e300).finished();
+  const Field stddev =
+      (Field(4) << 0.1, 0.2, std::numeric_limits<double>::quiet_NaN(), 1e300).finished();
   write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", mean}, {"stddev", stddev}});
 
   const auto polydata = read_back(folder_ / "surface.vtp");
@@ -90,14 +94,19 @@ TEST_F(WriteVtp, KeepsTheTrianglesAndTheirSense) {
 
 TEST_F(WriteVtp, RefusesAFieldOfAnotherSizeOrTwoOfOneName) {
   const Surface surface = high_square();
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", Field::Zero(3)}}), InvalidInput);
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", Field::Zero(4)}, {"mean", Field::Zero(4)}}), InvalidInput);
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"", Field::Zero(4)}}), InvalidInput);
+  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"mean", Field::Zero(3)}}),
+               InvalidInput);
+  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface,
+                                 {{"mean", Field::Zero(4)}, {"mean", Field::Zero(4)}}),
+               InvalidInput);
+  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", surface, {{"", Field::Zero(4)}}),
+               InvalidInput);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(WriteVtp, ClosesEveryCurveAndTellsWhatItIs) {
-  const std::vector<BoundaryCurve> curves = {triangle_curve(CurveKind::Estimate, 0, false), triangle_curve(CurveKind::Estimate, 0, true),
+  const std::vector<BoundaryCurve> curves = {triangle_curve(CurveKind::Estimate, 0, false),
+                                             triangle_curve(CurveKind::Estimate, 0, true),
                                              triangle_curve(CurveKind::BandOuter, 2, false)};
   write_boundary_vtp(folder_ / "boundary.vtp", high_square(), curves);
 
@@ -131,11 +140,14 @@ TEST_F(WriteVtp, WritesABoundaryWithoutCurves) {
 TEST_F(WriteVtp, RefusesACurveThatIsNotOnTheTissue) {
   BoundaryCurve curve = triangle_curve(CurveKind::Truth, 0, false);
   curve.points[1].z() = 0.2;
-  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}), InvalidInput);
+  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}),
+               InvalidInput);
   curve.points[1].z() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}), InvalidInput);
+  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}),
+               InvalidInput);
   curve.points.resize(1);
-  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}), InvalidInput);
+  EXPECT_THROW(write_boundary_vtp(folder_ / "boundary.vtp", high_square(), std::vector{curve}),
+               InvalidInput);
 }
 
 TEST_F(WriteVtp, TheSameContentIsTheSameBytes) {
@@ -165,22 +177,27 @@ TEST_F(WriteVtp, AFolderThatDoesNotExistIsAWriteErrorWithThePathAndNothingIsPrin
 TEST_F(WriteVtp, TheOldFileStaysWhereTheNewOneIsRefused) {
   write_surface_vtp(folder_ / "surface.vtp", high_square(), {});
   const std::string before = text_in(folder_ / "surface.vtp");
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp", high_square(), {{"mean", Field::Zero(3)}}), InvalidInput);
-  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp" / "below.vtp", high_square(), {}), WriteError);
+  EXPECT_THROW(
+      write_surface_vtp(folder_ / "surface.vtp", high_square(), {{"mean", Field::Zero(3)}}),
+      InvalidInput);
+  EXPECT_THROW(write_surface_vtp(folder_ / "surface.vtp" / "below.vtp", high_square(), {}),
+               WriteError);
   EXPECT_EQ(text_in(folder_ / "surface.vtp"), before);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);  // no temporary file is left
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}),
+            1);  // no temporary file is left
 }
 
 TEST_F(WriteVtp, ACollectionNamesItsStepsInOrderAndEscapesThem) {
   write_pvd(folder_ / "steps.pvd", {"steps/step_000.vtp", "a<b>&\"c\".vtp"});
-  EXPECT_EQ(text_in(folder_ / "steps.pvd"),
-            "<?xml version=\"1.0\"?>\n"
-            "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-            "  <Collection>\n"
-            "    <DataSet timestep=\"0\" group=\"\" part=\"0\" file=\"steps/step_000.vtp\"/>\n"
-            "    <DataSet timestep=\"1\" group=\"\" part=\"0\" file=\"a&lt;b>&amp;&quot;c&quot;.vtp\"/>\n"
-            "  </Collection>\n"
-            "</VTKFile>\n");
+  EXPECT_EQ(
+      text_in(folder_ / "steps.pvd"),
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n"
+      "    <DataSet timestep=\"0\" group=\"\" part=\"0\" file=\"steps/step_000.vtp\"/>\n"
+      "    <DataSet timestep=\"1\" group=\"\" part=\"0\" file=\"a&lt;b>&amp;&quot;c&quot;.vtp\"/>\n"
+      "  </Collection>\n"
+      "</VTKFile>\n");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What must hold on tissue that is not flat: bending it without stretch changes nothing, and neither does splitting its triangles.
+// What must hold on tissue that is not flat: bending it without stretch changes nothing, and
+// neither does splitting its triangles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +10,8 @@
 namespace palpation {
 namespace {
 
-/// A sheet of 26 x 50 mm of flat facets, uneven, bent around 15 mm; and the plane that it unrolls to.
+/// A sheet of 26 x 50 mm of flat facets, uneven, bent around 15 mm; and the plane that it unrolls
+/// to.
 struct Sheets {
   TriangleMesh bent, flat;
 };
@@ -23,14 +25,18 @@ Sheets sheets() {
     across.push_back(across.back() + 2.0 * kRadius * std::sin(0.5 * (angle[c] - angle[c - 1])));
   }
   // Vertices move along the lines between facets, but for those at the ends.
-  for (int i = 0; i < (kColumns + 1) * (kRows + 1); ++i) jitter.push_back(0.6 * (random.uniform() - 0.5) * kLength / kRows);
+  for (int i = 0; i < (kColumns + 1) * (kRows + 1); ++i)
+    jitter.push_back(0.6 * (random.uniform() - 0.5) * kLength / kRows);
   const auto grid = [&](const auto& place) {
     return zoo::rolled_grid_mesh(kColumns, kRows, false, false, [&](double u, double v) {
-      const int c = static_cast<int>(std::lround(u * kColumns)), r = static_cast<int>(std::lround(v * kRows));
+      const int c = static_cast<int>(std::lround(u * kColumns)),
+                r = static_cast<int>(std::lround(v * kRows));
       return place(c, kLength * v + (r == 0 || r == kRows ? 0.0 : jitter[r * (kColumns + 1) + c]));
     });
   };
-  return {grid([&](int c, double y) { return Vec3(-kRadius * std::cos(angle[c]), y, kRadius * std::sin(angle[c])); }),
+  return {grid([&](int c, double y) {
+            return Vec3(-kRadius * std::cos(angle[c]), y, kRadius * std::sin(angle[c]));
+          }),
           grid([&](int c, double y) { return Vec3(across[c], y, 0.0); })};
 }
 
@@ -40,7 +46,8 @@ struct Result {
   RegionError error;
 };
 
-/// The whole loop in the chart's metric; places are told by vertices, which have the same numbers on both.
+/// The whole loop in the chart's metric; places are told by vertices, which have the same numbers
+/// on both.
 Result explored(const TriangleMesh& mesh, int centre) {
   const Surface tissue(mesh);
   const Phantom phantom(tissue, {Disk{tissue.vertex(centre), 0.00625}}, {.slope_per_m = 1400.0});
@@ -50,10 +57,15 @@ Result explored(const TriangleMesh& mesh, int centre) {
   field.belief.noise_sd = 0.1;
   field.learn_length = field.learn_signal = field.learn_noise = false;
   Exploration exploration(tissue, field, {.known = 8.0},
-                          {.acquisition = straddle(), .initial_count = 0, .batch = {.least_spacing_m = 0.0005}, .batches = 5}, 1);
+                          {.acquisition = straddle(),
+                           .initial_count = 0,
+                           .batch = {.least_spacing_m = 0.0005},
+                           .batches = 5},
+                          1);
   Random unused(0);
   std::vector<Palpation> first;
-  for (const int vertex : {100, 333, 555, 640, 700, 901, 1100}) first.push_back(phantom.touch(tissue.at_vertex(vertex), unused));
+  for (const int vertex : {100, 333, 555, 640, 700, 901, 1100})
+    first.push_back(phantom.touch(tissue.at_vertex(vertex), unused));
   exploration.take_up(first);
   Result result;
   run(exploration, [&](const SurfacePoint& where, const Vec3&) {
@@ -75,12 +87,14 @@ TEST(CurvedLaws, AFacetedCylinderIsThePlaneThatItUnrollsTo) {
   ASSERT_GE(flat.picks.size(), 40u);
   for (std::size_t i = 0; i < flat.picks.size(); ++i) {
     EXPECT_EQ(bent.picks[i].face, flat.picks[i].face) << "touch " << i;
-    EXPECT_LT((bent.picks[i].barycentric - flat.picks[i].barycentric).norm(), 1e-9) << "touch " << i;
+    EXPECT_LT((bent.picks[i].barycentric - flat.picks[i].barycentric).norm(), 1e-9)
+        << "touch " << i;
   }
   ASSERT_GT(flat.truth, 100e-6);
   EXPECT_NEAR(bent.truth / flat.truth, 1.0, 1e-9);  // the aim; 1e-6 is asked for
   EXPECT_NEAR(bent.area / flat.area, 1.0, 1e-9);
-  EXPECT_NEAR(bent.error.symmetric_difference_m2, flat.error.symmetric_difference_m2, 1e-9 * flat.area);
+  EXPECT_NEAR(bent.error.symmetric_difference_m2, flat.error.symmetric_difference_m2,
+              1e-9 * flat.area);
   EXPECT_NEAR(*bent.error.hausdorff_m, *flat.error.hausdorff_m, 1e-9 * 0.05);
   EXPECT_NEAR(*bent.error.mean_distance_m, *flat.error.mean_distance_m, 1e-9 * 0.05);
 }
@@ -116,7 +130,8 @@ Split split(const TriangleMesh& mesh, const Field& a, const Field& b) {
 // The finer mesh has a chart of its own; areas are those on the tissue.
 TEST(CurvedLaws, SplittingFacesLeavesAreasAndErrors) {
   TriangleMesh mesh = zoo::jittered_square_mesh(20, 2);
-  for (auto vertex : mesh.vertices.rowwise()) vertex.z() = 0.8 * (vertex.x() - 0.5) * (vertex.y() - 0.4) + 0.3 * vertex.x() * vertex.x();
+  for (auto vertex : mesh.vertices.rowwise())
+    vertex.z() = 0.8 * (vertex.x() - 0.5) * (vertex.y() - 0.4) + 0.3 * vertex.x() * vertex.x();
   const Surface coarse(mesh);
   Field a(coarse.vertex_count()), b(coarse.vertex_count());
   for (int v = 0; v < coarse.vertex_count(); ++v) {
@@ -128,12 +143,15 @@ TEST(CurvedLaws, SplittingFacesLeavesAreasAndErrors) {
   ASSERT_FALSE(coarse.chart().isometric);
   const double area = surface_area(coarse, superlevel_region(coarse, a, 0.0));
   EXPECT_NEAR(surface_area(fine, superlevel_region(fine, finer.a, 0.0)) / area, 1.0, 1e-9);
-  const RegionError before = compare(coarse, superlevel_region(coarse, a, 0.0), superlevel_region(coarse, b, 0.0));
-  const RegionError after = compare(fine, superlevel_region(fine, finer.a, 0.0), superlevel_region(fine, finer.b, 0.0));
+  const RegionError before =
+      compare(coarse, superlevel_region(coarse, a, 0.0), superlevel_region(coarse, b, 0.0));
+  const RegionError after =
+      compare(fine, superlevel_region(fine, finer.a, 0.0), superlevel_region(fine, finer.b, 0.0));
   EXPECT_NEAR(after.missed_m2, before.missed_m2, 1e-9 * area);
   EXPECT_NEAR(after.extra_m2, before.extra_m2, 1e-9 * area);
   EXPECT_NEAR(after.dice, before.dice, 1e-9);
-  EXPECT_NEAR(*after.mean_distance_m / *before.mean_distance_m, 1.0, 1e-2) << "measured along straight lines of two charts";
+  EXPECT_NEAR(*after.mean_distance_m / *before.mean_distance_m, 1.0, 1e-2)
+      << "measured along straight lines of two charts";
 }
 
 }  // namespace

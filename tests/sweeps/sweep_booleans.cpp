@@ -1,9 +1,11 @@
-// The laws of Booleans on COUNT random pairs of regions: outlines on a lattice, where everything coincides, the same with noise in the last
-// digits, stars, and stars turned by next to nothing. Regions are compared by their symmetric difference, which is exact. Ends with 1 if a
-// law is broken.
+// The laws of Booleans on COUNT random pairs of regions: outlines on a lattice, where everything
+// coincides, the same with noise in the last digits, stars, and stars turned by next to nothing.
+// Regions are compared by their symmetric difference, which is exact. Ends with 1 if a law is
+// broken.
 //
 // usage: sweep_booleans COUNT SEED          100,000 pairs take half an hour
-//        sweep_booleans --areas PAIRS       what this library says of the pairs in a file: see compare_with_shapely.py beside
+//        sweep_booleans --areas PAIRS       what this library says of the pairs in a file: see
+//        compare_with_shapely.py beside
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,14 +28,16 @@ Ring disturbed(Ring ring, double noise, Random& random) {
 }
 
 Ring turned(Ring ring, double angle) {
-  for (Vec2& corner : ring) corner = Vec2(corner.x() - angle * corner.y(), corner.y() + angle * corner.x());
+  for (Vec2& corner : ring)
+    corner = Vec2(corner.x() - angle * corner.y(), corner.y() + angle * corner.x());
   return ring;
 }
 
 std::pair<Region, Region> random_pair(Random& random) {
   const auto on_lattice = [&](double noise) {
-    return Region::even_odd(std::vector<Ring>{disturbed(lattice_ring(random, 3 + random.below(6), 7), noise, random),
-                                              disturbed(lattice_ring(random, 4, 7), noise, random)});
+    return Region::even_odd(
+        std::vector<Ring>{disturbed(lattice_ring(random, 3 + random.below(6), 7), noise, random),
+                          disturbed(lattice_ring(random, 4, 7), noise, random)});
   };
   const double next_to_nothing = std::pow(10.0, -8.0 - 9.0 * random.uniform());
   switch (random.below(4)) {
@@ -66,10 +70,12 @@ std::string broken_law(const Region& a, const Region& b) {
   if (!same(a, unite(only_a, both))) return "A is (A - B) | (A & B)";
   if (!intersect(only_a, b).empty()) return "(A - B) & B is nothing";
   if (!same(symmetric_difference(difference, b), a)) return "(A ^ B) ^ B is A";
-  if (!same(both, intersect(b, a)) || !same(either, unite(b, a)) || !same(difference, symmetric_difference(b, a)))
+  if (!same(both, intersect(b, a)) || !same(either, unite(b, a)) ||
+      !same(difference, symmetric_difference(b, a)))
     return "operands may be swapped";
   const OverlapAreas areas = overlap_areas(a, b);
-  if (areas.both_m2 != both.area() || areas.only_a_m2 != only_a.area() || areas.only_b_m2 != only_b.area())
+  if (areas.both_m2 != both.area() || areas.only_a_m2 != only_a.area() ||
+      areas.only_b_m2 != only_b.area())
     return "areas of the overlay are those of its parts";
   // Each area is rounded once.
   if (std::abs(either.area() - (a.area() + b.area() - both.area())) > 4e-16 * (a.area() + b.area()))
@@ -120,8 +126,10 @@ std::string areas_of(const std::string& line_a, const std::string& line_b) {
     const Region b(parsed(line_b));
     const OverlapAreas overlap = overlap_areas(a, b);
     std::string text = "=";
-    for (const double area : {a.area(), b.area(), intersect(a, b).area(), unite(a, b).area(), symmetric_difference(a, b).area(),
-                              subtract(a, b).area(), subtract(b, a).area(), overlap.both_m2, overlap.only_a_m2, overlap.only_b_m2}) {
+    for (const double area :
+         {a.area(), b.area(), intersect(a, b).area(), unite(a, b).area(),
+          symmetric_difference(a, b).area(), subtract(a, b).area(), subtract(b, a).area(),
+          overlap.both_m2, overlap.only_a_m2, overlap.only_b_m2}) {
       text += " " + text_of(area);
     }
     return text;

@@ -1,9 +1,11 @@
 // The exact belief of very many places: how well it solves its own equations.
 //
-//   sweep_many_places N      touches N vertices of a plane that has few more; 10,000 take 3 GB and half a minute
+//   sweep_many_places N      touches N vertices of a plane that has few more; 10,000 take 3 GB and
+//   half a minute
 //
-// With alpha = (y - mean) / s2 at the places touched, (K + s2 I) alpha = y. LAPACK's measure of what is left of that, over n eps |K + s2 I|
-// |alpha| in greatest row sums, must be below 30. (Noise much below this one magnifies, in alpha, the rounding of the mean.)
+// With alpha = (y - mean) / s2 at the places touched, (K + s2 I) alpha = y. LAPACK's measure of
+// what is left of that, over n eps |K + s2 I| |alpha| in greatest row sums, must be below 30.
+// (Noise much below this one magnifies, in alpha, the rounding of the mean.)
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +35,8 @@ int main(int argc, char** argv) {
     palpation.reading = y[vertex];
     readings.push_back(palpation);
   }
-  const Field mean = Belief(prior, {.noise_sd = kNoiseSd}).condition_on(readings).at_vertices().mean;
+  const Field mean =
+      Belief(prior, {.noise_sd = kNoiseSd}).condition_on(readings).at_vertices().mean;
   const Eigen::VectorXd alpha = (y - mean.head(count)) / (kNoiseSd * kNoiseSd);
   double rest = 0.0, greatest_row = 0.0;
   for (int i = 0; i < count; ++i) {
@@ -47,7 +50,8 @@ int main(int argc, char** argv) {
     rest = std::max(rest, std::abs(static_cast<double>(product - y[i])));
     greatest_row = std::max(greatest_row, row);
   }
-  const double ratio = rest / (count * std::numeric_limits<double>::epsilon() * greatest_row * alpha.cwiseAbs().maxCoeff());
+  const double ratio = rest / (count * std::numeric_limits<double>::epsilon() * greatest_row *
+                               alpha.cwiseAbs().maxCoeff());
   std::printf("%d places: what is left is %.2g times n eps |K| |alpha|\n", count, ratio);
   return ratio < 30.0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,5 +1,6 @@
-// What size does to level sets, regions and Booleans: boundaries of COUNT pieces, one by one, with the time that each takes and the peak of
-// memory so far. Nothing may need a stack that grows with the boundary: run it under `ulimit -s 256`.
+// What size does to level sets, regions and Booleans: boundaries of COUNT pieces, one by one, with
+// the time that each takes and the peak of memory so far. Nothing may need a stack that grows with
+// the boundary: run it under `ulimit -s 256`.
 //
 // usage: sweep_sizes COUNT SEED        a million pieces take a minute or two and some gigabytes
 #include <sys/resource.h>
@@ -23,7 +24,9 @@ namespace {
 
 class Stopwatch {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -36,7 +39,8 @@ double peak_megabytes() {
 }
 
 void say(const std::string& what, const Stopwatch& watch) {
-  std::printf("%-72s %8.3f s, peak so far %6.0f MB\n", what.c_str(), watch.seconds(), peak_megabytes());
+  std::printf("%-72s %8.3f s, peak so far %6.0f MB\n", what.c_str(), watch.seconds(),
+              peak_megabytes());
   std::fflush(stdout);
 }
 
@@ -50,7 +54,8 @@ void check(bool holds, const std::string& what) {
 
 Surface square(int cells) {
   Random random(1);
-  return Surface(make_plane({.size_m = {1.0, 1.0}, .columns = cells + 1, .rows = cells + 1, .jitter = 0.2}, random));
+  return Surface(make_plane(
+      {.size_m = {1.0, 1.0}, .columns = cells + 1, .rows = cells + 1, .jitter = 0.2}, random));
 }
 
 std::size_t pieces(const std::vector<LevelLoop>& loops) {
@@ -62,12 +67,16 @@ std::size_t pieces(const std::vector<LevelLoop>& loops) {
 void level_set(const std::string& name, const Surface& surface, const Field& field) {
   const Stopwatch of_loops;
   const std::vector<LevelLoop> loops = level_loops(surface, field, 0.0);
-  say(name + ": " + std::to_string(pieces(loops)) + " pieces in " + std::to_string(loops.size()) + " loops", of_loops);
+  say(name + ": " + std::to_string(pieces(loops)) + " pieces in " + std::to_string(loops.size()) +
+          " loops",
+      of_loops);
   const Stopwatch of_region;
   const Region region = superlevel_region(surface, field, 0.0);
-  say(name + ": its region of " + std::to_string(region.polygons().size()) + " polygons", of_region);
+  say(name + ": its region of " + std::to_string(region.polygons().size()) + " polygons",
+      of_region);
   const double area = superlevel_area(surface, field, 0.0);
-  check(std::abs(region.area() - area) <= 1e-11, name + ": area " + text_of(region.area()) + ", by triangles " + text_of(area));
+  check(std::abs(region.area() - area) <= 1e-11,
+        name + ": area " + text_of(region.area()) + ", by triangles " + text_of(area));
 }
 
 /// Three of four triangles are crossed by the level.
@@ -78,7 +87,8 @@ void rough_level_set(int count, Random& random) {
   level_set("rough field", surface, field);
 }
 
-/// Every second row of vertices is inside, joined to the next at alternate ends: one loop along all of them.
+/// Every second row of vertices is inside, joined to the next at alternate ends: one loop along all
+/// of them.
 void snake(int count) {
   const int cells = std::max(4, static_cast<int>(std::sqrt(count / 2)) / 2 * 2);
   const Surface surface = square(cells);
@@ -94,7 +104,8 @@ void snake(int count) {
 }
 
 void booleans(int corners, double roughness, int repeats, Random& random) {
-  const std::string size = std::to_string(corners) + "-corner stars, roughness " + text_of(roughness);
+  const std::string size =
+      std::to_string(corners) + "-corner stars, roughness " + text_of(roughness);
   const Stopwatch of_regions;
   const Region a = testing::region_of(testing::star(random, {0.0, 0.0}, 1.0, corners, roughness));
   const Region b = testing::region_of(testing::star(random, {0.1, 0.05}, 1.0, corners, roughness));
@@ -107,7 +118,8 @@ void booleans(int corners, double roughness, int repeats, Random& random) {
   OverlapAreas areas;
   for (int i = 0; i < repeats; ++i) areas = overlap_areas(a, b);
   say(size + ": overlap areas, " + std::to_string(repeats) + " times", of_areas);
-  check(std::abs(difference.area() - areas.only_a_m2 - areas.only_b_m2) <= 1e-14, size + ": two areas of the symmetric difference");
+  check(std::abs(difference.area() - areas.only_a_m2 - areas.only_b_m2) <= 1e-14,
+        size + ": two areas of the symmetric difference");
   const Surface tissue = square(2);
   const Stopwatch of_comparison;
   check(compare(tissue, a, b).hausdorff_m.has_value(), size + ": a distance");

@@ -1,5 +1,6 @@
-// Values shared between threads: what is promised to be a regular value must not mind who else holds a copy. The assertions compare with
-// one thread's answer; ThreadSanitizer looks for the races (tests/run --threads).
+// Values shared between threads: what is promised to be a regular value must not mind who else
+// holds a copy. The assertions compare with one thread's answer; ThreadSanitizer looks for the
+// races (tests/run --threads).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -51,7 +52,8 @@ TEST(Threads, AskOneSurfaceForWhatItComputesLazily) {
   in_threads([&](int i) {
     const Surface copy = surface;
     places[i] = copy.position(copy.project(Vec3(0.0071, 0.0123, 0.004)));
-    areas[i] = copy.vertex_areas().sum() + copy.vertex_normals().col(2).sum() + copy.chart().uv.sum();
+    areas[i] =
+        copy.vertex_areas().sum() + copy.vertex_normals().col(2).sum() + copy.chart().uv.sum();
   });
   for (int i = 0; i < kThreads; ++i) {
     EXPECT_EQ(places[i], other.position(other.project(Vec3(0.0071, 0.0123, 0.004))));
@@ -61,10 +63,13 @@ TEST(Threads, AskOneSurfaceForWhatItComputesLazily) {
 
 TEST(Threads, GrowCopiesOfOneBeliefEachItsOwnWay) {
   const Surface surface(jittered_plane());
-  const Belief shared = Belief(Prior(surface, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1})
-                            .condition_on(std::vector<Palpation>{{surface.at_vertex(5), 7.0}, {surface.at_vertex(300), 9.0}});
+  const Belief shared =
+      Belief(Prior(surface, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1})
+          .condition_on(
+              std::vector<Palpation>{{surface.at_vertex(5), 7.0}, {surface.at_vertex(300), 9.0}});
   const auto suppose = [&](int i) {
-    return shared.condition_on(std::vector<Palpation>{{surface.at_vertex(100 + i), 8.0}, {surface.at_vertex(400 - i), 7.5}});
+    return shared.condition_on(std::vector<Palpation>{{surface.at_vertex(100 + i), 8.0},
+                                                      {surface.at_vertex(400 - i), 7.5}});
   };
   std::array<Marginals, kThreads> found;
   in_threads([&](int i) { found[i] = suppose(i).at_vertices(); });
@@ -77,16 +82,19 @@ TEST(Threads, GrowCopiesOfOneBeliefEachItsOwnWay) {
 
 TEST(Threads, CombineRegionsThatTheyShare) {
   const Region one = region_of(star({0.0, 0.0}, 60));
-  const Region cut = intersect(one, region_of(star({0.3, 0.1}, 50)));  // corners that are no doubles, shared by all
+  const Region cut = intersect(
+      one, region_of(star({0.3, 0.1}, 50)));  // corners that are no doubles, shared by all
   std::array<double, kThreads> areas{};
   in_threads([&](int i) {
     Region mine = cut;
-    for (int step = 0; step < 5; ++step) mine = symmetric_difference(mine, region_of(star({0.1 * (i + 1), 0.05 * step}, 40)));
+    for (int step = 0; step < 5; ++step)
+      mine = symmetric_difference(mine, region_of(star({0.1 * (i + 1), 0.05 * step}, 40)));
     areas[i] = mine.area() + overlap_areas(cut, one).both_m2 + (Region().empty() ? 0.0 : 1.0);
   });
   for (int i = 0; i < kThreads; ++i) {
     Region mine = cut;
-    for (int step = 0; step < 5; ++step) mine = symmetric_difference(mine, region_of(star({0.1 * (i + 1), 0.05 * step}, 40)));
+    for (int step = 0; step < 5; ++step)
+      mine = symmetric_difference(mine, region_of(star({0.1 * (i + 1), 0.05 * step}, 40)));
     EXPECT_EQ(areas[i], mine.area() + overlap_areas(cut, one).both_m2);
   }
 }
@@ -94,7 +102,8 @@ TEST(Threads, CombineRegionsThatTheyShare) {
 TEST(Threads, DrawLevelSetsOfOneSurface) {
   const Surface surface(jittered_plane());
   Field field(surface.vertex_count());
-  for (int vertex = 0; vertex < field.size(); ++vertex) field[vertex] = std::sin(700.0 * surface.vertex(vertex).x());
+  for (int vertex = 0; vertex < field.size(); ++vertex)
+    field[vertex] = std::sin(700.0 * surface.vertex(vertex).x());
   std::array<double, kThreads> areas{};
   in_threads([&](int i) { areas[i] = superlevel_region(surface, field, 0.1).area(); });
   for (int i = 1; i < kThreads; ++i) EXPECT_EQ(areas[i], areas[0]);
@@ -108,7 +117,11 @@ TEST(Threads, ExploreSideBySide) {
     Exploration exploration(surface, {}, {}, {.batches = 2}, 1);
     Random random(1);
     run(
-        exploration, [&](const SurfacePoint& where, const Vec3&) { return std::optional(phantom.touch(where, random)); }, {}, 0.001);
+        exploration,
+        [&](const SurfacePoint& where, const Vec3&) {
+          return std::optional(phantom.touch(where, random));
+        },
+        {}, 0.001);
     levels[i] = exploration.level() ? exploration.level()->value : 0.0;
   });
   for (int i = 1; i < kThreads; ++i) EXPECT_EQ(levels[i], levels[0]);
@@ -116,14 +129,19 @@ TEST(Threads, ExploreSideBySide) {
 
 // VTK and CGAL keep handlers of errors once a process.
 TEST(Threads, ReadBadAndGoodFilesAtOnce) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("palpation-threads-" + std::to_string(::getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("palpation-threads-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   write_mesh(folder / "plane.ply", jittered_plane(), LengthUnit::Millimetre);
-  write_atomically(folder / "bad.vtp", "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"></Piece>");
+  write_atomically(folder / "bad.vtp",
+                   "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" "
+                   "NumberOfPolys=\"1\"></Piece>");
   std::array<int, kThreads> sound{};
   in_threads([&](int i) {
     for (int turn = 0; turn < 5; ++turn) {
-      sound[i] += read_mesh(folder / "plane.ply", LengthUnit::Millimetre).mesh.vertices.rows() == 651 ? 1 : 0;
+      sound[i] +=
+          read_mesh(folder / "plane.ply", LengthUnit::Millimetre).mesh.vertices.rows() == 651 ? 1
+                                                                                              : 0;
       try {
         read_mesh(folder / "bad.vtp", LengthUnit::Millimetre);
       } catch (const IoError&) {

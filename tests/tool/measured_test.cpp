@@ -24,7 +24,9 @@ constexpr const char* kScene =
 class Files {
  public:
   explicit Files(const std::string& csv)
-      : stem_((std::filesystem::temp_directory_path() / ("palpation-measured-" + std::to_string(::getpid()))).string()) {
+      : stem_((std::filesystem::temp_directory_path() /
+               ("palpation-measured-" + std::to_string(::getpid())))
+                  .string()) {
     std::ofstream(scene()) << kScene;
     std::ofstream(measurements()) << csv;
   }
@@ -45,14 +47,16 @@ Episode bounded(const std::string& csv, const std::vector<std::string>& override
   const Files files(csv);
   const Scene scene = Scene::read(files.scene(), overrides);
   const Tissue tissue = tissue_of(scene);
-  return episode_from(scene, tissue.surface, read_measurements(files.measurements(), tissue.surface).palpations);
+  return episode_from(scene, tissue.surface,
+                      read_measurements(files.measurements(), tissue.surface).palpations);
 }
 
 /// What the command says against the measurements; empty if nothing.
 std::string error_of(const std::string& csv, const std::vector<std::string>& overrides = {}) {
   const Files files(csv);
   try {
-    boundary({.scene = files.scene(), .overrides = overrides, .seed = {}, .out = {}, .quiet = true}, files.measurements());
+    boundary({.scene = files.scene(), .overrides = overrides, .seed = {}, .out = {}, .quiet = true},
+             files.measurements());
   } catch (const IoError& error) {
     return error.what();
   }
@@ -65,7 +69,8 @@ std::string grid(const Change& change) {
   std::string csv = "x,y,z,reading\n";
   for (int i = 0; i < 64; ++i) {
     const double x = 0.00125 + 0.0025 * (i % 8), y = 0.00125 + 0.0025 * (i / 8);
-    const double reading = 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * (0.005 - std::hypot(x - 0.01, y - 0.01))));
+    const double reading =
+        7.0 + 2.0 / (1.0 + std::exp(-1400.0 * (0.005 - std::hypot(x - 0.01, y - 0.01))));
     csv += text_of(x) + "," + text_of(y) + ",0," + text_of(change(reading)) + "\n";
   }
   return csv;
@@ -74,16 +79,19 @@ std::string grid(const Change& change) {
 TEST(Measured, S03ContradictionsAreNamedWhereTheFieldHasNoNoise) {
   const std::string csv = "x,y,z,reading\n0.01,0.01,0,7\n0.002,0.01,0,7\n0.01,0.01,0,8\n";
   EXPECT_EQ(error_of(csv), "");
-  const std::string error = error_of(csv, {"field.noise=0", "field.length_mm=3", "field.signal_sd=1"});
-  EXPECT_NE(error.find(".csv:4: the reading 8 contradicts 7 in line 2"), std::string::npos) << error;
+  const std::string error =
+      error_of(csv, {"field.noise=0", "field.length_mm=3", "field.signal_sd=1"});
+  EXPECT_NE(error.find(".csv:4: the reading 8 contradicts 7 in line 2"), std::string::npos)
+      << error;
 }
 
 TEST(Measured, S10ReadingsThatAreAllAlikeHoldNoTumour) {
   for (const double reading : {7.0, 0.0, -3.0, 1e9, 1e-300}) {
-    for (const std::vector<std::string>& overrides : {std::vector<std::string>{},
-                                                      {"plan.safe_start=false"},
-                                                      {"field.length_mm=3", "field.signal_sd=1", "field.noise=0.1"},
-                                                      {"field.trend=zero"}}) {
+    for (const std::vector<std::string>& overrides :
+         {std::vector<std::string>{},
+          {"plan.safe_start=false"},
+          {"field.length_mm=3", "field.signal_sd=1", "field.noise=0.1"},
+          {"field.trend=zero"}}) {
       const Episode episode = bounded(grid([&](double) { return reading; }), overrides);
       EXPECT_FALSE(episode.exploration.level().has_value()) << reading;
       EXPECT_TRUE(episode.estimate.empty()) << reading;
@@ -96,24 +104,32 @@ TEST(Measured, S10ReadingsThatAreAllAlikeHoldNoTumour) {
 TEST(Measured, S10AKnownLevelParts) {
   const std::vector<std::string> known = {"level.estimate=known", "level.value=8"};
   EXPECT_TRUE(bounded(grid([](double) { return 7.0; }), known).estimate.empty());
-  EXPECT_NEAR(bounded(grid([](double) { return 9.0; }), known).estimate.area(), 4e-4, 1e-12);  // the whole tissue
+  EXPECT_NEAR(bounded(grid([](double) { return 9.0; }), known).estimate.area(), 4e-4,
+              1e-12);  // the whole tissue
 }
 
 TEST(Measured, S10NoiseThatDrownsEverythingLeavesNoLevel) {
-  const Episode episode =
-      bounded(grid([](double reading) { return reading; }), {"field.noise=1e30", "field.length_mm=3", "field.signal_sd=1"});
+  const Episode episode = bounded(grid([](double reading) { return reading; }),
+                                  {"field.noise=1e30", "field.length_mm=3", "field.signal_sd=1"});
   EXPECT_TRUE(episode.estimate.empty());
-  EXPECT_NEAR(episode.exploration.marginals().variance.maxCoeff(), episode.exploration.marginals().variance.minCoeff(), 1e-9);
+  EXPECT_NEAR(episode.exploration.marginals().variance.maxCoeff(),
+              episode.exploration.marginals().variance.minCoeff(), 1e-9);
 }
 
-// The area is that of the same readings without an offset, but for what learning leaves open (1e-5 of each hyperparameter).
+// The area is that of the same readings without an offset, but for what learning leaves open (1e-5
+// of each hyperparameter).
 TEST(Measured, S12TheBoundaryDoesNotDependOnUnitAndOrigin) {
   const double area = bounded(grid([](double reading) { return reading; })).estimate.area();
-  EXPECT_NEAR(area, 7.85e-5, 2e-5);  // a disk of 5 mm, from a level that the range of the mean misses by a little
-  EXPECT_NEAR(bounded(grid([](double reading) { return reading + 1e9; })).estimate.area(), area, 1e-4 * area);
-  EXPECT_NEAR(bounded(grid([](double reading) { return reading * 1e20; })).estimate.area(), area, 1e-4 * area);
-  EXPECT_NEAR(bounded(grid([](double reading) { return reading * 1e-20; })).estimate.area(), area, 1e-4 * area);
-  EXPECT_NEAR(bounded(grid([](double reading) { return reading - 100.0; })).estimate.area(), area, 1e-4 * area);
+  EXPECT_NEAR(area, 7.85e-5,
+              2e-5);  // a disk of 5 mm, from a level that the range of the mean misses by a little
+  EXPECT_NEAR(bounded(grid([](double reading) { return reading + 1e9; })).estimate.area(), area,
+              1e-4 * area);
+  EXPECT_NEAR(bounded(grid([](double reading) { return reading * 1e20; })).estimate.area(), area,
+              1e-4 * area);
+  EXPECT_NEAR(bounded(grid([](double reading) { return reading * 1e-20; })).estimate.area(), area,
+              1e-4 * area);
+  EXPECT_NEAR(bounded(grid([](double reading) { return reading - 100.0; })).estimate.area(), area,
+              1e-4 * area);
 }
 
 TEST(Measured, S19NothingMeasuredIsTheInitialDesignAndNoBoundary) {
@@ -124,25 +140,35 @@ TEST(Measured, S19NothingMeasuredIsTheInitialDesignAndNoBoundary) {
 }
 
 TEST(Measured, OneReadingIsNoTumour) {
-  const Episode episode = bounded("x,y,z,reading\n0.01,0.01,0,7\n", {"field.length_mm=3", "field.signal_sd=1", "field.noise=0.1"});
+  const Episode episode = bounded("x,y,z,reading\n0.01,0.01,0,7\n",
+                                  {"field.length_mm=3", "field.signal_sd=1", "field.noise=0.1"});
   EXPECT_TRUE(episode.estimate.empty());
 }
 
 TEST(Measured, AFieldThatCannotBeFittedIsToldWithWhatHelps) {
   try {
-    bounded(grid([](double reading) { return reading; }), {"field.noise=0", "field.length_mm=100", "field.signal_sd=1"});
-    ADD_FAILURE() << "64 exact readings 2.5 mm apart determine no field of 100 mm in double precision";
+    bounded(grid([](double reading) { return reading; }),
+            {"field.noise=0", "field.length_mm=100", "field.signal_sd=1"});
+    ADD_FAILURE()
+        << "64 exact readings 2.5 mm apart determine no field of 100 mm in double precision";
   } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find(".json: field: cannot be fitted to the readings: site "), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("What helps: field.noise above 0"), std::string::npos) << error.what();
+    EXPECT_NE(
+        std::string(error.what()).find(".json: field: cannot be fitted to the readings: site "),
+        std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("What helps: field.noise above 0"), std::string::npos)
+        << error.what();
   }
 }
 
 TEST(Measured, MorePlacesThanCanBeModelledAreRefused) {
   std::string csv = "x,y,z,reading\n";
-  for (int i = 0; i < 10001; ++i) csv += text_of(0.0001 * (i % 200)) + "," + text_of(0.0001 * (i / 200)) + ",0,7\n";
+  for (int i = 0; i < 10001; ++i)
+    csv += text_of(0.0001 * (i % 200)) + "," + text_of(0.0001 * (i / 200)) + ",0,7\n";
   const std::string error = error_of(csv);
-  EXPECT_NE(error.find(".csv: readings at 10001 places; at most 10000 can be modelled"), std::string::npos) << error;
+  EXPECT_NE(error.find(".csv: readings at 10001 places; at most 10000 can be modelled"),
+            std::string::npos)
+      << error;
 }
 
 }  // namespace

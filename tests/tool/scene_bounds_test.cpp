@@ -1,4 +1,5 @@
-// The whole table of keys: every number has bounds, they are kept, and scenes at the bounds run or are refused in words.
+// The whole table of keys: every number has bounds, they are kept, and scenes at the bounds run or
+// are refused in words.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,10 +17,13 @@ namespace {
 using nlohmann::json;
 
 bool is_number(const SceneKey& key) {
-  return key.kind == ValueKind::Number || key.kind == ValueKind::Integer || key.kind == ValueKind::NumberOrWord;
+  return key.kind == ValueKind::Number || key.kind == ValueKind::Integer ||
+         key.kind == ValueKind::NumberOrWord;
 }
 
-bool is_list(const SceneKey& key) { return key.kind == ValueKind::Numbers || key.kind == ValueKind::Integers; }
+bool is_list(const SceneKey& key) {
+  return key.kind == ValueKind::Numbers || key.kind == ValueKind::Integers;
+}
 
 /// A value for a key: the number itself, or a list of it.
 json value_for(const SceneKey& key, double number) {
@@ -35,9 +39,12 @@ json object_with(const std::string& path, const json& value) {
 
 /// A small scene in which the key has an effect, where there is such.
 json small_scene(const std::string& path) {
-  json scene = {{"plan", {{"initial", {{"count", 4}}}, {"batch", 2}, {"batches", 1}}},
-                {"probe", {{"noise", 0.05}, {"tumours", {{{"shape", "disk"}, {"centre_mm", {10, 10, 0}}, {"radius_mm", 5}}}}}},
-                {"surface", {{"plane", {{"size_mm", {20, 20}}, {"vertices", {6, 6}}}}}}};
+  json scene = {
+      {"plan", {{"initial", {{"count", 4}}}, {"batch", 2}, {"batches", 1}}},
+      {"probe",
+       {{"noise", 0.05},
+        {"tumours", {{{"shape", "disk"}, {"centre_mm", {10, 10, 0}}, {"radius_mm", 5}}}}}},
+      {"surface", {{"plane", {{"size_mm", {20, 20}}, {"vertices", {6, 6}}}}}}};
   if (path == "field.period_mm") scene["field"]["kernel"] = "periodic";
   if (path == "field.noise_to_signal") scene["field"] = {{"length_mm", 3}, {"signal_sd", 1}};
   if (path == "field.noise") scene["field"] = {{"length_mm", 3}, {"signal_sd", 1}};
@@ -69,17 +76,21 @@ TEST(SceneBounds, EveryNumberHasSome) {
     EXPECT_LE(key.least, key.most) << key.path;
     EXPECT_GE(key.least, -1e30) << key.path;
     EXPECT_LE(key.most, 1e30) << key.path;
-    EXPECT_TRUE(key.least <= 0.0 || key.least >= 1e-30) << key.path << ": its square must be a number";
+    EXPECT_TRUE(key.least <= 0.0 || key.least >= 1e-30)
+        << key.path << ": its square must be a number";
   }
 }
 
 TEST(SceneBounds, WhatIsBeyondIsRefusedByNameValueAndRange) {
   for (const SceneKey& key : scene_keys()) {
     if (!is_number(key) && !is_list(key)) continue;
-    for (const double beyond : {-1e300, 1e300, -5e-324, 5e-324, -1.0, std::nextafter(key.least, -1e300), std::nextafter(key.most, 1e300)}) {
+    for (const double beyond :
+         {-1e300, 1e300, -5e-324, 5e-324, -1.0, std::nextafter(key.least, -1e300),
+          std::nextafter(key.most, 1e300)}) {
       if (beyond >= key.least && beyond <= key.most) continue;
       const std::string error = error_of(with(key, beyond));
-      EXPECT_EQ(error.rfind("test: " + key.path, 0), 0u) << key.path << " = " << beyond << ": " << error;
+      EXPECT_EQ(error.rfind("test: " + key.path, 0), 0u)
+          << key.path << " = " << beyond << ": " << error;
       EXPECT_NE(error.find("is "), std::string::npos) << error;
     }
   }
@@ -90,7 +101,8 @@ void expect_sound(const std::string& name, const json& given) {
   try {
     const Scene scene(given, "test", ".");
     const Tissue tissue = tissue_of(scene);
-    const Episode episode = run_episode(scene, tissue.surface, simulated_world(scene, tissue.surface));
+    const Episode episode =
+        run_episode(scene, tissue.surface, simulated_world(scene, tissue.surface));
     const Marginals& marginals = episode.exploration.marginals();
     EXPECT_TRUE(marginals.mean.allFinite() && marginals.variance.allFinite()) << name;
     EXPECT_GE(marginals.variance.minCoeff(), 0.0) << name;
@@ -105,10 +117,14 @@ void expect_sound(const std::string& name, const json& given) {
 TEST(SceneBounds, ScenesAtTheBoundsRunOrAreRefusedInWords) {
   for (const SceneKey& key : scene_keys()) {
     if (!is_number(key) && !is_list(key)) continue;
-    for (const double number : {key.least, key.most, 0.0, std::sqrt(std::abs(key.least * key.most))}) {
+    for (const double number :
+         {key.least, key.most, 0.0, std::sqrt(std::abs(key.least * key.most))}) {
       if (number < key.least && !(key.zero_too && number == 0.0)) continue;
-      if (key.path == "plan.batches" && number > 100) continue;  // as many as are asked for: nothing to see here
-      json given = with(key, key.kind == ValueKind::Integer || key.kind == ValueKind::Integers ? std::floor(number) : number);
+      if (key.path == "plan.batches" && number > 100)
+        continue;  // as many as are asked for: nothing to see here
+      json given = with(key, key.kind == ValueKind::Integer || key.kind == ValueKind::Integers
+                                 ? std::floor(number)
+                                 : number);
       expect_sound(key.path + " = " + text_of(number), given);
     }
   }
@@ -116,7 +132,10 @@ TEST(SceneBounds, ScenesAtTheBoundsRunOrAreRefusedInWords) {
 
 TEST(SceneBounds, TumoursAtTheBoundsRunOrAreRefusedInWords) {
   const json disk = {{"shape", "disk"}, {"centre_mm", {10, 10, 0}}, {"radius_mm", 5}};
-  const json horseshoe = {{"shape", "horseshoe"}, {"centre_mm", {10, 10, 0}}, {"arc_radius_mm", 5}, {"half_width_mm", 2}};
+  const json horseshoe = {{"shape", "horseshoe"},
+                          {"centre_mm", {10, 10, 0}},
+                          {"arc_radius_mm", 5},
+                          {"half_width_mm", 2}};
   const json polygon = {{"shape", "polygon"}, {"points_mm", {{5, 5, 0}, {15, 5, 0}, {15, 15, 0}}}};
   for (const json& shape : {disk, horseshoe, polygon}) {
     for (const SceneKey& key : tumour_keys(shape["shape"])) {

@@ -24,9 +24,12 @@ using catalogue::SceneCase;
 /// A folder with the files that the scenes name, and the scene itself.
 class SceneFolder {
  public:
-  SceneFolder() : path_(std::filesystem::temp_directory_path() / ("palpation-scenes-" + std::to_string(::getpid()))) {
+  SceneFolder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("palpation-scenes-" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(path_);
-    for (const catalogue::SceneFile& file : catalogue::scene_files()) std::ofstream(path_ / file.name) << file.content;
+    for (const catalogue::SceneFile& file : catalogue::scene_files())
+      std::ofstream(path_ / file.name) << file.content;
   }
   ~SceneFolder() { std::filesystem::remove_all(path_); }
   SceneFolder(const SceneFolder&) = delete;
@@ -73,15 +76,19 @@ void expect_refused(const SceneCase& one, const Outcome& outcome) {
   EXPECT_EQ(outcome.code, kInputAtFault) << one.row << " " << one.name << ": " << outcome.error;
   EXPECT_LT(outcome.error.size(), 700u) << "an error is a sentence: " << one.name;
   for (const std::string& words : one.refused_with) {
-    EXPECT_NE(outcome.error.find(words), std::string::npos) << one.row << " " << one.name << ": " << outcome.error << "\nlacks: " << words;
+    EXPECT_NE(outcome.error.find(words), std::string::npos)
+        << one.row << " " << one.name << ": " << outcome.error << "\nlacks: " << words;
   }
 }
 
 void expect_done(const SceneCase& one, const Outcome& outcome) {
   EXPECT_EQ(outcome.code, kDone) << one.row << " " << one.name << ": " << outcome.error;
   for (const std::string& words : one.warned_with) {
-    const auto says = [&](const std::string& warning) { return warning.find(words) != std::string::npos; };
-    EXPECT_TRUE(std::any_of(outcome.warnings.begin(), outcome.warnings.end(), says)) << one.row << " " << one.name << " lacks: " << words;
+    const auto says = [&](const std::string& warning) {
+      return warning.find(words) != std::string::npos;
+    };
+    EXPECT_TRUE(std::any_of(outcome.warnings.begin(), outcome.warnings.end(), says))
+        << one.row << " " << one.name << " lacks: " << words;
   }
 }
 
@@ -101,12 +108,14 @@ TEST(SceneCatalogue, HasEveryRow) {
   std::set<std::string> rows;
   for (const SceneCase& one : catalogue::scene_cases()) rows.insert(one.row);
   for (const catalogue::RowElsewhere& row : catalogue::scene_rows_elsewhere()) rows.insert(row.row);
-  for (int number = 1; number <= 19; ++number) EXPECT_TRUE(rows.contains((number < 10 ? "C0" : "C") + std::to_string(number))) << number;
+  for (int number = 1; number <= 19; ++number)
+    EXPECT_TRUE(rows.contains((number < 10 ? "C0" : "C") + std::to_string(number))) << number;
 }
 
 TEST(SceneCatalogue, EveryTruncationOfAnExampleIsRefusedWithItsPlace) {
   for (const char* name : {"planar", "horseshoe", "two_tumours"}) {
-    const std::string whole = read_file(std::string(PALPATION_SOURCE_DIR "/examples/") + name + ".json");
+    const std::string whole =
+        read_file(std::string(PALPATION_SOURCE_DIR "/examples/") + name + ".json");
     const std::size_t end = whole.find_last_of('}');
     for (std::size_t size = 0; size <= end; ++size) {
       try {
@@ -114,8 +123,9 @@ TEST(SceneCatalogue, EveryTruncationOfAnExampleIsRefusedWithItsPlace) {
         ADD_FAILURE() << name << " cut after byte " << size << " was accepted";
       } catch (const IoError& error) {
         const std::string words = error.what();
-        EXPECT_TRUE(words.find(": not JSON: ") != std::string::npos ||
-                    words == "s.json: is empty; a scene is a JSON object, such as { \"version\": 1, ... }")
+        EXPECT_TRUE(
+            words.find(": not JSON: ") != std::string::npos ||
+            words == "s.json: is empty; a scene is a JSON object, such as { \"version\": 1, ... }")
             << words;
       }
     }
@@ -146,8 +156,10 @@ TEST(SceneCatalogue, RefusesAHundredMegabytesUnread) {
     Scene::read(path, {});
     ADD_FAILURE() << "accepted";
   } catch (const IoError& error) {
-    EXPECT_NE(std::string(error.what()).find("scene.json: cannot read: 104857600 bytes are more than the limit of 16777216"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what())
+            .find("scene.json: cannot read: 104857600 bytes are more than the limit of 16777216"),
+        std::string::npos)
         << error.what();
   }
 }

@@ -28,31 +28,39 @@ TEST(Scene, FillsInTheDefaults) {
 }
 
 TEST(Scene, TakesOverrides) {
-  const std::vector<std::string> overrides{"plan.batch=7", "plan.acquisition=evr", "level.value=8.5", "surface.mesh=3.ply"};
+  const std::vector<std::string> overrides{"plan.batch=7", "plan.acquisition=evr",
+                                           "level.value=8.5", "surface.mesh=3.ply"};
   const Scene scene = Scene::parse(R"({"plan": {"batch": 5}})", "test", ".", overrides);
   EXPECT_EQ(scene.integer("plan.batch"), 7);
   EXPECT_EQ(scene.word("plan.acquisition"), "evr");
   EXPECT_EQ(scene.number("level.value"), 8.5);
   EXPECT_EQ(scene.word("surface.mesh"), "3.ply");
-  EXPECT_EQ(scene.with_overrides(std::vector<std::string>{"plan.batch=8"}).integer("plan.batch"), 8);
+  EXPECT_EQ(scene.with_overrides(std::vector<std::string>{"plan.batch=8"}).integer("plan.batch"),
+            8);
 }
 
 TEST(Scene, LosesAKeyThatNullTakesAway) {
-  const std::vector<std::string> overrides{"surface.mesh=null", "surface.plane.vertices=[3,3]", "plan.gamma=null", "plan.batch=null"};
-  const Scene scene = Scene::parse(R"({"surface": {"mesh": "a.ply"}, "plan": {"batch": 5}})", "test", ".", overrides);
+  const std::vector<std::string> overrides{"surface.mesh=null", "surface.plane.vertices=[3,3]",
+                                           "plan.gamma=null", "plan.batch=null"};
+  const Scene scene = Scene::parse(R"({"surface": {"mesh": "a.ply"}, "plan": {"batch": 5}})",
+                                   "test", ".", overrides);
   EXPECT_FALSE(scene.gives("surface.mesh"));
   EXPECT_TRUE(scene.gives("surface.plane.vertices"));
   EXPECT_EQ(scene.integer("plan.batch"), 10);
 }
 
 TEST(Scene, WarnsOfNothingWhereEverythingHasAnEffect) {
-  EXPECT_TRUE(Scene::parse(R"({"level": {"estimate": "known", "value": 8}})", "test", ".").warnings().empty());
+  EXPECT_TRUE(Scene::parse(R"({"level": {"estimate": "known", "value": 8}})", "test", ".")
+                  .warnings()
+                  .empty());
   EXPECT_TRUE(Scene(json::object(), "test", ".").warnings().empty());
 }
 
 TEST(Scene, RefusesSinglePrecisionBeforeATouchWhereItMayNotSuffice) {
   const auto field = [](const std::string& keys) {
-    return field_of(Scene::parse(R"({"field": {"precision": "single", "length_mm": 3, "signal_sd": 1, )" + keys + "}}", "test", "."));
+    return field_of(Scene::parse(
+        R"({"field": {"precision": "single", "length_mm": 3, "signal_sd": 1, )" + keys + "}}",
+        "test", "."));
   };
   EXPECT_THROW(field(R"("noise": 0.5)"), IoError) << "beside readings that are not felt yet";
   EXPECT_THROW(field(R"("noise_to_signal": 0.03)"), IoError);
@@ -66,37 +74,45 @@ TEST(Scene, SpeedStandsForItsPartsWhereTheyAreNotGiven) {
   EXPECT_GT(draft.number("plan.explore_mm"), 0.0);
   EXPECT_EQ(draft.word("error.arithmetic"), "plain");
   EXPECT_EQ(draft.complete().at("plan").at("explore_mm"), draft.number("plan.explore_mm"));
-  const Scene but_exact = Scene::parse(R"({"speed": "draft", "plan": {"explore_mm": 0}})", "test", ".");
+  const Scene but_exact =
+      Scene::parse(R"({"speed": "draft", "plan": {"explore_mm": 0}})", "test", ".");
   EXPECT_EQ(but_exact.number("plan.explore_mm"), 0.0);
   EXPECT_EQ(but_exact.word("error.arithmetic"), "plain");
   for (const std::string tier : {"exact", "fast", "draft"}) {
-    for (const SpeedPart& part : speed_parts(tier)) EXPECT_NO_THROW(Scene(json::object(), "test", ".").with(part.path, part.value));
+    for (const SpeedPart& part : speed_parts(tier))
+      EXPECT_NO_THROW(Scene(json::object(), "test", ".").with(part.path, part.value));
   }
   EXPECT_THROW(Scene::parse(R"({"speed": "fastest"})", "test", "."), IoError);
 }
 
 TEST(SceneHelp, ExplainsEveryKey) {
   const std::string help = scene_help();
-  for (const SceneKey& key : scene_keys()) EXPECT_NE(help.find(key.path), std::string::npos) << key.path;
+  for (const SceneKey& key : scene_keys())
+    EXPECT_NE(help.find(key.path), std::string::npos) << key.path;
   for (const SceneKey& key : scene_keys()) {
-    EXPECT_TRUE(key.standard.is_null() || !fault_of(key, key.standard)) << key.path << ": the default must be allowed";
+    EXPECT_TRUE(key.standard.is_null() || !fault_of(key, key.standard))
+        << key.path << ": the default must be allowed";
   }
 }
 
-TEST(Setup, RefusesASceneWithoutTissue) { EXPECT_THROW(tissue_of(Scene(json::object(), "test", ".")), IoError); }
+TEST(Setup, RefusesASceneWithoutTissue) {
+  EXPECT_THROW(tissue_of(Scene(json::object(), "test", ".")), IoError);
+}
 
 TEST(Setup, JoinsTheVerticesOfAMeshOnlyWhereTheSceneSaysSo) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string name = "palpation-seam-" + std::to_string(::getpid()) + ".off";
   // A square of two triangles that share a side, but not its corners.
-  std::ofstream(folder / name) << "OFF\n6 2 0\n0 0 0\n20 0 0\n20 20 0\n0 0 0\n20 20 0\n0 20 0\n3 0 1 2\n3 3 4 5\n";
+  std::ofstream(folder / name)
+      << "OFF\n6 2 0\n0 0 0\n20 0 0\n20 20 0\n0 0 0\n20 20 0\n0 20 0\n3 0 1 2\n3 3 4 5\n";
   const json given = {{"surface", {{"mesh", name}, {"unit", "mm"}}}};
   const Scene scene(given, "test", folder);
   EXPECT_EQ(tissue_of(scene).surface.vertex_count(), 6);
   const Tissue joined = tissue_of(scene.with("surface.weld", true));
   EXPECT_EQ(joined.surface.vertex_count(), 4);
   ASSERT_EQ(joined.warnings.size(), 1u);
-  EXPECT_NE(joined.warnings[0].find("2 vertices were joined"), std::string::npos) << joined.warnings[0];
+  EXPECT_NE(joined.warnings[0].find("2 vertices were joined"), std::string::npos)
+      << joined.warnings[0];
   std::filesystem::remove(folder / name);
 }
 
@@ -115,7 +131,8 @@ TEST(Setup, CutsARefinedPatchAtItsRadiusWhateverTheMeshWas) {
 
 TEST(Setup, TakesTheLevelFromWhereTheSceneSays) {
   const auto rule = [](const char* estimate) {
-    return level_rule_of(Scene(json{{"level", {{"estimate", estimate}, {"value", 8}}}}, "test", "."));
+    return level_rule_of(
+        Scene(json{{"level", {{"estimate", estimate}, {"value", 8}}}}, "test", "."));
   };
   EXPECT_EQ(rule("range").estimate, LevelEstimate::Range);
   EXPECT_EQ(rule("edge").estimate, LevelEstimate::Edge);
@@ -123,7 +140,9 @@ TEST(Setup, TakesTheLevelFromWhereTheSceneSays) {
 }
 
 TEST(Setup, ReadsThePapersModel) {
-  const json given = {{"field", {{"length_mm", 3.3}, {"signal_sd", 5}, {"noise_to_signal", 0.2}, {"constant_sd", 7.2}}}};
+  const json given = {
+      {"field",
+       {{"length_mm", 3.3}, {"signal_sd", 5}, {"noise_to_signal", 0.2}, {"constant_sd", 7.2}}}};
   const FieldModel field = field_of(Scene(given, "test", "."));
   EXPECT_FALSE(field.learns());
   EXPECT_TRUE(field.belief.standardize);
@@ -135,7 +154,8 @@ TEST(Setup, ReadsThePapersModel) {
 
 TEST(Setup, ReducesTheRankWhereThatIsAskedFor) {
   const auto tolerance = [](double given) {
-    return field_of(Scene(json{{"field", {{"reduced_rank", given}}}}, "test", ".")).belief.reduced_rank_tolerance;
+    return field_of(Scene(json{{"field", {{"reduced_rank", given}}}}, "test", "."))
+        .belief.reduced_rank_tolerance;
   };
   EXPECT_EQ(tolerance(1e-10), 1e-10);
   EXPECT_EQ(tolerance(0.0), 0.0);

@@ -30,7 +30,8 @@ Region region_of(const Outline& outline) {
   return Region(std::vector{polygon});
 }
 
-// A circle of 5 mm has the reach 5 mm, and a regular polygon of 360 corners its area and length to 1e-4.
+// A circle of 5 mm has the reach 5 mm, and a regular polygon of 360 corners its area and length to
+// 1e-4.
 TEST(OutlineMeasures, AreThoseOfACircle) {
   const Outline circle = polygon_on_circle(0.005, 360);
   EXPECT_NEAR(reach(circle), 0.005, 1e-12);
@@ -59,7 +60,8 @@ TEST(RandomShape, IsSoundForEverySeed) {
       EXPECT_GE(reach(shape), options.least_reach_m * (1.0 - 1e-9));
       for (std::size_t i = 0; i < shape.points_m.size(); ++i) {
         const Vec3& point = shape.points_m[i];
-        EXPECT_TRUE(point.x() >= 0.002 - 1e-12 && point.x() <= 0.052 + 1e-12 && point.y() >= 0.002 - 1e-12 && point.y() <= 0.047 + 1e-12);
+        EXPECT_TRUE(point.x() >= 0.002 - 1e-12 && point.x() <= 0.052 + 1e-12 &&
+                    point.y() >= 0.002 - 1e-12 && point.y() <= 0.047 + 1e-12);
         EXPECT_LE((shape.points_m[(i + 1) % shape.points_m.size()] - point).norm(), 0.0010);
       }
     }
@@ -81,7 +83,8 @@ TEST(RandomShape, BentOnesAreBent) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Random random(seed);
     const Outline shape = random_shape(ShapeFamily::Bent, random);
-    const double round = perimeter(shape) * perimeter(shape) / (4.0 * std::numbers::pi);  // the area of a circle as long as the outline
+    const double round = perimeter(shape) * perimeter(shape) /
+                         (4.0 * std::numbers::pi);  // the area of a circle as long as the outline
     hollow += 1.0 - signed_area(shape) / round;
   }
   EXPECT_GT(hollow / 40.0, 0.3);

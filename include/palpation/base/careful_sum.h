@@ -1,4 +1,5 @@
-/// Neumaier's sum: what each step rounds away is kept apart, or a fine mesh would lose an area of some of its faces.
+/// Neumaier's sum: what each step rounds away is kept apart, or a fine mesh would lose an area of
+/// some of its faces.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-/// What can go wrong, and whose fault it is. A normal outcome (no contact, nothing stiff found) is a value, never one of these.
+/// What can go wrong, and whose fault it is. A normal outcome (no contact, nothing stiff found) is
+/// a value, never one of these.
 #pragma once
 
 #include <stdexcept>
@@ -18,13 +19,15 @@ class InvalidInput : public Error {
   using Error::Error;
 };
 
-/// A file is at fault: the message names the path, the line or byte where that is known, and the rule.
+/// A file is at fault: the message names the path, the line or byte where that is known, and the
+/// rule.
 class IoError : public Error {
  public:
   using Error::Error;
 };
 
-/// A file could not be written, though what it was to hold is sound: the machine is at fault, not the input.
+/// A file could not be written, though what it was to hold is sound: the machine is at fault, not
+/// the input.
 class WriteError : public IoError {
  public:
   using IoError::IoError;
@@ -43,7 +46,8 @@ class NumericalError : public Error {
 };
 
 /// Throws InvalidInput("<function>: <value> <rule>") unless the condition holds.
-void require(bool condition, const std::string& function, const std::string& value, const std::string& rule);
+void require(bool condition, const std::string& function, const std::string& value,
+             const std::string& rule);
 
 /// A number for a message: shortest text that reads back as the same double.
 std::string text_of(double value);

@@ -1,6 +1,8 @@
-/// A stream of random numbers that is the same on every machine: its own generator, its own distributions.
+/// A stream of random numbers that is the same on every machine: its own generator, its own
+/// distributions.
 ///
-/// xoshiro256** (Blackman and Vigna 2021), seeded by splitmix64. Always an argument (`Random&`), never a global.
+/// xoshiro256** (Blackman and Vigna 2021), seeded by splitmix64. Always an argument (`Random&`),
+/// never a global.
 #pragma once
 
 #include <array>

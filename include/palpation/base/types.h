@@ -1,4 +1,5 @@
-/// The few plain types that every floor shares. All lengths are metres, all areas square metres, all angles radians.
+/// The few plain types that every floor shares. All lengths are metres, all areas square metres,
+/// all angles radians.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,33 +1,41 @@
-/// The field after the touches: an exact Gaussian-process posterior over a surface (Garg et al. 2016, equations 1 and 2).
+/// The field after the touches: an exact Gaussian-process posterior over a surface (Garg et al.
+/// 2016, equations 1 and 2).
 ///
-///     K + D = L L',  V = L^-1 K(sites, vertices),  mean = c + V' L^-1 (y - c),  variance = signal^2 (1 - sum V^2) + (what not knowing c
-///     adds)
+///     K + D = L L',  V = L^-1 K(sites, vertices),  mean = c + V' L^-1 (y - c),  variance =
+///     signal^2 (1 - sum V^2) + (what not knowing c adds)
 ///
-/// where K is the matrix of correlations and D the noise of each site over the signal's variance: nothing else is ever added to the
-/// diagonal. A constant of unknown value is integrated out (universal kriging), and so is the slope where the prior has one:
+/// where K is the matrix of correlations and D the noise of each site over the signal's variance:
+/// nothing else is ever added to the diagonal. A constant of unknown value is integrated out
+/// (universal kriging), and so is the slope where the prior has one:
 ///
-///     mean += E[b].r,  variance += r' Cov[b] r,  r = x - x0 - (X - x0)' L^-T V - a (1 - 1' L^-T V),
+///     mean += E[b].r,  variance += r' Cov[b] r,  r = x - x0 - (X - x0)' L^-T V - a (1 - 1' L^-T
+///     V),
 ///
-/// a the change of the constant's mean for a unit of slope. Of c + g alone the same holds with r less x - x0.
+/// a the change of the constant's mean for a unit of slope. Of c + g alone the same holds with r
+/// less x - x0.
 ///
-/// A value: conditioning makes another belief. Copies share the rows of L and V they have in common, which are only ever appended, so
-/// "suppose I touched there" costs what it adds: m more sites over N vertices with n sites known cost about 2 m n N floating-point
-/// operations, and 8 m N bytes.
+/// A value: conditioning makes another belief. Copies share the rows of L and V they have in
+/// common, which are only ever appended, so "suppose I touched there" costs what it adds: m more
+/// sites over N vertices with n sites known cost about 2 m n N floating-point operations, and 8 m N
+/// bytes.
 ///
-/// Of reduced rank, where that is asked for: once the readings are so many that M < n features tell the prior apart from itself by no more
-/// than a tolerance of its variance at every vertex and every site, readings are taken in by their features f alone (weight_space.h),
+/// Of reduced rank, where that is asked for: once the readings are so many that M < n features tell
+/// the prior apart from itself by no more than a tolerance of its variance at every vertex and
+/// every site, readings are taken in by their features f alone (weight_space.h),
 ///
 ///     variance = signal^2 (1 - |f|^2 + f' A^-1 f),  A = I + sum f f' / d,
 ///
-/// so that m more cost 2 m M N operations whatever n is. Smooth kernels need few features (for a squared exponential some hundreds over
-/// fifteen lengths at 1e-12), rough ones too many, and stay exact. reduced_rank() bounds what is lost: the bound grows like the tolerance
-/// over the noise. Readings whose noise is below a hundred thousand tolerances of the signal's variance are not
+/// so that m more cost 2 m M N operations whatever n is. Smooth kernels need few features (for a
+/// squared exponential some hundreds over fifteen lengths at 1e-12), rough ones too many, and stay
+/// exact. reduced_rank() bounds what is lost: the bound grows like the tolerance over the noise.
+/// Readings whose noise is below a hundred thousand tolerances of the signal's variance are not
 /// reduced.
 ///
-/// Laws: (1) the order of readings does not matter beyond rounding; (2) variance never grows by conditioning, and does not depend on the
-/// readings unless they are standardized; (3) variance is that of the field, never containing noise, and never below s / (s + |k|^2)
-/// signal^2, s the least noise in D. Without any reading the answer is the prior's: mean 0 (or the constant's mean), variance of the field
-/// about its constant.
+/// Laws: (1) the order of readings does not matter beyond rounding; (2) variance never grows by
+/// conditioning, and does not depend on the readings unless they are standardized; (3) variance is
+/// that of the field, never containing noise, and never below s / (s + |k|^2) signal^2, s the least
+/// noise in D. Without any reading the answer is the prior's: mean 0 (or the constant's mean),
+/// variance of the field about its constant.
 #pragma once
 
 #include <memory>
@@ -43,7 +51,8 @@ namespace palpation {
 
 struct TileRows;
 
-/// Mean and variance of the field (never of a reading: the noise is not in it), one value per place.
+/// Mean and variance of the field (never of a reading: the noise is not in it), one value per
+/// place.
 struct Marginals {
   Eigen::VectorXd mean;
   Eigen::VectorXd variance;
@@ -55,31 +64,38 @@ enum class Part { Whole, Detrended };
 struct BeliefOptions {
   double noise_sd = 0.0;           ///< of a reading whose own variance is not given
   bool noise_is_relative = false;  ///< noise_sd is a fraction of the kernel's signal_sd
-  bool standardize = false;        ///< the kernel's signal_sd, the constant's sd and the slope's are multiples of the readings' standard
-                                   ///< deviation, and the constant's mean is the readings' mean: outputs z-scored, as GPy does
-  double reduced_rank_tolerance = 0.0;  ///< of the prior's variance, the part that may be left out so that many readings cost no more than
-                                        ///< a few hundred (see below); 0: none
-  bool single_precision = false;        ///< V is kept in single precision, half as large; all arithmetic and L stay in double. Mean and
-                                        ///< variance are off by less than 1e-4 of the signal's; refused below kLeastNoiseForSingle
+  bool standardize = false;  ///< the kernel's signal_sd, the constant's sd and the slope's are
+                             ///< multiples of the readings' standard deviation, and the constant's
+                             ///< mean is the readings' mean: outputs z-scored, as GPy does
+  double reduced_rank_tolerance =
+      0.0;  ///< of the prior's variance, the part that may be left out so that many readings cost
+            ///< no more than a few hundred (see below); 0: none
+  bool single_precision = false;  ///< V is kept in single precision, half as large; all arithmetic
+                                  ///< and L stay in double. Mean and variance are off by less than
+                                  ///< 1e-4 of the signal's; refused below kLeastNoiseForSingle
 };
 
 /// Of a belief of reduced rank.
 struct ReducedRank {
-  int rank = 0;                 ///< features in place of readings
-  double mean_error = 0.0;      ///< from the exact belief at a vertex, reading units: not more than this, by proof ...
+  int rank = 0;  ///< features in place of readings
+  double mean_error =
+      0.0;  ///< from the exact belief at a vertex, reading units: not more than this, by proof ...
   double variance_error = 0.0;  ///< ... nor this, reading units squared. Rounding comes on top
 };
 
-/// Noise variance over the signal's, of any reading, below which reduced rank is left aside for the exact belief: so many times
-/// BeliefOptions::reduced_rank_tolerance, since the bound on what is lost grows with the tolerance over the noise.
+/// Noise variance over the signal's, of any reading, below which reduced rank is left aside for the
+/// exact belief: so many times BeliefOptions::reduced_rank_tolerance, since the bound on what is
+/// lost grows with the tolerance over the noise.
 inline constexpr double kLeastNoiseForReducedRank = 1e5;
 
-/// Noise variance over the signal's, of a reading, below which single precision would cost more than it saves.
+/// Noise variance over the signal's, of a reading, below which single precision would cost more
+/// than it saves.
 inline constexpr double kLeastNoiseForSingle = 1e-3;
 
 class Belief {
  public:
-  /// Throws InvalidInput unless noise_sd is finite and not negative, and reduced_rank_tolerance 0 or from 1e-13 to 1e-4.
+  /// Throws InvalidInput unless noise_sd is finite and not negative, and reduced_rank_tolerance 0
+  /// or from 1e-13 to 1e-4.
   Belief(Prior prior, const BeliefOptions& options);
 
   const Prior& prior() const { return prior_; }
@@ -90,13 +106,16 @@ class Belief {
   /// Nothing where the belief is exact.
   std::optional<ReducedRank> reduced_rank() const;
 
-  /// The belief after more touches. Throws as gather_sites and merge, and NumericalError naming the site and its pivot where K + D is not
-  /// positive definite in double precision (two sites all but coincide, without noise).
+  /// The belief after more touches. Throws as gather_sites and merge, and NumericalError naming the
+  /// site and its pivot where K + D is not positive definite in double precision (two sites all but
+  /// coincide, without noise).
   Belief condition_on(std::span<const Palpation> more) const;
 
-  /// The same belief, with the work done that touches at these places will need and that no reading changes, for while the robot moves:
-  /// condition_on is quick if the next touches are those, in this order, with the field's own noise, and not slower if they are not. What
-  /// it answers is the same. Nothing is prepared where a place comes twice among them, or noise is a part of what readings teach.
+  /// The same belief, with the work done that touches at these places will need and that no reading
+  /// changes, for while the robot moves: condition_on is quick if the next touches are those, in
+  /// this order, with the field's own noise, and not slower if they are not. What it answers is the
+  /// same. Nothing is prepared where a place comes twice among them, or noise is a part of what
+  /// readings teach.
   Belief foresee(std::span<const SurfacePoint> places) const;
 
   Marginals at_vertices(Part part = Part::Whole) const;
@@ -104,11 +123,12 @@ class Belief {
 
   /// Posterior mean of the slope, reading units per metre along each coordinate of the metric.
   Vec3 slope() const;
-  /// The palpations less the mean slope at their places: readings of c + g. The same where the prior has no slope.
+  /// The palpations less the mean slope at their places: readings of c + g. The same where the
+  /// prior has no slope.
   std::vector<Palpation> detrended_palpations() const;
 
-  /// Log density of the readings, the slope integrated out; restricted to what does not depend on the constant where that is unknown (REML,
-  /// without the term log|H'H|/2).
+  /// Log density of the readings, the slope integrated out; restricted to what does not depend on
+  /// the constant where that is unknown (REML, without the term log|H'H|/2).
   double log_marginal_likelihood() const;
 
   /// The noise variance of a reading whose own is not given, reading units squared.
@@ -119,7 +139,8 @@ class Belief {
  private:
   friend class CovarianceWith;
   friend class LookAhead;
-  friend Marginals marginals_once(const Prior& prior, const BeliefOptions& options, std::span<const Palpation> palpations, Part part);
+  friend Marginals marginals_once(const Prior& prior, const BeliefOptions& options,
+                                  std::span<const Palpation> palpations, Part part);
   struct Rows;        // consecutive rows of L and V
   struct Sums;        // over all rows of V at the vertices
   struct Foreseen;    // rows of touches to come
@@ -182,11 +203,12 @@ class Belief {
   Eigen::VectorXd ones_;      // L^-1 1
   Eigen::VectorXd whitened_;  // L^-1 (y - origin)
   double origin_ = 0.0;
-  Field sharp_;                       // 1 - sum V^2 with its digits kept, or empty where none are in danger
+  Field sharp_;  // 1 - sum V^2 with its digits kept, or empty where none are in danger
   std::shared_ptr<const Sums> sums_;  // nothing without a site
   std::shared_ptr<const Foreseen> foreseen_;
-  double constant_precision_ = 0.0;  // posterior precision of c over the signal's; 0: c is not known at all, infinite: known
-  double constant_ = 0.0;            // posterior mean of c
+  double constant_precision_ =
+      0.0;  // posterior precision of c over the signal's; 0: c is not known at all, infinite: known
+  double constant_ = 0.0;  // posterior mean of c
 
   // The slope, in standard deviations of its prior; empty and zero where there is none.
   using Tilts = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -196,13 +218,15 @@ class Belief {
   Vec3 constant_per_tilt_ = Vec3::Zero();                      // by how much c falls for each
 };
 
-/// What `Belief(prior, options).condition_on(palpations)` says at the vertices, without keeping anything of the size of sites times
-/// vertices: for a belief that is asked only once.
-Marginals marginals_once(const Prior& prior, const BeliefOptions& options, std::span<const Palpation> palpations, Part part = Part::Whole);
+/// What `Belief(prior, options).condition_on(palpations)` says at the vertices, without keeping
+/// anything of the size of sites times vertices: for a belief that is asked only once.
+Marginals marginals_once(const Prior& prior, const BeliefOptions& options,
+                         std::span<const Palpation> palpations, Part part = Part::Whole);
 
 class TileCorrelations;
 
-/// Posterior covariance of the field between one vertex and others: the row that a hypothetical touch there would add.
+/// Posterior covariance of the field between one vertex and others: the row that a hypothetical
+/// touch there would add.
 class CovarianceWith {
  public:
   /// Keeps a reference: the belief must outlive it.

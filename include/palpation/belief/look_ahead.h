@@ -1,7 +1,8 @@
-/// What would be left of the variance at the vertices if some of them were touched, whatever is felt there: worked out eight vertices at a
-/// time, and only where it is asked for.
+/// What would be left of the variance at the vertices if some of them were touched, whatever is
+/// felt there: worked out eight vertices at a time, and only where it is asked for.
 ///
-///     e_k(x) = (c(x, x_k) - sum_{j<k} e_j(x) e_j(x_k)) / sqrt(variance_k + noise_k),   variance = variance_0 - sum_k e_k^2,
+///     e_k(x) = (c(x, x_k) - sum_{j<k} e_j(x) e_j(x_k)) / sqrt(variance_k + noise_k),   variance =
+///     variance_0 - sum_k e_k^2,
 ///
 /// c the posterior covariance: one more row of a Cholesky factor for each supposed touch.
 #pragma once
@@ -27,7 +28,8 @@ class LookAhead {
   int tile_of(int vertex) const;
   /// Their variances, one after another, after all touches that the tile knows of ...
   const double* variances(int tile) const;
-  /// ... and whether that is all of them; `bring_up_to_date` makes it so. A variance never grows by it.
+  /// ... and whether that is all of them; `bring_up_to_date` makes it so. A variance never grows by
+  /// it.
   bool is_current(int tile) const;
   void bring_up_to_date(int tile);
 

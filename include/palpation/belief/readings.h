@@ -22,7 +22,8 @@ PlacedReadings placed_readings(const Surface& surface, std::span<const Palpation
 
 bool all_equal(std::span<const double> readings);
 
-/// Mean and standard deviation (of all, not of a sample), as BeliefOptions::standardize takes them; sd is 0 where all are alike.
+/// Mean and standard deviation (of all, not of a sample), as BeliefOptions::standardize takes them;
+/// sd is 0 where all are alike.
 struct Spread {
   double mean = 0.0;
   double sd = 0.0;
@@ -30,8 +31,9 @@ struct Spread {
 /// Needs a reading.
 Spread spread_of(std::span<const double> readings);
 
-/// The part of the readings' variance, 0 to 1, that the best plane over their places in space explains (least squares); 0 for fewer than
-/// fifteen readings, where chance explains much, and where all are alike.
+/// The part of the readings' variance, 0 to 1, that the best plane over their places in space
+/// explains (least squares); 0 for fewer than fifteen readings, where chance explains much, and
+/// where all are alike.
 double explained_by_plane(const Surface& surface, std::span<const Palpation> palpations);
 
 }  // namespace palpation

@@ -1,15 +1,21 @@
 /// Readings that are no tissue: found, and set aside with the reason.
 ///
-/// A probe jams (its spring sticks, and all it says is far too high), hangs (the same number again and again), loses contact (far too low,
-/// and flat), wakes up from rest, slips once, or is seated anew between two rows. What a screen may rely on is physical:
-///   - an edge felt through a tip of several millimetres is felt over millimetres: between tissue's levels there are readings, between
+/// A probe jams (its spring sticks, and all it says is far too high), hangs (the same number again
+/// and again), loses contact (far too low, and flat), wakes up from rest, slips once, or is seated
+/// anew between two rows. What a screen may rely on is physical:
+///   - an edge felt through a tip of several millimetres is felt over millimetres: between tissue's
+///   levels there are readings, between
 ///     those of tissue and of a jam next to none;
-///   - over a path longer than the tip is wide a working sensor does not say the same number to its last digit;
-///   - a scan's row crosses more tissue than tumour, so that its lower readings are the healthy tissue's, alike from row to row;
+///   - over a path longer than the tip is wide a working sensor does not say the same number to its
+///   last digit;
+///   - a scan's row crosses more tissue than tumour, so that its lower readings are the healthy
+///   tissue's, alike from row to row;
 ///   - rows that start from rest all start in the same way;
-///   - a reading is like those around it, the more so the nearer they are, if they were made in the same direction of travel.
-/// All scales are those of the readings themselves. The rules about rows hold only for scans: rows that each cross most of the tissue; the
-/// others for any readings. A stiff place that was felt once is no outlier: its neighbours are too far away to contradict it.
+///   - a reading is like those around it, the more so the nearer they are, if they were made in the
+///   same direction of travel.
+/// All scales are those of the readings themselves. The rules about rows hold only for scans: rows
+/// that each cross most of the tissue; the others for any readings. A stiff place that was felt
+/// once is no outlier: its neighbours are too far away to contradict it.
 #pragma once
 
 #include <span>
@@ -23,15 +29,19 @@ namespace palpation {
 
 /// Reasons, as they stand in `set_aside`.
 inline const std::string kJammed = "jam: far above all other readings";
-inline const std::string kNoContact = "no contact: far below all other readings, or a row without any change";
-inline const std::string kFrozen = "frozen: the same reading over a path longer than the probe is wide";
+inline const std::string kNoContact =
+    "no contact: far below all other readings, or a row without any change";
+inline const std::string kFrozen =
+    "frozen: the same reading over a path longer than the probe is wide";
 inline const std::string kStartUp = "start-up: the first 3 mm of a row that starts from rest";
 inline const std::string kOutlier = "outlier: contradicts the readings around it";
 inline const std::string kBaseStep = "base step: its row lies apart from the rows around it";
-inline const std::string kStandsAlone = "stands alone: farther from all other readings than they from each other";  ///< Exploration's
+inline const std::string kStandsAlone =
+    "stands alone: farther from all other readings than they from each other";  ///< Exploration's
 
-/// The same readings, in the order in which they were made, with what is no tissue set aside. What was set aside before stays so and tells
-/// nothing. The same readings without reasons give the same answer, however often.
+/// The same readings, in the order in which they were made, with what is no tissue set aside. What
+/// was set aside before stays so and tells nothing. The same readings without reasons give the same
+/// answer, however often.
 std::vector<Palpation> screened(const Surface& surface, std::span<const Palpation> palpations);
 
 }  // namespace palpation

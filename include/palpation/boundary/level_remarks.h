@@ -1,4 +1,5 @@
-/// What a person should know of a level set before trusting its boundary. Nothing of this changes a result.
+/// What a person should know of a level set before trusting its boundary. Nothing of this changes a
+/// result.
 #pragma once
 
 #include <string>
@@ -9,8 +10,10 @@
 namespace palpation {
 
 struct LevelRemarks {
-  int small_loops = 0;    ///< loops shorter than the way around each triangle that they pass: finer than what the mesh can show
-  int bare_vertices = 0;  ///< vertices at the level with nothing inside around them: peaks and ridges that only just reach it
+  int small_loops = 0;    ///< loops shorter than the way around each triangle that they pass: finer
+                          ///< than what the mesh can show
+  int bare_vertices = 0;  ///< vertices at the level with nothing inside around them: peaks and
+                          ///< ridges that only just reach it
 
   std::vector<std::string> words() const;  ///< a sentence for each kind that there is
 };

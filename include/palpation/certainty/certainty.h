@@ -1,8 +1,9 @@
 /// How sure the boundary is: everywhere at once, in one field.
 ///
-/// At each vertex the score says how many standard deviations the place lies inside the boundary (outside where negative), the level's own
-/// uncertainty included:  P(inside) = Phi(score). Level sets of the score are the boundary's margins: 0 is the boundary, q and -q bound a
-/// band, -Phi^-1(1 - r) is the line beyond which tissue is tumour with probability r at most.
+/// At each vertex the score says how many standard deviations the place lies inside the boundary
+/// (outside where negative), the level's own uncertainty included:  P(inside) = Phi(score). Level
+/// sets of the score are the boundary's margins: 0 is the boundary, q and -q bound a band,
+/// -Phi^-1(1 - r) is the line beyond which tissue is tumour with probability r at most.
 #pragma once
 
 #include "palpation/belief/belief.h"
@@ -16,37 +17,44 @@ namespace palpation {
 struct Certainty {
   Field score;                ///< at the vertices
   double probability = 0.95;  ///< with this probability the whole true outline lies in the band ...
-  double band_score =
-      0.0;  ///< ... where |score| <= band_score: the inner loop is { score = band_score }, the outer { score = -band_score }
-  double half_width_m = 0.0;  ///< of the band along the surface, the mean over the boundary; 0 where there is none
-  ExpectedError expected;     ///< wrong area of the region { score >= 0 }
+  double band_score = 0.0;    ///< ... where |score| <= band_score: the inner loop is { score =
+                              ///< band_score }, the outer { score = -band_score }
+  double half_width_m =
+      0.0;  ///< of the band along the surface, the mean over the boundary; 0 where there is none
+  ExpectedError expected;  ///< wrong area of the region { score >= 0 }
 
   /// Phi(score).
   Field probability_inside() const;
-  /// The score of the cut line: outside { score >= cut_score(r) } a place is tumour with probability r at most. Throws InvalidInput unless
-  /// 0 < r < 1.
+  /// The score of the cut line: outside { score >= cut_score(r) } a place is tumour with
+  /// probability r at most. Throws InvalidInput unless 0 < r < 1.
   static double cut_score(double risk);
 };
 
 /// Throws InvalidInput unless 0 < probability < 1. `marginals`: of the belief, at the vertices.
-Certainty certainty_of(const Surface& surface, const Belief& belief, const Marginals& marginals, const Level& level,
-                       double probability = 0.95);
+Certainty certainty_of(const Surface& surface, const Belief& belief, const Marginals& marginals,
+                       const Level& level, double probability = 0.95);
 
-/// The same of a boundary that is believed in depths: the score is the depth over the standard deviation of the boundary's offset.
+/// The same of a boundary that is believed in depths: the score is the depth over the standard
+/// deviation of the boundary's offset.
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability = 0.95);
 
-/// What a probe with a round tip feels early, taken back (erosion.h): the score of the boundary that lies a radius farther in, with the
-/// band's width along it. What is expected to be wrong changes as the boundary's length does.
+/// What a probe with a round tip feels early, taken back (erosion.h): the score of the boundary
+/// that lies a radius farther in, with the band's width along it. What is expected to be wrong
+/// changes as the boundary's length does.
 void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m);
 
-/// Where contact fades (contact.h) a tumour reads less than its plateau elsewhere, by up to what healthy tissue's reading falls, in
-/// proportion to the way. `sd` is what the score was divided by, at the vertices, and `whole_loss` by how much the
-/// boundary would be off, in the same unit, were all amplitude lost. The doubt counts as one more standard deviation: band and expected
-/// error grow with it.
-void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading, const Field& sd, double whole_loss);
+/// Where contact fades (contact.h) a tumour reads less than its plateau elsewhere, by up to what
+/// healthy tissue's reading falls, in proportion to the way. `sd` is what the score was divided by,
+/// at the vertices, and `whole_loss` by how much the boundary would be off, in the same unit, were
+/// all amplitude lost. The doubt counts as one more standard deviation: band and expected error
+/// grow with it.
+void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading,
+                          const Field& sd, double whole_loss);
 
-/// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than the field is of it, and counts among what
-/// is expected to be wrong. Far is twice the radius of the smallest tumour of 0.5 cm2, 8 mm. Returns the area of such places, m2.
-double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals, const Level& level);
+/// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than
+/// the field is of it, and counts among what is expected to be wrong. Far is twice the radius of
+/// the smallest tumour of 0.5 cm2, 8 mm. Returns the area of such places, m2.
+double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals,
+                       const Level& level);
 
 }  // namespace palpation

@@ -1,14 +1,17 @@
 /// The boundary as a belief of its own: how deep each place lies inside it, in metres.
 ///
-/// A stationary field knows nothing of plateaus, so it is unsure everywhere and smooths the edge. What readings tell of the edge is clearer
-/// in depths. With d(x) the signed distance from a first boundary (positive inside), across the edge
+/// A stationary field knows nothing of plateaus, so it is unsure everywhere and smooths the edge.
+/// What readings tell of the edge is clearer in depths. With d(x) the signed distance from a first
+/// boundary (positive inside), across the edge
 ///
 ///     depth(x) = d(x) + c(x),      c ~ GP(0, correction_sd^2 Matern-5/2 of the correction length),
-///     reading  = low + (high - low) / (1 + exp(-slope depth)) + noise                        (equation 4 of Garg et al. 2016)
+///     reading  = low + (high - low) / (1 + exp(-slope depth)) + noise (equation 4 of Garg et al.
+///     2016)
 ///
-/// and c, low, high and log slope are found together, with their covariance: Laplace's approximation at the most probable values, by Gauss
-/// and Newton's steps. So the level's uncertainty is part of the depth's. The boundary lies where the reading is `fraction` of the way from
-/// low to high: there the depth handed out is zero.
+/// and c, low, high and log slope are found together, with their covariance: Laplace's
+/// approximation at the most probable values, by Gauss and Newton's steps. So the level's
+/// uncertainty is part of the depth's. The boundary lies where the reading is `fraction` of the way
+/// from low to high: there the depth handed out is zero.
 #pragma once
 
 #include <memory>
@@ -23,51 +26,64 @@ namespace palpation {
 
 /// What is known of a boundary's shape beforehand.
 struct ShapePrior {
-  double correction_sd_m = 0.001;      ///< how far off the first boundary may be: a millimetre is most of an edge's width
-  double correction_length_m = 0.009;  ///< over which it is off the same way: the least radius of curvature of tumours of a few cm2
+  double correction_sd_m =
+      0.001;  ///< how far off the first boundary may be: a millimetre is most of an edge's width
+  double correction_length_m = 0.009;  ///< over which it is off the same way: the least radius of
+                                       ///< curvature of tumours of a few cm2
   double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
-  /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's own width reaches four fifths of its
-  /// height.
+  /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's
+  /// own width reaches four fifths of its height.
   double plateau_error = 0.25;
 };
 
-/// What is not known of a noise that `readings` readings taught: the standard deviation of the logarithm of its own, 1 / sqrt(2 readings).
+/// What is not known of a noise that `readings` readings taught: the standard deviation of the
+/// logarithm of its own, 1 / sqrt(2 readings).
 double learned_noise_log_sd(int readings);
 
 class EdgeBelief {
  public:
-  /// Around the boundary { mean = first_level } of the belief's field, for the first level that makes the readings most probable.
-  /// `component`: what the level cuts, at the vertices (the field, or the detrended one). Nothing where no boundary can be drawn at any of
-  /// them, or no reading is left to place it. Throws InvalidInput for a fraction outside (0, 1), NumericalError if the readings' covariance
-  /// is not positive definite. `noise_log_sd`: how unsure the belief's noise is, which was learned; 0, known.
-  static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component, std::span<const double> first_levels,
-                                          double fraction, const ShapePrior& shape = {}, double noise_log_sd = 0.0);
+  /// Around the boundary { mean = first_level } of the belief's field, for the first level that
+  /// makes the readings most probable. `component`: what the level cuts, at the vertices (the
+  /// field, or the detrended one). Nothing where no boundary can be drawn at any of them, or no
+  /// reading is left to place it. Throws InvalidInput for a fraction outside (0, 1), NumericalError
+  /// if the readings' covariance is not positive definite. `noise_log_sd`: how unsure the belief's
+  /// noise is, which was learned; 0, known.
+  static std::optional<EdgeBelief> around(const Belief& belief, const Marginals& component,
+                                          std::span<const double> first_levels, double fraction,
+                                          const ShapePrior& shape = {}, double noise_log_sd = 0.0);
 
-  /// Depth at the vertices in metres, zero at the boundary. Farther from the first boundary than any correction reaches it is the distance.
+  /// Depth at the vertices in metres, zero at the boundary. Farther from the first boundary than
+  /// any correction reaches it is the distance.
   const Field& depth() const { return depth_; }
   const EdgeProfile& profile() const { return profile_; }
   /// Between low and high, with its standard deviation.
   const Level& level() const { return profile_.level; }
-  /// Of a reading, as they scatter about the profile: more than the belief's where the edge is no sigmoid; less where the noise was learned
-  /// with a field that could not follow the edge.
+  /// Of a reading, as they scatter about the profile: more than the belief's where the edge is no
+  /// sigmoid; less where the noise was learned with a field that could not follow the edge.
   double noise_variance() const;
 
-  /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where the boundary comes nearest.
+  /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
+  /// the boundary comes nearest.
   const Field& offset_sd() const { return offset_sd_; }
-  /// Expected area between the boundary and the true one: the integral along it of the offset's mean absolute value, sqrt(2 / pi) sd,
-  /// less what the prior of corrections overstates where readings are sharp.
+  /// Expected area between the boundary and the true one: the integral along it of the offset's
+  /// mean absolute value, sqrt(2 / pi) sd, less what the prior of corrections overstates where
+  /// readings are sharp.
   double expected_error_m2() const { return expected_error_m2_; }
-  /// How many standard deviations the true boundary stays within, all along, with the given probability: by Rice's formula for the
-  /// upcrossings of a Gaussian process, from the offsets' correlation along the boundary, the noise integrated out; widened for the tails
-  /// of an unsure edge and the bends of a slender tumour.
+  /// How many standard deviations the true boundary stays within, all along, with the given
+  /// probability: by Rice's formula for the upcrossings of a Gaussian process, from the offsets'
+  /// correlation along the boundary, the noise integrated out; widened for the tails of an unsure
+  /// edge and the bends of a slender tumour.
   double band_score(double probability) const;
 
-  /// Where touches would tell the most: one after the other, the candidate whose reading lowers the depth's expected error along the
-  /// boundary (the integral of its standard deviation) the most, with what the picks before it will tell. Touches on the plateaus, which
-  /// earn the level, are among them when they are worth it. Of candidates within a tenth of the best, the one where the field is known
-  /// least (`field_variance`, at the vertices): what tells as much of the edge may as well tell of the rest.
-  std::vector<int> most_telling(std::span<const int> candidates, int count, double least_spacing_m, const Field& field_variance) const;
+  /// Where touches would tell the most: one after the other, the candidate whose reading lowers the
+  /// depth's expected error along the boundary (the integral of its standard deviation) the most,
+  /// with what the picks before it will tell. Touches on the plateaus, which earn the level, are
+  /// among them when they are worth it. Of candidates within a tenth of the best, the one where the
+  /// field is known least (`field_variance`, at the vertices): what tells as much of the edge may
+  /// as well tell of the rest.
+  std::vector<int> most_telling(std::span<const int> candidates, int count, double least_spacing_m,
+                                const Field& field_variance) const;
 
  private:
   struct Fit;
@@ -80,8 +96,9 @@ class EdgeBelief {
   Field depth_;
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
-  double breadth_m_ = 0.0;          // twice the area inside over the boundary's length: a disk's radius
-  double mean_part_of_edge_ = 0.0;  // the offset's standard deviation over the edge's width, 1 / slope
+  double breadth_m_ = 0.0;  // twice the area inside over the boundary's length: a disk's radius
+  double mean_part_of_edge_ =
+      0.0;  // the offset's standard deviation over the edge's width, 1 / slope
   double noise_log_sd_ = 0.0;
   double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
 };

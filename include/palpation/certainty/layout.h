@@ -1,8 +1,9 @@
 /// Where places lie for straight distances between them.
 ///
-/// Depths in a boundary, gaps between touches and disks that may hide in them matter over some millimetres. On planar tissue they are
-/// straight through space; on curved tissue straight in its chart, which knows that two flanks of a fold are far apart, unless the field
-/// is one of straight distances in space itself, or there is no chart.
+/// Depths in a boundary, gaps between touches and disks that may hide in them matter over some
+/// millimetres. On planar tissue they are straight through space; on curved tissue straight in its
+/// chart, which knows that two flanks of a fold are far apart, unless the field is one of straight
+/// distances in space itself, or there is no chart.
 #pragma once
 
 #include <span>
@@ -16,7 +17,9 @@ namespace palpation {
 class Layout {
  public:
   /// Straight through space.
-  Layout(Surface surface) : surface_(std::move(surface)) {}  // NOLINT(google-explicit-constructor): a surface lies where it is
+  Layout(Surface surface)
+      : surface_(std::move(surface)) {
+  }  // NOLINT(google-explicit-constructor): a surface lies where it is
   /// As the field's metric sees it.
   explicit Layout(const Prior& prior);
 

@@ -13,27 +13,31 @@ namespace palpation {
 
 class ChartLocator;
 
-/// A boustrophedon over the tissue's chart: rows along u's or v's longer extent, spacing_m apart, a place every step_m along the row. What
-/// is left over of an extent is shared out at both ends. Places off the tissue are left out. Throws InvalidInput unless both lengths are
-/// positive and finite and the scan has at most 1e7 places; and as Surface::chart.
+/// A boustrophedon over the tissue's chart: rows along u's or v's longer extent, spacing_m apart, a
+/// place every step_m along the row. What is left over of an extent is shared out at both ends.
+/// Places off the tissue are left out. Throws InvalidInput unless both lengths are positive and
+/// finite and the scan has at most 1e7 places; and as Surface::chart.
 std::vector<SurfacePoint> raster_scan(const Surface& surface, double spacing_m, double step_m);
 
-/// Recursive refinement (Goldman et al. 2013): a coarse grid of cells; a cell whose corner readings straddle the level is cut in four and
-/// its new corners are touched next, until cells are no larger than finest_m. Corners off the tissue, and those where nothing was felt, do
-/// not count.
+/// Recursive refinement (Goldman et al. 2013): a coarse grid of cells; a cell whose corner readings
+/// straddle the level is cut in four and its new corners are touched next, until cells are no
+/// larger than finest_m. Corners off the tissue, and those where nothing was felt, do not count.
 ///
-/// Copies are independent. The level may differ from call to call: cells are then cut as if it had always been the last one.
+/// Copies are independent. The level may differ from call to call: cells are then cut as if it had
+/// always been the last one.
 class RecursiveRefinement {
  public:
-  /// The first grid has cells of coarsest_m (the last ones shortened to fit), the finest one of coarsest_m / 2^k. Throws InvalidInput
-  /// unless 0 < finest_m <= coarsest_m <= 2^20 finest_m and the finest grid has at most 1e7 corners; and as Surface::chart.
+  /// The first grid has cells of coarsest_m (the last ones shortened to fit), the finest one of
+  /// coarsest_m / 2^k. Throws InvalidInput unless 0 < finest_m <= coarsest_m <= 2^20 finest_m and
+  /// the finest grid has at most 1e7 corners; and as Surface::chart.
   RecursiveRefinement(Surface surface, double coarsest_m, double finest_m);
 
-  /// The places to touch next, empty when done. Every place is asked for once: where the answer does not come before the next call, nothing
-  /// was felt.
+  /// The places to touch next, empty when done. Every place is asked for once: where the answer
+  /// does not come before the next call, nothing was felt.
   std::vector<SurfacePoint> next(double level);
-  /// What was felt at places of the last next(), which must be within half a finest cell of them. Palpations that were set aside do not
-  /// count. Throws InvalidInput for a reading that is not finite or was not asked for.
+  /// What was felt at places of the last next(), which must be within half a finest cell of them.
+  /// Palpations that were set aside do not count. Throws InvalidInput for a reading that is not
+  /// finite or was not asked for.
   void record(std::span<const Palpation> palpations);
 
  private:

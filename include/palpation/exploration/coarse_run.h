@@ -1,5 +1,5 @@
-/// Plans on a coarse mesh, touches on the fine one: what a batch is chosen by need not be known at every vertex of the tissue, what is
-/// concluded in the end does.
+/// Plans on a coarse mesh, touches on the fine one: what a batch is chosen by need not be known at
+/// every vertex of the tissue, what is concluded in the end does.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,14 @@
 
 namespace palpation {
 
-/// The whole loop, as `run` has it: `planner` explores coarse.mesh, the stops are the same vertices of `surface`, and so are the ways
-/// between them. `after_batch` is called after every record, with what was felt on `surface`. Returns all of that, in order. Throws
-/// InvalidInput unless the planner's surface has the vertices that `coarse` names.
-std::vector<Palpation> run_coarsely(Exploration& planner, const CoarseMesh& coarse, const Surface& surface, const Probe& probe,
-                                    const std::function<void(const Tour&)>& after_batch = {}, double way_step_m = 0.0);
+/// The whole loop, as `run` has it: `planner` explores coarse.mesh, the stops are the same vertices
+/// of `surface`, and so are the ways between them. `after_batch` is called after every record, with
+/// what was felt on `surface`. Returns all of that, in order. Throws InvalidInput unless the
+/// planner's surface has the vertices that `coarse` names.
+std::vector<Palpation> run_coarsely(Exploration& planner, const CoarseMesh& coarse,
+                                    const Surface& surface, const Probe& probe,
+                                    const std::function<void(const Tour&)>& after_batch = {},
+                                    double way_step_m = 0.0);
 
 /// The vertices of the coarse mesh that are among these of the fine one; both rising.
 std::vector<int> on_coarse(const CoarseMesh& coarse, std::span<const int> vertices);

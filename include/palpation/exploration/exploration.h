@@ -1,9 +1,11 @@
 /// Ask and tell: where to touch next, given all that was felt so far.
 ///
 ///     Exploration exploration(tissue, field, level, plan, seed);
-///     while (const auto stops = exploration.next(); !stops.empty()) exploration.record(touch_all(stops));
+///     while (const auto stops = exploration.next(); !stops.empty())
+///     exploration.record(touch_all(stops));
 ///
-/// The library never owns the robot's loop. `next` does not change anything: asked again, it answers the same until something is recorded.
+/// The library never owns the robot's loop. `next` does not change anything: asked again, it
+/// answers the same until something is recorded.
 #pragma once
 
 #include <functional>
@@ -37,29 +39,35 @@ struct FieldModel {
   Metric metric = Metric::Chart;
   Kernel kernel{};  ///< its length and signal where they are not learned
   Constant constant{};
-  BeliefOptions belief{};  ///< noise_sd where it is not learned; where anything is learned, `standardize` only centres a field of zero mean
-                           ///< on the readings' mean
+  BeliefOptions
+      belief{};  ///< noise_sd where it is not learned; where anything is learned, `standardize`
+                 ///< only centres a field of zero mean on the readings' mean
   bool learn_length = true;
   bool learn_signal = true;
   bool learn_noise = true;
   double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
   LagModel lag{};
-  double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early: boundary and band lie that much inwards
-  bool heavy_tails = false;        ///< the noise of readings is Student's t, of four degrees of freedom, and large residuals weigh less
-  bool screening = false;          ///< readings that are no tissue are set aside (screening.h), judged anew after every batch
-  /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are touched, and until then nothing is
-  /// concluded. Level and boundary are of the field without it.
+  double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early:
+                                   ///< boundary and band lie that much inwards
+  bool heavy_tails = false;  ///< the noise of readings is Student's t, of four degrees of freedom,
+                             ///< and large residuals weigh less
+  bool screening = false;  ///< readings that are no tissue are set aside (screening.h), judged anew
+                           ///< after every batch
+  /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are
+  /// touched, and until then nothing is concluded. Level and boundary are of the field without it.
   bool linear_trend = false;
-  /// Nats of log posterior that other hyperparameters must gain before the field is built anew with them; until then it grows by the fresh
-  /// readings alone. 0: always the best ones. Only where nothing but the hyperparameters moves old readings: no lag, screening, heavy tails
-  /// or trend, a constant that is not zero, and touches at stops.
+  /// Nats of log posterior that other hyperparameters must gain before the field is built anew with
+  /// them; until then it grows by the fresh readings alone. 0: always the best ones. Only where
+  /// nothing but the hyperparameters moves old readings: no lag, screening, heavy tails or trend, a
+  /// constant that is not zero, and touches at stops.
   double rebuild_gain = 0.0;
 
   bool learns() const { return learn_length || learn_signal || learn_noise; }
 };
 
-/// What the level is estimated from, where it is not known: the range of the mean (the paper's way), or the profile of the readings across
-/// the edge (edge_profile.h), which knows how sure it is.
+/// What the level is estimated from, where it is not known: the range of the mean (the paper's
+/// way), or the profile of the readings across the edge (edge_profile.h), which knows how sure it
+/// is.
 enum class LevelEstimate { Range, Edge };
 
 /// How the level is found.
@@ -75,21 +83,24 @@ struct Plan {
   int initial_count = 16;
   BatchOptions batch{.least_spacing_m = 0.0005};
   int batches = 9;  ///< after the initial one
-  /// The part of the batches that goes where it tells the most about the boundary (edge_belief.h), once one is seen and the level is
-  /// inferred from its edge: half of it in the first batch, half as much again in the last. The rest follows the acquisition, and finds
-  /// what the boundary does not know of: with more than this a second, small tumour is missed.
+  /// The part of the batches that goes where it tells the most about the boundary (edge_belief.h),
+  /// once one is seen and the level is inferred from its edge: half of it in the first batch, half
+  /// as much again in the last. The rest follows the acquisition, and finds what the boundary does
+  /// not know of: with more than this a second, small tumour is missed.
   double edge_share = 0.65;
   StopRule stop{};
-  /// Until the readings show contrast (contrast.h), conclude nothing, explore by the field's variance, and where the field is learned,
-  /// which five readings of healthy tissue would teach that noise is all, by that of a field of the prior's length, with a second look
-  /// where readings were high. Not asked of a field and a level that are both given.
+  /// Until the readings show contrast (contrast.h), conclude nothing, explore by the field's
+  /// variance, and where the field is learned, which five readings of healthy tissue would teach
+  /// that noise is all, by that of a field of the prior's length, with a second look where readings
+  /// were high. Not asked of a field and a level that are both given.
   bool safe_start = true;
 };
 
 /// What may be touched.
 struct Reach {
   std::vector<int> vertices{};  ///< rising; empty: all
-  bool touch_once = false;      ///< a touched vertex is no candidate any more; so too where readings have no noise
+  bool touch_once =
+      false;  ///< a touched vertex is no candidate any more; so too where readings have no noise
 };
 
 /// The boundary is where the field, one value per vertex, reaches the level.
@@ -101,59 +112,72 @@ struct Contour {
 class Exploration {
  public:
   /// Throws InvalidInput as Prior, BeliefOptions and the options above say.
-  Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed, Reach reach = {});
+  Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed,
+              Reach reach = {});
 
-  /// The next stops, in the order of travel from where the probe was last: first the initial design, then batches. Empty when finished.
+  /// The next stops, in the order of travel from where the probe was last: first the initial
+  /// design, then batches. Empty when finished.
   std::vector<int> next() const;
 
-  /// For the time while the robot moves: does the work for the stops of next() that no reading changes, so that after record() the next
-  /// plan follows at once if all of them were touched, in this order, and nothing on the way. Changes no answer. Only where the
-  /// field grows by what is felt (FieldModel::rebuild_gain), or nothing of it is learned, nothing set aside and no trend modelled; else it
-  /// does nothing.
+  /// For the time while the robot moves: does the work for the stops of next() that no reading
+  /// changes, so that after record() the next plan follows at once if all of them were touched, in
+  /// this order, and nothing on the way. Changes no answer. Only where the field grows by what is
+  /// felt (FieldModel::rebuild_gain), or nothing of it is learned, nothing set aside and no trend
+  /// modelled; else it does nothing.
   void foresee();
 
-  /// What was felt, at stops and on the way. Stops of the last next() that are not among them gave no contact and are no candidates any
-  /// more.
+  /// What was felt, at stops and on the way. Stops of the last next() that are not among them gave
+  /// no contact and are no candidates any more.
   void record(std::span<const Palpation> palpations);
 
-  /// Takes up readings that were made elsewhere or before: nothing is concluded from planned stops that are not among them.
+  /// Takes up readings that were made elsewhere or before: nothing is concluded from planned stops
+  /// that are not among them.
   void take_up(std::span<const Palpation> palpations);
 
-  /// Why next() is empty: "budget", "expected error", "band", "nothing to gain", "nothing left to touch"; empty while it is not.
+  /// Why next() is empty: "budget", "expected error", "band", "nothing to gain", "nothing left to
+  /// touch"; empty while it is not.
   const std::string& stop_reason() const { return stop_reason_; }
 
   const Surface& surface() const { return surface_; }
   const FieldModel& field() const { return field_; }
   /// What was recorded, as it was made; with the reason where it was set aside.
   const std::vector<Palpation>& palpations() const { return palpations_; }
-  /// Knows the same readings, where a lag is modelled at the places where they belong, and those on the way that are next to each other as
-  /// one.
+  /// Knows the same readings, where a lag is modelled at the places where they belong, and those on
+  /// the way that are next to each other as one.
   const Belief& belief() const { return belief_; }
   /// The whole field: its variance is what touches are planned by.
   const Marginals& marginals() const { return marginals_; }
-  /// What level and boundary are of: the mean without the slope, with the variance of the whole field; equal to marginals() where no trend
-  /// is modelled. The variance without the slope would count as unsure what level and slope trade between them: it overstates the error.
+  /// What level and boundary are of: the mean without the slope, with the variance of the whole
+  /// field; equal to marginals() where no trend is modelled. The variance without the slope would
+  /// count as unsure what level and slope trade between them: it overstates the error.
   const Marginals& component() const { return component_; }
-  /// The level as it is estimated now; nothing before the readings show contrast, nor while they are all alike, unless it is known: the
-  /// range of noise is no level.
+  /// The level as it is estimated now; nothing before the readings show contrast, nor while they
+  /// are all alike, unless it is known: the range of noise is no level.
   const std::optional<Level>& level() const { return level_; }
-  /// What is known of the boundary in depths; nothing unless the level is inferred from its edge, and one is seen.
+  /// What is known of the boundary in depths; nothing unless the level is inferred from its edge,
+  /// and one is seen.
   const std::optional<EdgeBelief>& edge() const { return edge_; }
-  /// The boundary: of the depth where edge() knows it, of the component else. Throws InvalidInput where there is no level.
+  /// The boundary: of the depth where edge() knows it, of the component else. Throws InvalidInput
+  /// where there is no level.
   Contour contour() const;
-  /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the tip is taken back is nothing.
+  /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the
+  /// tip is taken back is nothing.
   bool tip_hides_all() const;
-  /// How sure the boundary is, its band with the probability that the plan's stop rule names; nothing where there is no level or no
-  /// reading.
+  /// How sure the boundary is, its band with the probability that the plan's stop rule names;
+  /// nothing where there is no level or no reading.
   const std::optional<Certainty>& certainty() const { return certainty_; }
-  /// Area too far from any reading for the boundary's depth to tell (certainty.h), m2; 0 where edge() is nothing.
+  /// Area too far from any reading for the boundary's depth to tell (certainty.h), m2; 0 where
+  /// edge() is nothing.
   double untouched_m2() const { return untouched_m2_; }
   /// What the next batch maximizes, at the vertices.
   Field acquisition_field() const;
-  int batch() const { return batch_; }  ///< how many batches were recorded, the initial one included
+  int batch() const {
+    return batch_;
+  }  ///< how many batches were recorded, the initial one included
   bool contrast_seen() const { return contrast_seen_; }
-  /// A reading that lies farther from all others than they from each other (lone_reading), the trend apart: what it alone shows is no
-  /// contrast, and where the others show some and it lies ten times as far out, it is set aside (kStandsAlone).
+  /// A reading that lies farther from all others than they from each other (lone_reading), the
+  /// trend apart: what it alone shows is no contrast, and where the others show some and it lies
+  /// ten times as far out, it is set aside (kStandsAlone).
   const std::optional<Palpation>& lone_reading() const { return lone_reading_; }
   bool is_screened() const { return field_.screening; }
   /// Whether a trend is modelled, but too few places are touched yet to tell a tumour from a tilt.
@@ -179,7 +203,8 @@ class Exploration {
   Acquisition acquisition_in_force() const;
   std::vector<int> in_tour_order(std::vector<int> stops) const;
   std::vector<int> candidates() const;
-  std::vector<Palpation> suppositions(const Belief& belief, std::span<const int> stops, const BatchOptions& options) const;
+  std::vector<Palpation> suppositions(const Belief& belief, std::span<const int> stops,
+                                      const BatchOptions& options) const;
 
   Surface surface_;
   FieldModel field_;
@@ -209,21 +234,26 @@ class Exploration {
   std::string stop_reason_;
 };
 
-/// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit direction of travel, or zero; a reading that
-/// was made in another direction says so.
-using Probe = std::function<std::optional<Palpation>(const SurfacePoint& where, const Vec3& travel)>;
+/// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit
+/// direction of travel, or zero; a reading that was made in another direction says so.
+using Probe =
+    std::function<std::optional<Palpation>(const SurfacePoint& where, const Vec3& travel)>;
 
-/// Touches the stops in order, starting from where the last batch ended, and on the way every way_step_m (0: stops only).
+/// Touches the stops in order, starting from where the last batch ended, and on the way every
+/// way_step_m (0: stops only).
 struct Tour {
   std::vector<Palpation> palpations;  ///< in order
   std::vector<SurfacePoint> way;      ///< the places between the stops, one per mm
-  std::vector<int> legs;              ///< for each of these, which of the stops it leads to: its place among them
+  std::vector<int>
+      legs;  ///< for each of these, which of the stops it leads to: its place among them
   double length_m = 0.0;
 };
-Tour travel(const Surface& surface, std::span<const int> stops, const std::optional<SurfacePoint>& from, const Probe& probe,
-            double way_step_m);
+Tour travel(const Surface& surface, std::span<const int> stops,
+            const std::optional<SurfacePoint>& from, const Probe& probe, double way_step_m);
 
-/// The whole loop: asks, touches, records, until the exploration is finished. `after_batch` is called after every record.
-void run(Exploration& exploration, const Probe& probe, const std::function<void(const Tour&)>& after_batch = {}, double way_step_m = 0.0);
+/// The whole loop: asks, touches, records, until the exploration is finished. `after_batch` is
+/// called after every record.
+void run(Exploration& exploration, const Probe& probe,
+         const std::function<void(const Tour&)>& after_batch = {}, double way_step_m = 0.0);
 
 }  // namespace palpation

@@ -10,23 +10,28 @@ namespace palpation {
 
 /// Every reason is off at 0.
 struct StopRule {
-  double error_m2 = 0.0;           ///< the expected symmetric difference is no larger
-  double band_m = 0.0;             ///< the band's mean half width is no larger
-  double least_gain = 0.0;         ///< the last three batches and the next one lower the expected error by less than this part of it
+  double error_m2 = 0.0;    ///< the expected symmetric difference is no larger
+  double band_m = 0.0;      ///< the band's mean half width is no larger
+  double least_gain = 0.0;  ///< the last three batches and the next one lower the expected error by
+                            ///< less than this part of it
   double band_probability = 0.95;  ///< of the band
 };
 
-/// Throws InvalidInput unless error and band are not negative, the gain is in [0, 1] and the probability in (0, 1).
+/// Throws InvalidInput unless error and band are not negative, the gain is in [0, 1] and the
+/// probability in (0, 1).
 void check(const StopRule& rule);
 
-/// The expected error once these vertices are touched too, the level and the hyperparameters staying as sure as they are: a vertex is then
-/// misjudged with probability 2 T(|score|, b / sqrt(1 - b^2)), T Owen's function and b the ratio of the score's standard deviations after
-/// and before. Never more than now.
-double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now, const Level& level,
-                            std::span<const int> vertices);
+/// The expected error once these vertices are touched too, the level and the hyperparameters
+/// staying as sure as they are: a vertex is then misjudged with probability 2 T(|score|, b / sqrt(1
+/// - b^2)), T Owen's function and b the ratio of the score's standard deviations after and before.
+/// Never more than now.
+double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now,
+                            const Level& level, std::span<const int> vertices);
 
-/// Whether the rule's least gain is missed. `errors_m2`: expected after each batch so far, the last one now.
-bool gains_too_little(const StopRule& rule, std::span<const double> errors_m2, const Certainty& now, const Surface& surface,
-                      const Belief& belief, const Level& level, std::span<const int> next);
+/// Whether the rule's least gain is missed. `errors_m2`: expected after each batch so far, the last
+/// one now.
+bool gains_too_little(const StopRule& rule, std::span<const double> errors_m2, const Certainty& now,
+                      const Surface& surface, const Belief& belief, const Level& level,
+                      std::span<const int> next);
 
 }  // namespace palpation

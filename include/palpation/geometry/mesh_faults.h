@@ -1,4 +1,5 @@
-/// What keeps a mesh from being a surface, counted: Surface names only the first fault that it meets.
+/// What keeps a mesh from being a surface, counted: Surface names only the first fault that it
+/// meets.
 #pragma once
 
 #include "palpation/geometry/triangle_mesh.h"

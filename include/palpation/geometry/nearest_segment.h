@@ -1,4 +1,5 @@
-/// The nearest of many segments to a place, in the plane or in space, for places that come one beside the other.
+/// The nearest of many segments to a place, in the plane or in space, for places that come one
+/// beside the other.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +18,8 @@ struct Segment {
   double squared_distance(const Point& place) const;
 };
 
-/// A tree of boxes over the segments in the order given: good when neighbours in that order are neighbours in space, as along a boundary.
+/// A tree of boxes over the segments in the order given: good when neighbours in that order are
+/// neighbours in space, as along a boundary.
 template <int dimension>
 class NearestSegment {
  public:
@@ -34,10 +36,11 @@ class NearestSegment {
 
  private:
   void build(int node, int first, int last);
-  /// `squared_distance` of a segment from the place; boxes are no nearer than in space, times `shrink`.
+  /// `squared_distance` of a segment from the place; boxes are no nearer than in space, times
+  /// `shrink`.
   template <typename SquaredDistance>
-  void search(const Point& place, double shrink, const SquaredDistance& squared_distance, int node, int first, int last, double& best,
-              int& nearest) const;
+  void search(const Point& place, double shrink, const SquaredDistance& squared_distance, int node,
+              int first, int last, double& best, int& nearest) const;
 
   std::vector<Segment<dimension>> segments_;
   std::vector<Eigen::AlignedBox<double, dimension>>

@@ -5,7 +5,8 @@
 
 namespace palpation {
 
-/// The point sum_i barycentric[i] * (corner i of the face). The weights are at least 0 and add up to 1.
+/// The point sum_i barycentric[i] * (corner i of the face). The weights are at least 0 and add up
+/// to 1.
 struct SurfacePoint {
   int face = 0;
   Vec3 barycentric = Vec3(1.0, 0.0, 0.0);

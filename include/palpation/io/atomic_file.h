@@ -8,14 +8,18 @@
 
 namespace palpation {
 
-/// Writes the content under a temporary name beside the path, then renames it. Throws WriteError with path and reason; the old file then
-/// stays.
+/// Writes the content under a temporary name beside the path, then renames it. Throws WriteError
+/// with path and reason; the old file then stays.
 void write_atomically(const std::filesystem::path& path, const std::string& content);
 
-/// The same for writers that take a path: `write` gets the temporary name (same extension), which is renamed once it returns.
-void write_atomically(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
+/// The same for writers that take a path: `write` gets the temporary name (same extension), which
+/// is renamed once it returns.
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path&)>& write);
 
-/// The whole file as bytes. Throws IoError if it is missing, a folder, unreadable or larger than limit_bytes.
-std::string read_file(const std::filesystem::path& path, std::uintmax_t limit_bytes = std::uintmax_t{1} << 33);
+/// The whole file as bytes. Throws IoError if it is missing, a folder, unreadable or larger than
+/// limit_bytes.
+std::string read_file(const std::filesystem::path& path,
+                      std::uintmax_t limit_bytes = std::uintmax_t{1} << 33);
 
 }  // namespace palpation

@@ -10,7 +10,8 @@ namespace palpation {
 
 struct BoundaryFile {
   Region region;
-  std::vector<std::string> warnings;  ///< plain sentences: points moved to the surface, corners tidied away
+  std::vector<std::string>
+      warnings;  ///< plain sentences: points moved to the surface, corners tidied away
 };
 
 }  // namespace palpation

@@ -1,8 +1,11 @@
-/// Tables as text: one header line that names the columns, then one line a row, commas between cells.
+/// Tables as text: one header line that names the columns, then one line a row, commas between
+/// cells.
 ///
-/// Strict, so that nothing is misread in silence: every row has as many cells as the header, a name appears once, a cell is a number as a
-/// whole or not at all. Cells may be quoted ("" is a quote inside) but hold no line end. LF, CRLF or CR, a byte order mark, blanks around
-/// cells and empty lines are welcome; the locale plays no part. Caps: 65,536 bytes a line, 1,024 columns, 1 GiB a file.
+/// Strict, so that nothing is misread in silence: every row has as many cells as the header, a name
+/// appears once, a cell is a number as a whole or not at all. Cells may be quoted ("" is a quote
+/// inside) but hold no line end. LF, CRLF or CR, a byte order mark, blanks around cells and empty
+/// lines are welcome; the locale plays no part. Caps: 65,536 bytes a line, 1,024 columns, 1 GiB a
+/// file.
 ///
 /// Every error is an IoError "path:line: column ...: value rule".
 #pragma once
@@ -18,7 +21,8 @@
 
 namespace palpation {
 
-/// Cells lie one behind the other in one text, so that a table takes little more memory than its file.
+/// Cells lie one behind the other in one text, so that a table takes little more memory than its
+/// file.
 class CsvTable {
  public:
   const std::string& name() const { return name_; }  ///< of the file, for messages
@@ -50,9 +54,11 @@ std::optional<std::size_t> find_column(const CsvTable& table, std::string_view c
 std::size_t column_index(const CsvTable& table, std::string_view column);
 
 [[noreturn]] void fail_at_row(const CsvTable& table, std::size_t row, const std::string& what);
-[[noreturn]] void fail_at_cell(const CsvTable& table, std::size_t row, std::size_t column, const std::string& rule);
+[[noreturn]] void fail_at_cell(const CsvTable& table, std::size_t row, std::size_t column,
+                               const std::string& rule);
 
-/// A cell as a number: nothing if it is empty, while "nan" and "inf" are numbers. Too large or too small for a double is an error.
+/// A cell as a number: nothing if it is empty, while "nan" and "inf" are numbers. Too large or too
+/// small for a double is an error.
 std::optional<double> number_at(const CsvTable& table, std::size_t row, std::size_t column);
 /// The same where there must be a finite number.
 double finite_number_at(const CsvTable& table, std::size_t row, std::size_t column);

@@ -1,14 +1,18 @@
-/// The measurements that a person or a robot hands in, and that the tool hands out: measurements.csv.
+/// The measurements that a person or a robot hands in, and that the tool hands out:
+/// measurements.csv.
 ///
-/// Columns: x,y,z [m], reading, noise_variance (empty: the field's noise), batch, kind (stop or way), tx,ty,tz (unit direction of travel,
-/// or empty), set_aside (why the reading is not used, or empty). As input x,y,z,reading is enough; unknown columns are ignored. The order
-/// of rows means nothing but the place of the last one, where the probe is taken to be.
+/// Columns: x,y,z [m], reading, noise_variance (empty: the field's noise), batch, kind (stop or
+/// way), tx,ty,tz (unit direction of travel, or empty), set_aside (why the reading is not used, or
+/// empty). As input x,y,z,reading is enough; unknown columns are ignored. The order of rows means
+/// nothing but the place of the last one, where the probe is taken to be.
 ///
-/// Each position goes to the closest point of the surface, from at most 5 mm above or below it and 1 mm beside its border. Places within a
-/// nanometre of an earlier row's are that row's place: readings there are repeats, and if they are without noise and differ, they
-/// contradict each other. Rows that repeat an earlier one, place and reading alike to every digit, are set aside, unless places that were
-/// touched again mostly read otherwise. Readings are at most 1e30 in size and, where they differ, do so by 1e-30 at least; a noise
-/// variance is 0, or 1e-60 to 1e60: what is computed from these stays within the range of doubles.
+/// Each position goes to the closest point of the surface, from at most 5 mm above or below it and
+/// 1 mm beside its border. Places within a nanometre of an earlier row's are that row's place:
+/// readings there are repeats, and if they are without noise and differ, they contradict each
+/// other. Rows that repeat an earlier one, place and reading alike to every digit, are set aside,
+/// unless places that were touched again mostly read otherwise. Readings are at most 1e30 in size
+/// and, where they differ, do so by 1e-30 at least; a noise variance is 0, or 1e-60 to 1e60: what
+/// is computed from these stays within the range of doubles.
 #pragma once
 
 #include <filesystem>
@@ -24,17 +28,20 @@ namespace palpation {
 struct MeasurementsFile {
   std::vector<Palpation> palpations;  ///< one a row, in the order of the rows
   int places = 0;                     ///< distinct ones, of the readings that are not set aside
-  /// Plain sentences: positions more than 0.1 mm off the surface, places within a nanometre of others, copies, readings far from all
-  /// others.
+  /// Plain sentences: positions more than 0.1 mm off the surface, places within a nanometre of
+  /// others, copies, readings far from all others.
   std::vector<std::string> warnings;
 };
 
 struct MeasurementRules {
-  bool empty_noise_is_none = false;  ///< the field has no noise, so that repeats must agree even where a row does not say so
+  bool empty_noise_is_none = false;  ///< the field has no noise, so that repeats must agree even
+                                     ///< where a row does not say so
 };
 
-/// A table without rows is no error. Throws IoError, naming line, column, value and rule, for all that the above does not allow.
-MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface, const MeasurementRules& rules = {});
+/// A table without rows is no error. Throws IoError, naming line, column, value and rule, for all
+/// that the above does not allow.
+MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
+                                   const MeasurementRules& rules = {});
 
 /// The same columns as text, with the shortest digits that read back as the same doubles.
 std::string measurements_csv(const Surface& surface, std::span<const Palpation> palpations);

@@ -1,10 +1,12 @@
-/// Meshes from files: OBJ, OFF, STL (ASCII and binary), PLY (ASCII and binary, both byte orders) and VTP, recognized by content.
+/// Meshes from files: OBJ, OFF, STL (ASCII and binary), PLY (ASCII and binary, both byte orders)
+/// and VTP, recognized by content.
 ///
-/// Time and memory are bounded by the bytes of the file; no locale, no printing, no other file is opened. Coordinates are read in double
-/// precision. Polygons are cut into fans. STL corners with equal bits are one vertex: that is the format. Every repair is a warning of the
-/// result: unused vertices dropped, faces turned round to agree with their neighbours, corners welded on request. A file that was cut short
-/// is an error, but for OBJ between two lines: it has no counts. Where a comment at its top tells them (as write_mesh writes it), they are
-/// compared.
+/// Time and memory are bounded by the bytes of the file; no locale, no printing, no other file is
+/// opened. Coordinates are read in double precision. Polygons are cut into fans. STL corners with
+/// equal bits are one vertex: that is the format. Every repair is a warning of the result: unused
+/// vertices dropped, faces turned round to agree with their neighbours, corners welded on request.
+/// A file that was cut short is an error, but for OBJ between two lines: it has no counts. Where a
+/// comment at its top tells them (as write_mesh writes it), they are compared.
 #pragma once
 
 #include <cstdint>
@@ -36,20 +38,25 @@ struct MeshFile {
 
 /// What is repaired only on request.
 struct MeshRepair {
-  bool weld_equal_vertices = false;  ///< vertices with equal coordinates become one; STL corners always do
+  bool weld_equal_vertices =
+      false;  ///< vertices with equal coordinates become one; STL corners always do
 };
 
-/// Reads and validates syntax, counts, indices and numbers, then the size: tissue is between 1 mm and 2 m across. Topology is left to
-/// Surface. Polygons have at most 256 corners, and more than 250,000 triangles at least one vertex for three of them. Numbers that follow
-/// the coordinates of a vertex (weight, colour, normal) are ignored, as are other properties and arrays once their lengths agree. Throws
-/// IoError with path, line or byte, element, value and rule.
-MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair = {});
+/// Reads and validates syntax, counts, indices and numbers, then the size: tissue is between 1 mm
+/// and 2 m across. Topology is left to Surface. Polygons have at most 256 corners, and more than
+/// 250,000 triangles at least one vertex for three of them. Numbers that follow the coordinates of
+/// a vertex (weight, colour, normal) are ignored, as are other properties and arrays once their
+/// lengths agree. Throws IoError with path, line or byte, element, value and rule.
+MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit,
+                   const MeshRepair& repair = {});
 
 /// The same without the check of the size, for tools that only describe a file.
-MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair = {});
+MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit unit,
+                               const MeshRepair& repair = {});
 
-/// Writes PLY (binary little-endian), OBJ, OFF or STL (binary), by the path's extension, coordinates in the unit. What read_mesh gave comes
-/// back as the same doubles in the same unit, but from STL, which holds floats. Throws InvalidInput for another extension, a vertex that is
+/// Writes PLY (binary little-endian), OBJ, OFF or STL (binary), by the path's extension,
+/// coordinates in the unit. What read_mesh gave comes back as the same doubles in the same unit,
+/// but from STL, which holds floats. Throws InvalidInput for another extension, a vertex that is
 /// not finite or a triangle that points at none; WriteError if the file cannot be written.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, LengthUnit unit);
 

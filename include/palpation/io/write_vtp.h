@@ -1,7 +1,9 @@
-/// Files for ParaView and VTK: the tissue with its fields, the boundaries as closed lines, and a list of steps to play.
+/// Files for ParaView and VTK: the tissue with its fields, the boundaries as closed lines, and a
+/// list of steps to play.
 ///
-/// Lengths are metres, numbers are doubles, nothing is rounded. Files are written under a temporary name and renamed. All functions throw
-/// WriteError with path and reason if that fails; the old file then stays.
+/// Lengths are metres, numbers are doubles, nothing is rounded. Files are written under a temporary
+/// name and renamed. All functions throw WriteError with path and reason if that fails; the old
+/// file then stays.
 #pragma once
 
 #include <filesystem>
@@ -35,16 +37,20 @@ struct BoundaryCurve {
   bool hole = false;  ///< an inner boundary of that part
 };
 
-/// The triangles of the surface, with one array at the points for each field. Throws InvalidInput unless every field has one value a vertex
-/// and a name of its own.
-void write_surface_vtp(const std::filesystem::path& path, const Surface& surface, const std::vector<std::pair<std::string, Field>>& fields);
+/// The triangles of the surface, with one array at the points for each field. Throws InvalidInput
+/// unless every field has one value a vertex and a name of its own.
+void write_surface_vtp(const std::filesystem::path& path, const Surface& surface,
+                       const std::vector<std::pair<std::string, Field>>& fields);
 
-/// One closed polyline for each curve, with the cell arrays `kind` (int), `kind_name` (text), `part` (int) and `hole` (int, 0 or 1). No
-/// curves make a valid file without lines. Throws InvalidInput if a curve has fewer than two points, or a point outside the surface's
-/// bounding box (widened by a millionth of its diameter).
-void write_boundary_vtp(const std::filesystem::path& path, const Surface& surface, std::span<const BoundaryCurve> curves);
+/// One closed polyline for each curve, with the cell arrays `kind` (int), `kind_name` (text),
+/// `part` (int) and `hole` (int, 0 or 1). No curves make a valid file without lines. Throws
+/// InvalidInput if a curve has fewer than two points, or a point outside the surface's bounding box
+/// (widened by a millionth of its diameter).
+void write_boundary_vtp(const std::filesystem::path& path, const Surface& surface,
+                        std::span<const BoundaryCurve> curves);
 
-/// A ParaView collection: one file for each step, in order, at times 0, 1, 2, ... Names are relative to the collection's folder.
+/// A ParaView collection: one file for each step, in order, at times 0, 1, 2, ... Names are
+/// relative to the collection's folder.
 void write_pvd(const std::filesystem::path& path, const std::vector<std::string>& files);
 
 }  // namespace palpation

@@ -1,10 +1,12 @@
 /// A simulated phantom: equation (4) of Garg et al. 2016 on any surface.
 ///
-///     Y(x) = low + (high - low) / (1 + exp(-slope d(x) - ln(f / (1 - f)))) + bias x1 (high - low) + noise,
+///     Y(x) = low + (high - low) / (1 + exp(-slope d(x) - ln(f / (1 - f)))) + bias x1 (high - low)
+///     + noise,
 ///
-/// d the signed distance to the true outline (positive inside), f the level's fraction, x1 running from 0 to 1 along the bias axis over the
-/// tissue. A reading made while the probe travels comes late: at x, along the unit vector t, it is of the place x - lag t. The shift by f
-/// makes the true outline the contour at low + f (high - low); at f = 1/2 it is the paper's formula as printed.
+/// d the signed distance to the true outline (positive inside), f the level's fraction, x1 running
+/// from 0 to 1 along the bias axis over the tissue. A reading made while the probe travels comes
+/// late: at x, along the unit vector t, it is of the place x - lag t. The shift by f makes the true
+/// outline the contour at low + f (high - low); at f = 1/2 it is the paper's formula as printed.
 #pragma once
 
 #include <vector>
@@ -29,19 +31,22 @@ struct StiffnessModel {
 
 class Phantom {
  public:
-  /// Throws InvalidInput if the model is not finite, high <= low, slope <= 0, noise < 0, the fraction is outside (0, 1) or the bias axis at
-  /// a right angle to the whole tissue, and as signed_distance.
+  /// Throws InvalidInput if the model is not finite, high <= low, slope <= 0, noise < 0, the
+  /// fraction is outside (0, 1) or the bias axis at a right angle to the whole tissue, and as
+  /// signed_distance.
   Phantom(Surface surface, std::vector<Tumour> tumours, const StiffnessModel& model);
 
-  /// Free of noise and bias, at the vertices: its superlevel set at true_level() is the true region.
+  /// Free of noise and bias, at the vertices: its superlevel set at true_level() is the true
+  /// region.
   const Field& truth() const { return truth_; }
   double true_level() const;
 
-  /// A reading: bias and noise included; its noise variance is left to the field. Inside a face the signed distance is linear. Every touch
-  /// draws one normal, even without noise, so that runs at several noise levels feel the same fluctuations.
+  /// A reading: bias and noise included; its noise variance is left to the field. Inside a face the
+  /// signed distance is linear. Every touch draws one normal, even without noise, so that runs at
+  /// several noise levels feel the same fluctuations.
   Palpation touch(const SurfacePoint& where, Random& random) const;
-  /// The same while travelling along a unit vector, or resting where it is zero. The place that is felt is the tissue's closest point to
-  /// x - lag t; the palpation is said to be at x.
+  /// The same while travelling along a unit vector, or resting where it is zero. The place that is
+  /// felt is the tissue's closest point to x - lag t; the palpation is said to be at x.
   Palpation touch(const SurfacePoint& where, const Vec3& travel, Random& random) const;
 
  private:
