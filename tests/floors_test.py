@@ -17,6 +17,7 @@ import tempfile
 FLOORS = [
     ["base"],
     ["geometry"],
+    ["readings"],
     ["belief", "boundary"],
     ["decision", "certainty", "world"],
     ["exploration"],
@@ -146,6 +147,7 @@ SAMPLES = [
     ("include/palpation/base/up.h", '#include "palpation/geometry/surface.h"\n', "upward"),
     ("include/palpation/geometry/up.h", "#pragma once\n\n#include <palpation/belief/level.h>\n", "upward"),
     ("include/palpation/world/up.h", '#  include "palpation/exploration/run.h"\n', "upward"),
+    ("src/readings/up.cpp", '#include "palpation/belief/kernel.h"\n', "upward"),
     ("src/exploration/up.cpp", '#include "palpation/io/read_mesh.h"\n', "upward"),
     ("src/belief/sideways.cpp", '#include "palpation/boundary/region.h"\n', "sideways"),
     ("src/boundary/sideways.cpp", '#include "palpation/belief/level.h"\n', "sideways"),

@@ -11,8 +11,8 @@
 #include "certainty/edge_belief_fit.h"
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
-#include "palpation/belief/rounding.h"
 #include "palpation/boundary/level_set.h"
+#include "palpation/readings/rounding.h"
 
 namespace palpation {
 namespace {

@@ -6,11 +6,11 @@
 #include "exploration/field_fit.h"
 #include "exploration/heavy_tails.h"
 #include "exploration/lag_fit.h"
-#include "palpation/belief/readings.h"
-#include "palpation/belief/screening.h"
 #include "palpation/certainty/contrast.h"
 #include "palpation/certainty/detection.h"
 #include "palpation/exploration/exploration.h"
+#include "palpation/readings/readings.h"
+#include "palpation/readings/screening.h"
 
 namespace palpation {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "palpation/base/error.h"
-#include "palpation/belief/readings.h"
-#include "palpation/belief/way.h"
+#include "palpation/readings/readings.h"
+#include "palpation/readings/way.h"
 
 namespace palpation {
 namespace {

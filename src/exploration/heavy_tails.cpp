@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "exploration/field_fit.h"
-#include "palpation/belief/readings.h"
+#include "palpation/readings/readings.h"
 
 namespace palpation {
 namespace {

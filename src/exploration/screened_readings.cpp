@@ -1,7 +1,7 @@
 #include "exploration/screened_readings.h"
 
 #include "palpation/belief/lag.h"
-#include "palpation/belief/screening.h"
+#include "palpation/readings/screening.h"
 
 namespace palpation {
 

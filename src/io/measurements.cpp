@@ -12,8 +12,8 @@
 #include "io/number_text.h"
 #include "io/places.h"
 #include "palpation/base/error.h"
-#include "palpation/belief/readings.h"
 #include "palpation/io/csv.h"
+#include "palpation/readings/readings.h"
 
 namespace palpation {
 namespace {

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "palpation/base/error.h"
-#include "palpation/belief/contact.h"
-#include "palpation/belief/screening.h"
 #include "palpation/geometry/make_plane.h"
 #include "palpation/io/csv.h"
 #include "palpation/io/recording.h"
+#include "palpation/readings/contact.h"
+#include "palpation/readings/screening.h"
 #include "palpation/world/recording.h"
 #include "palpation/world/tumour.h"
 #include "tool/experiment.h"

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "palpation/base/error.h"
-#include "palpation/belief/contact.h"
-#include "palpation/belief/readings.h"
-#include "palpation/belief/screening.h"
 #include "palpation/boundary/level_remarks.h"
 #include "palpation/boundary/level_set.h"
 #include "palpation/certainty/contrast.h"
 #include "palpation/certainty/reference_bound.h"
+#include "palpation/readings/contact.h"
+#include "palpation/readings/readings.h"
+#include "palpation/readings/screening.h"
 #include "tool/parts.h"
 #include "tool/words.h"
 

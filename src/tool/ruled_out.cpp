@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpation/belief/readings.h"
 #include "palpation/certainty/detection.h"
+#include "palpation/readings/readings.h"
 #include "tool/episode.h"
 
 namespace palpation::tool {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "palpation/belief/readings.h"
 #include "palpation/boundary/level_set.h"
+#include "palpation/readings/readings.h"
 #include "tool/parts.h"
 
 namespace palpation::tool {

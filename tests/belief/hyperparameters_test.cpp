@@ -217,5 +217,14 @@ TEST(Learn, NeedsTwoPlaces) {
   EXPECT_THROW(learn(Prior(tissue, Metric::Chart, {}), one, {}, {}), InvalidInput);
 }
 
+TEST(Learn, TakesNoNoiseForLessThanTheStepOfTheReadings) {
+  const Surface tissue = plane(41, 41);
+  std::vector<Palpation> alike;
+  for (int i = 0; i < 40; ++i)
+    alike.push_back(touch(tissue, 41 * i + 5, i < 20 ? 7.0 : i < 38 ? 7.5 : 8.0));
+  const Learned learned = learn(Prior(tissue, Metric::Chart, {.length_m = 0.0035}), alike, {}, {});
+  EXPECT_GE(learned.values.noise_sd, 0.999 * 0.5 / std::sqrt(12.0));
+}
+
 }  // namespace
 }  // namespace palpation

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "belief/tissue.h"
-#include "palpation/belief/screening.h"
 #include "palpation/boundary/level_set.h"
 #include "palpation/certainty/contrast.h"
 #include "palpation/exploration/exploration.h"
+#include "palpation/readings/screening.h"
 #include "palpation/world/phantom.h"
 
 namespace palpation {

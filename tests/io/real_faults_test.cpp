@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "palpation/belief/screening.h"
 #include "palpation/geometry/make_plane.h"
 #include "palpation/io/recording.h"
+#include "palpation/readings/screening.h"
 
 namespace palpation {
 namespace {

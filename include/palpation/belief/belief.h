@@ -43,9 +43,9 @@
 #include <span>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/belief/prior.h"
 #include "palpation/belief/sites.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -7,10 +7,10 @@
 #pragma once
 
 #include "palpation/belief/belief.h"
-#include "palpation/belief/contact.h"
 #include "palpation/belief/level.h"
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/expected_error.h"
+#include "palpation/readings/contact.h"
 
 namespace palpation {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/belief/prior.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "palpation/base/random.h"
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 #include "palpation/world/tumour.h"
 
 namespace palpation {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "palpation/base/types.h"
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/scattered.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -1,10 +1,10 @@
-#include "palpation/belief/readings.h"
+#include "palpation/readings/readings.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "belief/tissue.h"
+#include "readings/tissue.h"
 
 namespace palpation {
 namespace {

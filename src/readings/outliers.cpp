@@ -1,12 +1,11 @@
-#include "belief/outliers.h"
+#include "readings/outliers.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "belief/robust.h"
-#include "palpation/belief/kernel.h"
+#include "readings/robust.h"
 
 namespace palpation {
 namespace {
@@ -21,7 +20,13 @@ constexpr double kShown = 6.0;  // noises between the least and the greatest rea
                                 // show a contrast of their own
 constexpr double kMostShare = 0.1;         // of the readings
 constexpr std::size_t kLeastReadings = 5;  // fewer cannot say which of them is wrong
-constexpr Kernel kRough{.family = KernelFamily::Matern32, .length_m = 0.0035};
+constexpr double kLength_m = 0.0035;       // of the field that they are held against
+
+/// Of a rough field at two places so far apart: Matern 3/2.
+double correlation(const Vec3& difference) {
+  const double s = std::sqrt(3.0 * (difference / kLength_m).squaredNorm());
+  return (1.0 + s) * std::exp(-s);
+}
 
 bool comparable(const Palpation& a, const Palpation& b) {
   const bool a_travels = !a.travel.isZero(0.0), b_travels = !b.travel.isZero(0.0);
@@ -84,10 +89,10 @@ class Neighbourhoods {
     for (Eigen::Index a = 0; a < n; ++a) {
       const std::size_t here = around[static_cast<std::size_t>(a)];
       for (Eigen::Index b = 0; b < n; ++b) {
-        k(a, b) = correlation(kRough, places_[here] - places_[around[static_cast<std::size_t>(b)]]);
+        k(a, b) = correlation(places_[here] - places_[around[static_cast<std::size_t>(b)]]);
       }
       k(a, a) += noise_ratio;
-      right_sides.row(a) << correlation(kRough, places_[i] - places_[here]), 1.0,
+      right_sides.row(a) << correlation(places_[i] - places_[here]), 1.0,
           palpations_[here].reading - palpations_[i].reading;
     }
     const Eigen::MatrixXd solved = k.llt().solve(right_sides);

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "palpation/belief/palpation.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

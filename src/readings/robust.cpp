@@ -1,4 +1,4 @@
-#include "belief/robust.h"
+#include "readings/robust.h"
 
 #include <algorithm>
 #include <cmath>

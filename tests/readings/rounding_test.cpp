@@ -1,11 +1,10 @@
-#include "palpation/belief/rounding.h"
+#include "palpation/readings/rounding.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "belief/tissue.h"
-#include "palpation/belief/hyperparameters.h"
+#include "readings/tissue.h"
 
 namespace palpation {
 namespace {
@@ -39,15 +38,6 @@ TEST(RoundingVariance, IsNoneOfTwoPlateausWithoutNoise) {
   std::vector<Palpation> stepped = readings_in_steps(plane(41, 41), 0.0);
   for (std::size_t i = 0; i < stepped.size(); ++i) stepped[i].reading = i % 5 == 0 ? 9.0 : 7.0;
   EXPECT_EQ(rounding_variance(stepped), 0.0);
-}
-
-TEST(Learn, TakesNoNoiseForLessThanTheStepOfTheReadings) {
-  const Surface tissue = plane(41, 41);
-  std::vector<Palpation> alike;
-  for (int i = 0; i < 40; ++i)
-    alike.push_back(touch(tissue, 41 * i + 5, i < 20 ? 7.0 : i < 38 ? 7.5 : 8.0));
-  const Learned learned = learn(Prior(tissue, Metric::Chart, {.length_m = 0.0035}), alike, {}, {});
-  EXPECT_GE(learned.values.noise_sd, 0.999 * 0.5 / std::sqrt(12.0));
 }
 
 }  // namespace

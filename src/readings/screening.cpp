@@ -1,13 +1,13 @@
-#include "palpation/belief/screening.h"
+#include "palpation/readings/screening.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "belief/outliers.h"
-#include "belief/passes.h"
-#include "belief/robust.h"
-#include "palpation/belief/readings.h"
+#include "palpation/readings/readings.h"
+#include "readings/outliers.h"
+#include "readings/passes.h"
+#include "readings/robust.h"
 
 namespace palpation {
 namespace {

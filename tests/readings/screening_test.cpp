@@ -1,4 +1,4 @@
-#include "palpation/belief/screening.h"
+#include "palpation/readings/screening.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 #include <map>
 
-#include "belief/tissue.h"
+#include "readings/tissue.h"
 
 namespace palpation {
 namespace {

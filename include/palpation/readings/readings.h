@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

@@ -1,9 +1,9 @@
-#include "palpation/belief/rounding.h"
+#include "palpation/readings/rounding.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "palpation/belief/readings.h"
+#include "palpation/readings/readings.h"
 
 namespace palpation {
 namespace {

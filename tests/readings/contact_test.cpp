@@ -1,10 +1,10 @@
-#include "palpation/belief/contact.h"
+#include "palpation/readings/contact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "belief/tissue.h"
+#include "readings/tissue.h"
 
 namespace palpation {
 namespace {

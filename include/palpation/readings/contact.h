@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

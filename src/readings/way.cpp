@@ -1,4 +1,4 @@
-#include "palpation/belief/way.h"
+#include "palpation/readings/way.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include "belief/passes.h"
+#include "readings/passes.h"
 
 #include <algorithm>
 
-#include "belief/robust.h"
+#include "readings/robust.h"
 
 namespace palpation {
 namespace {

@@ -1,12 +1,12 @@
-#include "palpation/belief/contact.h"
+#include "palpation/readings/contact.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "belief/robust.h"
-#include "palpation/belief/readings.h"
+#include "palpation/readings/readings.h"
+#include "readings/robust.h"
 
 namespace palpation {
 namespace {

@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "palpation/belief/palpation.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/readings/palpation.h"
 
 namespace palpation {
 

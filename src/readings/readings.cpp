@@ -1,4 +1,4 @@
-#include "palpation/belief/readings.h"
+#include "palpation/readings/readings.h"
 
 #include <Eigen/QR>
 #include <algorithm>

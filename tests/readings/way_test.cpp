@@ -1,8 +1,8 @@
-#include "palpation/belief/way.h"
+#include "palpation/readings/way.h"
 
 #include <gtest/gtest.h>
 
-#include "belief/tissue.h"
+#include "readings/tissue.h"
 
 namespace palpation {
 namespace {
