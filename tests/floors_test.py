@@ -22,10 +22,13 @@ FLOORS = [
     ["decision", "certainty", "world"],
     ["exploration"],
     ["io"],
-    ["tool", "draw"],
+    ["scene"],
+    ["tool", "experiments", "draw"],
 ]
 FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
-PROGRAMS = {"tool", "draw"}  # no public headers: nobody may include from them
+PROGRAMS = {"scene", "tool", "experiments", "draw"}  # no public headers, and nothing is installed
+SHARED = {"scene"}  # their headers in src/ are for the floors above, too
+ROOFS = {"src/tool/main.cpp"}  # a program's main puts the siblings of its floor together
 
 # Third party: how its headers are spelled, and the folders whose sources may use it. Boost comes with CGAL, as the language of its graphs.
 THIRD_PARTIES = {
@@ -34,7 +37,7 @@ THIRD_PARTIES = {
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),
     "CLI11": (r"CLI/", {"tool", "draw"}),
-    "nlohmann-json": (r"nlohmann/", {"tool", "draw"}),
+    "nlohmann-json": (r"nlohmann/", PROGRAMS),
     "EGL, OpenGL and X11": (r"(E?GL|X11)/", {"draw"}),
 }
 EIGEN = re.compile(r"Eigen/\w+$")
@@ -66,7 +69,16 @@ def includes_of(code):
         yield code.count("\n", 0, match.start()) + 1, (named.group(1) or named.group(2)) if named else None
 
 
-def fault(folder, is_public, header):
+def arrow_fault(folder, other):
+    """What is wrong with an arrow between folders, or None."""
+    if FLOOR_OF[other] > FLOOR_OF[folder]:
+        return f"an upward arrow, {folder} is on floor {FLOOR_OF[folder]} and {other} on floor {FLOOR_OF[other]}"
+    if FLOOR_OF[other] == FLOOR_OF[folder] and other != folder:
+        return f"a sideways arrow, {folder} and {other} are both on floor {FLOOR_OF[folder]}"
+    return None
+
+
+def fault(folder, is_public, header, is_roof=False):
     """What is wrong with a file of this folder including this header, or None."""
     if header is None:
         return "an include line must spell its header out"
@@ -77,17 +89,18 @@ def fault(folder, is_public, header):
     if parts[0] == "palpation":
         if len(parts) != 3 or parts[1] not in FLOOR_OF or parts[1] in PROGRAMS:
             return f"{header}: the project's headers are palpation/<folder>/<unit>.h"
-        if folder is not None and parts[1] != folder:
-            if FLOOR_OF[parts[1]] > FLOOR_OF[folder]:
-                return f"{header}: an upward arrow, {folder} is on floor {FLOOR_OF[folder]} and {parts[1]} on floor {FLOOR_OF[parts[1]]}"
-            if FLOOR_OF[parts[1]] == FLOOR_OF[folder]:
-                return f"{header}: a sideways arrow, {folder} and {parts[1]} are both on floor {FLOOR_OF[folder]}"
-        return None
+        words = None if folder is None else arrow_fault(folder, parts[1])
+        return f"{header}: {words}" if words else None
 
     if len(parts) == 2 and parts[0] in FLOOR_OF:
         if is_public:
             return f"{header}: a private header in a public one"
-        return None if parts[0] == folder else f"{header}: private to {parts[0]}"
+        if parts[0] == folder or (is_roof and FLOOR_OF[parts[0]] == FLOOR_OF[folder]):
+            return None
+        if parts[0] in SHARED:
+            words = arrow_fault(folder, parts[0])
+            return f"{header}: {words}" if words else None
+        return f"{header}: private to {parts[0]}"
 
     for party, (spelling, folders) in THIRD_PARTIES.items():
         if re.match(spelling, header):
@@ -125,7 +138,7 @@ def faults_of(root):
             continue
         for line, header in includes_of(path.read_text(encoding="utf-8")):
             read += 1
-            words = fault(folder, is_public, header)
+            words = fault(folder, is_public, header, place in ROOFS)
             if words:
                 faults.append(f"{place}:{line}: {words}")
     return faults, read
@@ -140,7 +153,14 @@ SAMPLES = [
     ("src/belief/good.cpp", "#include <nlopt.hpp>\n#include <Eigen/Cholesky>\n", None),
     ("src/boundary/good.cpp", "#include <vtkContourFilter.h>\n#include <CGAL/Polygon_set_2.h>\n#include <boost/variant.hpp>\n", None),
     ("src/io/good.cpp", "#include <vtkXMLPolyDataWriter.h>\n#include <fcntl.h>\n#include <sys/stat.h>\n", None),
-    ("src/tool/good.cpp", '#include <CLI/CLI.hpp>\n#include <nlohmann/json.hpp>\n#include "tool/scene.h"\n#include "palpation/io/read_mesh.h"\n', None),
+    ("src/tool/good.cpp", '#include <CLI/CLI.hpp>\n#include <nlohmann/json.hpp>\n#include "tool/commands.h"\n#include "scene/scene.h"\n#include "palpation/io/read_mesh.h"\n', None),
+    ("src/tool/main.cpp", '#include "tool/commands.h"\n#include "experiments/experiment.h"\n', None),
+    ("src/experiments/good.cpp", '#include <nlohmann/json.hpp>\n#include "scene/scene.h"\n#include "experiments/experiment.h"\n', None),
+    ("src/tool/sibling.cpp", '#include "experiments/experiment.h"\n', "private to experiments"),
+    ("src/experiments/sibling.cpp", '#include "tool/commands.h"\n', "private to tool"),
+    ("src/scene/upstairs.cpp", '#include "tool/commands.h"\n', "private to tool"),
+    ("src/io/shared.cpp", '#include "scene/scene.h"\n', "upward"),
+    ("src/scene/third.cpp", "#include <CLI/CLI.hpp>\n", "CLI11 may only"),
     ("src/draw/good.cpp", "#include <vtkRenderer.h>\n#include <nlohmann/json.hpp>\n#include <EGL/egl.h>\n#include <dlfcn.h>\n", None),
     ("src/base/comment.cpp", '// #include <vtkObject.h>\n/* \n#include <CGAL/enum.h>\n*/\nconst char* text = R"(\n#include <CLI/CLI.hpp>\n)";\n', None),
     ("src/base/address.cpp", 'const char* where = "https://example.org/*"; // */\n', None),
@@ -170,7 +190,7 @@ SAMPLES = [
     ("src/base/macro.cpp", "#include HEADER\n", "spell"),
     ("src/base/dots.cpp", '#include "palpation/base/../io/read_mesh.h"\n', "without .."),
     ("src/boundary/private.cpp", '#include "geometry/half_edges.h"\n', "private to geometry"),
-    ("src/io/upstairs.cpp", '#include "tool/scene.h"\n', "private to tool"),
+    ("src/io/upstairs.cpp", '#include "tool/commands.h"\n', "private to tool"),
     ("include/palpation/boundary/third.h", "#include <CGAL/Polygon_set_2.h>\n", "public header"),
     ("include/palpation/geometry/third.h", "#include <OpenMesh/Core/Mesh/Traits.hh>\n", "public header"),
     ("include/palpation/io/third.h", "#include <vtkSmartPointer.h>\n", "public header"),

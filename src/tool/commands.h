@@ -40,19 +40,6 @@ struct MeshArguments {
   std::filesystem::path output;
 };
 
-struct ExperimentArguments {
-  std::string name;
-  std::filesystem::path scene;  ///< empty: the paper's
-  std::vector<std::string> overrides;
-  std::vector<std::string> only;  ///< run the cells whose names have all of these in them
-  int trials = 0;                 ///< 0: as many as the experiment takes by default
-  std::uint64_t first_seed = 0;
-  bool print_scene = false;
-  std::filesystem::path recordings;  ///< the folder that holds them
-  std::filesystem::path out;
-  bool quiet = false;
-};
-
 void simulate(const SceneArguments& arguments);
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements);
 void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements);
@@ -63,8 +50,5 @@ void info(const InfoArguments& arguments);
 void make_mesh(const MeshArguments& arguments);
 /// The phantoms that there are.
 std::vector<std::string> mesh_kinds();
-void experiment(const ExperimentArguments& arguments);
-/// The experiments that there are.
-std::vector<std::string> experiment_names();
 
 }  // namespace palpation::tool

@@ -6,11 +6,11 @@
 #include "palpation/boundary/region_error.h"
 #include "palpation/io/read_boundary.h"
 #include "palpation/io/wkt.h"
+#include "scene/output_folder.h"
+#include "scene/scene_json.h"
+#include "scene/tissue.h"
+#include "scene/words.h"
 #include "tool/commands.h"
-#include "tool/output_folder.h"
-#include "tool/scene_json.h"
-#include "tool/tissue.h"
-#include "tool/words.h"
 
 namespace palpation::tool {
 namespace {

@@ -6,11 +6,11 @@
 #include "palpation/base/error.h"
 #include "palpation/geometry/surface.h"
 #include "palpation/io/read_mesh.h"
+#include "scene/exit_code.h"
+#include "scene/mesh_words.h"
+#include "scene/scene.h"
+#include "scene/tissue.h"
 #include "tool/commands.h"
-#include "tool/exit_code.h"
-#include "tool/mesh_words.h"
-#include "tool/scene.h"
-#include "tool/tissue.h"
 
 namespace palpation::tool {
 namespace {

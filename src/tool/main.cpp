@@ -5,12 +5,13 @@
 #include <new>
 #include <thread>
 
+#include "experiments/experiment_command.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
+#include "scene/exit_code.h"
+#include "scene/progress.h"
+#include "scene/scene_schema.h"
 #include "tool/commands.h"
-#include "tool/exit_code.h"
-#include "tool/progress.h"
-#include "tool/scene_schema.h"
 #include "tool/standard_streams.h"
 
 namespace {

@@ -12,9 +12,9 @@
 #include "palpation/geometry/make_plane.h"
 #include "palpation/io/read_mesh.h"
 #include "palpation/io/recording.h"
+#include "scene/exit_code.h"
+#include "scene/mesh_words.h"
 #include "tool/commands.h"
-#include "tool/exit_code.h"
-#include "tool/mesh_words.h"
 
 namespace palpation::tool {
 namespace {

@@ -3,16 +3,16 @@
 
 #include "palpation/base/error.h"
 #include "palpation/io/measurements.h"
+#include "scene/episode.h"
+#include "scene/output_folder.h"
+#include "scene/progress.h"
+#include "scene/remarks.h"
+#include "scene/setup.h"
+#include "scene/stopwatch.h"
+#include "scene/tissue.h"
+#include "scene/words.h"
+#include "scene/worlds.h"
 #include "tool/commands.h"
-#include "tool/episode.h"
-#include "tool/output_folder.h"
-#include "tool/progress.h"
-#include "tool/remarks.h"
-#include "tool/setup.h"
-#include "tool/stopwatch.h"
-#include "tool/tissue.h"
-#include "tool/words.h"
-#include "tool/worlds.h"
 
 namespace palpation::tool {
 namespace {

@@ -1,9 +1,9 @@
 // Scenes, up to all that is made of them before a mesh is read.
-#include "tool/scene.h"
+#include "scene/scene.h"
 
 #include "fuzz/target.h"
 #include "palpation/base/error.h"
-#include "tool/setup.h"
+#include "scene/setup.h"
 
 namespace palpation::fuzz {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "palpation/base/error.h"
 #include "palpation/base/random.h"
-#include "tool/episode.h"
-#include "tool/scene_schema.h"
-#include "tool/tissue.h"
-#include "tool/worlds.h"
+#include "scene/episode.h"
+#include "scene/scene_schema.h"
+#include "scene/tissue.h"
+#include "scene/worlds.h"
 
 namespace palpation::tool {
 namespace {

@@ -9,10 +9,10 @@
 #include "palpation/base/error.h"
 #include "palpation/base/random.h"
 #include "palpation/io/measurements.h"
+#include "scene/episode.h"
+#include "scene/tissue.h"
+#include "scene/words.h"
 #include "tool/commands.h"
-#include "tool/episode.h"
-#include "tool/tissue.h"
-#include "tool/words.h"
 
 namespace palpation::tool {
 namespace {

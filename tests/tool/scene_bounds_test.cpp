@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "palpation/base/error.h"
-#include "tool/episode.h"
-#include "tool/exit_code.h"
-#include "tool/scene_schema.h"
-#include "tool/tissue.h"
-#include "tool/worlds.h"
+#include "scene/episode.h"
+#include "scene/exit_code.h"
+#include "scene/scene_schema.h"
+#include "scene/tissue.h"
+#include "scene/worlds.h"
 
 namespace palpation::tool {
 namespace {

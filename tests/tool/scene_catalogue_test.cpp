@@ -11,10 +11,10 @@
 
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
-#include "tool/episode.h"
-#include "tool/exit_code.h"
-#include "tool/tissue.h"
-#include "tool/worlds.h"
+#include "scene/episode.h"
+#include "scene/exit_code.h"
+#include "scene/tissue.h"
+#include "scene/worlds.h"
 
 namespace palpation::tool {
 namespace {

@@ -1,4 +1,4 @@
-#include "tool/scene.h"
+#include "scene/scene.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "palpation/base/error.h"
-#include "tool/scene_schema.h"
-#include "tool/setup.h"
-#include "tool/speed.h"
-#include "tool/tissue.h"
+#include "scene/scene_schema.h"
+#include "scene/setup.h"
+#include "scene/speed.h"
+#include "scene/tissue.h"
 
 namespace palpation::tool {
 namespace {

@@ -1,0 +1,28 @@
+/// The command that runs an experiment by its name.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palpation::tool {
+
+struct ExperimentArguments {
+  std::string name;
+  std::filesystem::path scene;  ///< empty: the paper's
+  std::vector<std::string> overrides;
+  std::vector<std::string> only;  ///< run the cells whose names have all of these in them
+  int trials = 0;                 ///< 0: as many as the experiment takes by default
+  std::uint64_t first_seed = 0;
+  bool print_scene = false;
+  std::filesystem::path recordings;  ///< the folder that holds them
+  std::filesystem::path out;
+  bool quiet = false;
+};
+
+void experiment(const ExperimentArguments& arguments);
+/// The experiments that there are.
+std::vector<std::string> experiment_names();
+
+}  // namespace palpation::tool

@@ -1,0 +1,97 @@
+/// A whole run over a scene, against a world that answers touches: what `simulate`, `replay` and
+/// the experiments share.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpation/boundary/level_set.h"
+#include "palpation/boundary/region_error.h"
+#include "palpation/exploration/exploration.h"
+#include "palpation/exploration/trace.h"
+#include "scene/scene.h"
+
+namespace palpation::tool {
+
+/// Places that a run may touch: more would take hours and gigabytes, since the model's cost grows
+/// with their third power.
+inline constexpr int kMostPlaces = 10'000;
+
+/// What answers, and what is known to be true of it.
+struct World {
+  Probe probe;
+  Field truth;  ///< at the vertices
+  double true_level = 0.0;
+  std::string truth_is = "the truth";  ///< in words
+  Reach reach{};
+  std::vector<std::string> warnings{};  ///< what looks odd about it, a sentence each
+};
+
+/// The state after a batch.
+struct Snapshot {
+  Field mean, stddev, acquisition;
+  Field score{}, probability_inside{};  ///< of certainty.h; empty while there is no level
+  Field mean_detrended{};               ///< empty where no trend is modelled
+};
+
+struct Episode {
+  Exploration exploration;
+  Region estimate{};
+  std::optional<Region> truth{};
+  std::string truth_is{};                   ///< in words
+  std::optional<Superlevel> plain_truth{};  ///< where errors are asked for in plain arithmetic
+  std::optional<RegionError> error{};
+  Trace trace{};
+  std::vector<int> stops{};         ///< all planned stops, in the order of travel
+  std::vector<SurfacePoint> way{};  ///< the places between them
+  std::vector<int> legs{};  ///< the stop that each of these leads to, by its place among the stops
+  double path_m = 0.0;
+  double cut_risk = 0.05;  ///< of the cut line
+  double band_probability = 0.95;
+  double level_fraction = 0.5;
+  std::optional<double>
+      assumed_contrast{};  ///< of tumours that must not be missed, in reading units
+  double start_seconds =
+      0.0;  ///< until the field could take readings: an intrinsic one finds the surface's waves
+  std::vector<double>
+      batch_seconds{};  ///< planning and updating, the boundary and its error included
+  std::vector<double> batch_cpu_seconds{};  ///< the same, of this thread's processor
+  std::optional<std::string> coarse_stop_reason{};
+
+  /// Why nothing more is to be touched.
+  const std::string& stop_reason() const {
+    return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason();
+  }
+};
+
+using AfterBatch = std::function<void(const Episode&)>;
+
+/// Whether the scene asks for a classical scan in place of batches.
+bool is_scan(const Scene& scene);
+
+/// Runs the scene's plan to its end. Pictures of intermediate states are the caller's, by
+/// after_batch.
+Episode run_episode(const Scene& scene, const Surface& surface, const World& world,
+                    const AfterBatch& after_batch = {});
+
+/// What is believed after measurements that were made elsewhere.
+Episode episode_from(const Scene& scene, const Surface& surface,
+                     std::span<const Palpation> palpations);
+
+Snapshot snapshot(const Episode& episode);
+
+/// The least diameter of a tumour that would have been found, with the band's probability: wherever
+/// on the tissue where nothing was found, else outside of what was found. Its contrast is the
+/// assumed one, else four times the scatter of the readings, or that of what was found. Nothing
+/// without readings, where no size can be ruled out, or where something stiff is hidden by the
+/// probe's tip.
+std::optional<double> diameter_ruled_out_m(const Episode& episode);
+/// Those that are not set aside, the trend taken off.
+std::vector<double> readings_that_count(const Exploration& exploration);
+/// Their standard deviation, or that of a noise that is given, if it is greater; 0 where all are
+/// alike.
+double scatter(const Exploration& exploration);
+
+}  // namespace palpation::tool

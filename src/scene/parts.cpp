@@ -1,0 +1,116 @@
+#include "scene/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "palpation/boundary/level_set.h"
+
+namespace palpation::tool {
+namespace {
+
+/// On flat tissue the chart's area is the tissue's.
+double area_on_tissue(const PolygonWithHoles& polygon, double in_chart_m2, const Surface& surface) {
+  if (surface.is_planar()) return in_chart_m2;
+  std::vector<Ring> rings = polygon.holes;
+  rings.push_back(polygon.outer);
+  return surface_area(surface, Region::even_odd(rings));
+}
+
+TumourPart measured(const PolygonWithHoles& polygon, const Surface& surface) {
+  TumourPart part{.polygon = polygon};
+  double twice_area = 0.0;
+  Vec2 moment = Vec2::Zero();
+  const Vec2 origin = polygon.outer.front();
+  part.least_m = part.most_m = origin;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i] - origin;
+      const Vec2 b = ring[(i + 1) % ring.size()] - origin;
+      const double cross = a.x() * b.y() - a.y() * b.x();
+      twice_area += cross;
+      moment += cross * (a + b) / 3.0;
+      part.least_m = part.least_m.cwiseMin(ring[i]);
+      part.most_m = part.most_m.cwiseMax(ring[i]);
+    }
+  };
+  add(polygon.outer);
+  for (const Ring& hole : polygon.holes) add(hole);
+  part.area_m2 = area_on_tissue(polygon, 0.5 * twice_area, surface);
+  part.centroid_m = origin + moment / twice_area;
+  Eigen::Index nearest = 0;
+  (surface.chart().uv.rowwise() - part.centroid_m.transpose())
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
+  part.position_m = surface.vertex(static_cast<int>(nearest));
+  return part;
+}
+
+/// Even-odd over all rings.
+bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
+  bool inside = false;
+  const auto cross = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2& a = ring[i];
+      const Vec2& b = ring[(i + 1) % ring.size()];
+      if ((a.y() > place.y()) != (b.y() > place.y()) &&
+          place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+  };
+  cross(polygon.outer);
+  for (const Ring& hole : polygon.holes) cross(hole);
+  return inside;
+}
+
+/// Every part of a level set holds a vertex, which is as deep as the part is; where rounding hides
+/// it, the part is at the level.
+void look_inside(TumourPart& part, const Surface& surface, const Field& score) {
+  double deepest = 0.0;
+  const auto is_inside = [&](int vertex) {
+    const Vec2 place = surface.chart().uv.row(vertex).transpose();
+    const bool near = (place.array() >= part.least_m.array()).all() &&
+                      (place.array() <= part.most_m.array()).all();
+    return near && contains(part.polygon, place);
+  };
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    if (score[vertex] > deepest && is_inside(vertex)) deepest = score[vertex];
+  }
+  part.probability = 0.5 * std::erfc(-deepest / std::numbers::sqrt2);
+}
+
+/// Where the outline follows the border it has corners there.
+bool has_border_corner(const TumourPart& part, const Surface& surface) {
+  for (const std::vector<int>& loop : surface.border_loops()) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 a = surface.chart().uv.row(loop[i]).transpose();
+      const Vec2 along = surface.chart().uv.row(loop[(i + 1) % loop.size()]).transpose() - a;
+      for (const Vec2& corner : part.polygon.outer) {
+        const double share = std::clamp((corner - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        if ((corner - a - share * along).norm() <= 1e-9 * surface.diameter()) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+TumourPart measured(const Ring& ring, const Surface& surface) {
+  return measured(PolygonWithHoles{ring, {}}, surface);
+}
+
+std::vector<TumourPart> parts_of(const Episode& episode) {
+  std::vector<TumourPart> parts;
+  const Exploration& exploration = episode.exploration;
+  for (const PolygonWithHoles& polygon : episode.estimate.polygons()) {
+    TumourPart& part = parts.emplace_back(measured(polygon, exploration.surface()));
+    if (exploration.certainty())
+      look_inside(part, exploration.surface(), exploration.certainty()->score);
+    part.touches_border = has_border_corner(part, exploration.surface());
+  }
+  return parts;
+}
+
+}  // namespace palpation::tool

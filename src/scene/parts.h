@@ -1,0 +1,28 @@
+/// The parts of an estimated tumour, each with what a person asks of it: where, how large, whether
+/// it is there at all.
+#pragma once
+
+#include <vector>
+
+#include "scene/episode.h"
+
+namespace palpation::tool {
+
+/// The area on the tissue, lengths and places in the chart.
+struct TumourPart {
+  PolygonWithHoles polygon;
+  double area_m2 = 0.0;                                ///< without its holes
+  Vec2 centroid_m = Vec2::Zero();                      ///< of that area
+  Vec2 least_m = Vec2::Zero(), most_m = Vec2::Zero();  ///< corners of its bounding box
+  Vec3 position_m = Vec3::Zero();  ///< on the tissue: of the vertex nearest to the centroid
+  double probability = 1.0;        ///< that it exists: of its surest place to be tumour
+  bool touches_border = false;     ///< of the tissue, beyond which it may go on
+};
+
+/// By falling area, as Region lists them. None where nothing was found.
+std::vector<TumourPart> parts_of(const Episode& episode);
+
+/// A ring as a part of its own, without probability.
+TumourPart measured(const Ring& ring, const Surface& surface);
+
+}  // namespace palpation::tool

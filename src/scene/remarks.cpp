@@ -1,0 +1,199 @@
+#include "scene/remarks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palpation/base/error.h"
+#include "palpation/boundary/level_remarks.h"
+#include "palpation/boundary/level_set.h"
+#include "palpation/certainty/contrast.h"
+#include "palpation/certainty/reference_bound.h"
+#include "palpation/readings/contact.h"
+#include "palpation/readings/readings.h"
+#include "palpation/readings/screening.h"
+#include "scene/parts.h"
+#include "scene/words.h"
+
+namespace palpation::tool {
+namespace {
+
+constexpr double kMuchUntouched = 0.05;  // of the tissue
+constexpr double kMuchPlane =
+    0.5;  // of the readings' variance; a tumour over one half of the tissue gives three quarters
+constexpr double kMuchStiff = 0.5;  // of the tissue
+constexpr int kManySites = 1000;    // would be cheaper by reduced rank, if anything would
+/// Expected wrong area beyond this part of the area found is told: the boundary is then hardly
+/// better than a guess.
+constexpr double kLargeShare = 0.25;
+constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
+constexpr double kNoNoise = 1e-3;  // of the contrast: so little does not limit what they reach
+
+/// What a screen found, and whether the probe kept its contact.
+std::vector<std::string> screening_remarks(const Exploration& exploration) {
+  if (!exploration.is_screened()) return {};
+  std::vector<std::string> remarks;
+  for (const std::string& reason : {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier}) {
+    const std::vector<Palpation>& all = exploration.palpations();
+    const auto count = std::count_if(all.begin(), all.end(),
+                                     [&](const Palpation& one) { return one.set_aside == reason; });
+    if (count > 0)
+      remarks.push_back(counted(static_cast<std::size_t>(count), "reading") + " set aside (" +
+                        reason + ").");
+  }
+  if (const std::optional<FadingContact> fading =
+          fading_contact(exploration.surface(), exploration.palpations()))
+    remarks.push_back("Contact fades towards (" + fixed(fading->towards.x(), 2) + ", " +
+                      fixed(fading->towards.y(), 2) + ", " + fixed(fading->towards.z(), 2) +
+                      "): healthy tissue reads " + percent(fading->base_fall) +
+                      " of the contrast less at that end, where stiff tissue may be missed.");
+  return remarks;
+}
+
+/// Noise that is too low for the tolerance, or features that are no fewer than readings.
+std::string reduced_rank_words(const Belief& belief) {
+  const double tolerance = belief.options().reduced_rank_tolerance;
+  if (tolerance == 0.0 || belief.reduced_rank() || belief.site_count() < kManySites) return "";
+  const double noise = belief.noise_variance() / (belief.signal_sd() * belief.signal_sd());
+  const std::string words = "field.reduced_rank is not in force: ";
+  if (noise >= kLeastNoiseForReducedRank * tolerance)
+    return words + "it would take no fewer features than there are readings.";
+  return words + "the noise's variance is " + text_of(noise) + " of the signal's, and must be " +
+         text_of(kLeastNoiseForReducedRank) + " times the tolerance at least.";
+}
+
+/// A level that is given, and that no reading comes near, decides before anything is felt.
+std::string level_outside_words(const Exploration& exploration) {
+  if (exploration.level()->stddev != 0.0) return "";
+  const std::vector<double> readings = readings_that_count(exploration);
+  if (all_equal(readings)) return "";
+  const auto [least, greatest] = std::ranges::minmax(readings);
+  const double level = exploration.level()->value;
+  if (level > least && level < greatest) return "";
+  return "The level " + reading_text(level) + " lies " + (level > least ? "above" : "below") +
+         " every reading, " + reading_text(least) + " to " + reading_text(greatest) + ": " +
+         (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
+}
+
+std::string lone_reading_words(const Surface& surface, const Palpation& lone) {
+  return "One reading, " + reading_text(lone.reading) + " at " +
+         place_words(surface.position(lone.where), 1) +
+         ", lies farther from all others than they lie from each other" +
+         (lone.set_aside == kStandsAlone
+              ? ", and is set aside: touch there again to confirm it (field.screening finds more "
+                "such readings)."
+              : ": touch there again, or take it out if it is a fault (field.screening sets aside "
+                "what readings around it contradict).");
+}
+
+double perimeter_m(const Region& region) {
+  double sum = 0.0;
+  const auto add = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      sum += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+  };
+  for (const PolygonWithHoles& polygon : region.polygons()) {
+    add(polygon.outer);
+    for (const Ring& hole : polygon.holes) add(hole);
+  }
+  return sum;
+}
+
+/// How many times as wrong the boundary is expected to be as one of that length by that many
+/// readings can be; nothing where its edge is not known.
+std::optional<double> over_reachable(const Episode& episode) {
+  const std::optional<EdgeBelief>& edge = episode.exploration.edge();
+  const double length_m = perimeter_m(episode.estimate);
+  if (!edge || length_m == 0.0) return std::nullopt;
+  const double contrast = std::abs(edge->profile().high - edge->profile().low),
+               noise_sd = std::sqrt(edge->noise_variance());
+  const ReferenceBound reachable =
+      reference_bound({.perimeter_m = length_m,
+                       .slope_per_m = edge->profile().slope_per_m,
+                       .noise = noise_sd / contrast,
+                       .readings = episode.exploration.belief().site_count(),
+                       .fraction = episode.level_fraction});
+  const bool has_noise = noise_sd > kNoNoise * contrast;
+  if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
+  return episode.exploration.certainty()->expected.symmetric_difference_m2() /
+         reachable.expected_error_m2;
+}
+
+}  // namespace
+
+std::vector<std::string> boundary_remarks(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  std::vector<std::string> remarks = screening_remarks(exploration);
+  if (exploration.belief().site_count() == 0) return remarks;
+  if (exploration.lone_reading())
+    remarks.push_back(lone_reading_words(exploration.surface(), *exploration.lone_reading()));
+  if (const std::string words = reduced_rank_words(exploration.belief()); !words.empty())
+    remarks.push_back(words);
+  if (exploration.lag() && exploration.lag()->at_bound) {
+    remarks.push_back("The lag found, " + fixed(exploration.lag()->value_m * 1e3, 2) +
+                      " mm, is as far as any was looked for: the true one may lie beyond. Give "
+                      "field.lag_mm, or touch in more directions.");
+  }
+  if (!exploration.level()) {
+    remarks.push_back(no_level_words(exploration));
+    return remarks;
+  }
+  if (const double share = exploration.untouched_m2() / exploration.surface().area();
+      share > kMuchUntouched) {
+    remarks.push_back(percent(share) +
+                      " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
+  }
+  if (exploration.tip_hides_all())
+    remarks.push_back(
+        "What was felt is nowhere wider than the probe's tip, field.indenter_radius_mm: nothing is "
+        "left once the tip is "
+        "taken back, but something stiff is there.");
+  if (const std::string outside = level_outside_words(exploration); !outside.empty())
+    remarks.push_back(outside);
+  const Contour contour = exploration.contour();
+  for (const std::string& remark :
+       remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
+    remarks.push_back(remark + '.');
+  const double plane = exploration.belief().prior().has_slope()
+                           ? 0.0
+                           : explained_by_plane(exploration.surface(), exploration.palpations());
+  if (plane > kMuchPlane)
+    remarks.push_back(
+        "A plane explains " + percent(plane) +
+        " of how the readings differ: if that is a tilt or a drift, set field.trend to linear.");
+  const std::vector<TumourPart> parts = parts_of(episode);
+  if (!exploration.edge() && !parts.empty())
+    remarks.push_back(
+        "The level was not inferred from the tumour's edge: band, cut line and expected error are "
+        "the field's alone, and not calibrated.");
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].probability < kSure)
+      remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
+                        " is tumour with probability " + percent(parts[i].probability) + " only.");
+    if (parts[i].touches_border)
+      remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
+                        " reaches the border of the tissue, beyond which it may go on.");
+  }
+  const std::optional<Certainty>& certainty = exploration.certainty();
+  if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
+    remarks.push_back("No place is tumour as good as surely: the band has no inner curve.");
+  const double found_m2 = surface_area(exploration.surface(), episode.estimate);
+  if (found_m2 > kMuchStiff * exploration.surface().area())
+    remarks.push_back(
+        "More than half of the tissue counts as stiff: where a tumour reads less than healthy "
+        "tissue, change the readings' sign.");
+  if (!parts.empty() && certainty &&
+      certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
+    remarks.push_back("The area expected to be wrong is " +
+                      percent(certainty->expected.symmetric_difference_m2() / found_m2) +
+                      " of the area found: more readings are needed.");
+  else if (const std::optional<double> times = over_reachable(episode);
+           times && *times > kMuchOverReachable)
+    remarks.push_back("The boundary is expected to be wrong by " +
+                      fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
+                      fixed(*times, 0) +
+                      " times what as many readings with so little noise can reach at best: more "
+                      "batches would pay.");
+  return remarks;
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,343 @@
+#include "scene/scene_schema.h"
+
+#include <utility>
+
+namespace palpation::tool {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kLeastLength_mm = 1e-6;
+constexpr double kMostLength_mm = 1e6;
+/// Readings may have any unit; their squares and the ratios of these must be doubles.
+constexpr double kLeastReading = 1e-30;
+constexpr double kMostReading = 1e30;
+constexpr double kMostDirection = 1e6;
+constexpr double kMostSeed = 9007199254740991.0;  // beyond it not every whole number is a double
+constexpr int kMostTumours = 100;
+constexpr int kMostCorners = 10000;
+
+SceneKey key(std::string path, ValueKind kind, std::string unit, std::string meaning) {
+  SceneKey key;
+  key.path = std::move(path);
+  key.kind = kind;
+  key.unit = std::move(unit);
+  key.meaning = std::move(meaning);
+  return key;
+}
+
+SceneKey in_range(SceneKey key, double least, double most, json standard) {
+  key.least = least;
+  key.most = most;
+  key.standard = std::move(standard);
+  return key;
+}
+
+SceneKey number(std::string path, std::string unit, double least, double most, json standard,
+                std::string meaning) {
+  return in_range(key(std::move(path), ValueKind::Number, std::move(unit), std::move(meaning)),
+                  least, most, std::move(standard));
+}
+
+SceneKey integer(std::string path, double least, double most, json standard, std::string meaning) {
+  return in_range(key(std::move(path), ValueKind::Integer, "", std::move(meaning)), least, most,
+                  std::move(standard));
+}
+
+SceneKey truth(std::string path, bool standard, std::string meaning) {
+  SceneKey result = key(std::move(path), ValueKind::Truth, "", std::move(meaning));
+  result.standard = standard;
+  return result;
+}
+
+SceneKey word(std::string path, std::vector<std::string> words, json standard,
+              std::string meaning) {
+  SceneKey result = key(std::move(path), ValueKind::Word, "", std::move(meaning));
+  result.words = std::move(words);
+  result.standard = std::move(standard);
+  return result;
+}
+
+SceneKey number_or_learn(std::string path, std::string unit, double least, double most,
+                         std::string meaning) {
+  SceneKey result =
+      number(std::move(path), std::move(unit), least, most, "learn", std::move(meaning));
+  result.kind = ValueKind::NumberOrWord;
+  result.words = {"learn"};
+  return result;
+}
+
+SceneKey by_default(json standard, SceneKey key) {
+  key.standard = std::move(standard);
+  return key;
+}
+
+SceneKey text(std::string path, std::string meaning) {
+  return key(std::move(path), ValueKind::Text, "", std::move(meaning));
+}
+
+SceneKey numbers(std::string path, int count, std::string unit, double least, double most,
+                 json standard, std::string meaning) {
+  SceneKey result = number(std::move(path), std::move(unit), least, most, std::move(standard),
+                           std::move(meaning));
+  result.kind = ValueKind::Numbers;
+  result.count = count;
+  return result;
+}
+
+SceneKey or_zero(SceneKey key) {
+  key.zero_too = true;
+  return key;
+}
+
+SceneKey integers(SceneKey numbers) {
+  numbers.kind = ValueKind::Integers;
+  return numbers;
+}
+
+SceneKey points(SceneKey numbers) {
+  numbers.kind = ValueKind::Points;
+  return numbers;
+}
+
+SceneKey tumours(std::string path, int most, std::string meaning) {
+  SceneKey result = key(std::move(path), ValueKind::Tumours, "", std::move(meaning));
+  result.count = most;
+  result.standard = json::array();
+  return result;
+}
+
+std::vector<SceneKey> make_scene_keys() {
+  const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  return {
+      integer("version", kSceneVersion, kSceneVersion, kSceneVersion, "of this format"),
+      word("speed", {"exact", "fast", "draft"}, "exact",
+           "a choice of plan.explore_mm and error.arithmetic, each of which can be given by "
+           "itself; palpate experiment tradeoff tells what "
+           "they cost on a scene"),
+      text("surface.mesh",
+           "the tissue: an OBJ, OFF, STL, PLY or VTP file, relative to the scene, or where there "
+           "is none to where palpate runs"),
+      word("surface.unit", {"mm", "cm", "m"}, nullptr,
+           "of the mesh's coordinates; needed with surface.mesh"),
+      truth("surface.weld", false,
+            "vertices of the mesh at exactly the same place become one; STL corners always do"),
+      numbers("surface.plane.size_mm", 2, "mm", 0.01, 2000.0, nullptr,
+              "in place of a mesh: a flat rectangle from the origin, along x and y, its longer "
+              "side 1 mm at least"),
+      integers(numbers("surface.plane.vertices", 2, "", 2, 20000, json{200, 200},
+                       "of that rectangle, along x and y; 4 million at most in all")),
+      number("surface.refine_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+             "split triangles until no edge is longer; 8 million triangles at most"),
+      numbers("surface.patch.centre_mm", 3, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+              "work on the tissue around the surface point nearest to this"),
+      number("surface.patch.radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+             "and no farther from it, walking along the surface"),
+      numbers("surface.patch.box_mm", 6, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+              "work on the triangles inside a box, from its corner at the first three numbers to "
+              "the one at the last three: of their parts "
+              "the one nearest to centre_mm, or else the largest"),
+      numbers("surface.patch.facing", 3, "", -kMostDirection, kMostDirection, nullptr,
+              "work on the triangles that face this direction, parts as for the box; not zero"),
+      number("surface.patch.within_deg", "degrees", 1e-3, 180.0, 60.0,
+             "how far their normals may be from it"),
+      word("field.metric", {"chart", "ambient", "intrinsic"}, "chart",
+           "distance between places: in the chart, straight through space, or along the surface by "
+           "its Laplacian"),
+      word("field.kernel",
+           {"squared-exponential", "matern-1/2", "matern-3/2", "matern-5/2", "periodic"},
+           "squared-exponential", "covariance of the stiffness at two places"),
+      number_or_learn(
+          "field.length_mm", "mm", kLeastLength_mm, kMostLength_mm,
+          "over which stiffness changes; a millionth to a million times the tissue's size"),
+      number_or_learn("field.signal_sd", "reading", kLeastReading, kMostReading,
+                      "prior standard deviation of the stiffness; a fixed value with standardize: "
+                      "multiples of the readings' own"),
+      or_zero(
+          number_or_learn("field.noise", "reading", kLeastReading, kMostReading,
+                          "standard deviation of a reading; 0: repeats at one place must agree")),
+      or_zero(number("field.noise_to_signal", "", 1e-12, 1e6, nullptr,
+                     "in place of field.noise: the same as a fraction of a fixed signal_sd")),
+      number("field.length_prior_mm", "mm", kLeastLength_mm, kMostLength_mm, 3.5,
+             "what a learned length is likely to be: the median of a lognormal prior (spread 0.4)"),
+      number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+             "period of the periodic kernel, the same along both axes; needed with it, and without "
+             "effect on others"),
+      word("field.trend", {"zero", "constant", "linear"}, "constant",
+           "mean of the field before any reading; linear: a constant and a slope, which a tilt of "
+           "the tissue or a drifting sensor adds: "
+           "level and boundary are of the field without it"),
+      or_zero(number("field.constant_sd", "reading", kLeastReading, kMostReading, nullptr,
+                     "how well that constant is known beforehand (as signal_sd); left out: not at "
+                     "all; without effect on a trend of zero")),
+      truth("field.standardize", true,
+            "readings are z-scored, as GPy does; where anything is learned it matters only to a "
+            "trend of zero, which is then about their "
+            "mean"),
+      word("field.precision", {"double", "single"}, "double",
+           "single: half the memory of the field's model and less time, the field off by a "
+           "ten-thousandth of the signal at most; for noise "
+           "of "
+           "3.2 % of the signal and more: where a learned noise is lower, double is taken"),
+      or_zero(number(
+          "field.reduced_rank", "", 1e-13, 1e-4, 0.0,
+          "for readings by the thousand, as along paths: the part of the prior's variance that may "
+          "be left out, 1e-10 say, so that "
+          "a smooth field is modelled by some hundreds of features whatever the readings' number; "
+          "bounded, and exact where that "
+          "does not pay (rough kernels, few readings) or their noise is too small; 0: exact")),
+      number("field.rebuild_gain", "nats", 0.0, 100.0, 0.0,
+             "how much better other hyperparameters must explain the readings before the field is "
+             "built anew with them, 0.5 say; until "
+             "then it grows by the new readings alone, and the next plan follows the last of them "
+             "sooner; 0: the best ones always"),
+      number("field.indenter_radius_mm", "mm", 0.0, 20.0, 0.0,
+             "of the probe's round tip, which feels an edge by as much too early: the boundary is "
+             "drawn that much inwards; 0: not at all"),
+      truth("field.heavy_tails", false,
+            "noise is Student's t with four degrees of freedom: readings far from the field weigh "
+            "less, none is set aside"),
+      truth("field.screening", false,
+            "jams, hangs, lost contact, start-ups, base steps between rows and outliers are found "
+            "and set aside, with the reason in "
+            "measurements.csv"),
+      by_default(0.0, number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
+                                      "how far behind the probe's travel its readings belong; 0: "
+                                      "readings belong where they are made; "
+                                      "learned ones lie between -0.5 and 3 mm")),
+      word("level.estimate", {"known", "range", "edge"}, "edge",
+           "where tissue becomes tumour: known beforehand; min + fraction (max - min) of the mean; "
+           "or that fraction of the way between the "
+           "plateaus of the readings' profile across the edge, with a standard deviation"),
+      number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5,
+             "of that way; it also defines the true outline of a simulated tumour"),
+      number("level.value", "reading", -kMostReading, kMostReading, nullptr,
+             "the level, needed where level.estimate is known; kept, but without effect, where it "
+             "is not"),
+      word("plan.acquisition",
+           {"auto", "ils-ucb", "ucb", "evr", "straddle", "randomized-straddle", "expected-error",
+            "lse", "random", "raster", "refinement"},
+           "auto",
+           "what makes a touch worth while: auto sends most of a batch where it tells the most "
+           "about the boundary, and the rest where the "
+           "straddle criterion looks for more; raster and refinement are the classical scans "
+           "instead, as long as they are "
+           "whatever plan.batches says"),
+      number("plan.edge_share", "", 0.0, 1.0, 0.65,
+             "that most, where plan.acquisition is auto and level.estimate edge"),
+      number("plan.gamma", "", 0.0, 1.0, 0.5, "of ucb and ils-ucb: 0 explores, 1 exploits"),
+      word("plan.scaling", {"raw", "max"}, "raw",
+           "of ucb and ils-ucb: as the paper writes them, or both terms over their maxima"),
+      word("plan.initial.design", {"grid", "random", "low-discrepancy"}, "grid",
+           "the first touches"),
+      integer("plan.initial.count", 0, 10000, 16,
+              "how many of them; no more than the tissue has vertices"),
+      integer("plan.batch", 1, 10000, 10,
+              "touches planned together; no more than the tissue has vertices"),
+      integer("plan.batches", 0, 100000, 9, "how many batches after the first touches"),
+      number("plan.least_spacing_mm", "mm", 0.0, kMostLength_mm, 0.5,
+             "between the stops of a batch"),
+      truth("plan.readings_along_path", false, "the probe also reads on its way, once per mm"),
+      truth("plan.safe_start", true,
+            "conclude nothing and explore by variance alone until the readings show contrast "
+            "beyond their noise; of no effect where field "
+            "and "
+            "level are both given"),
+      number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, 0.0,
+             "stop once the expected wrong area is no larger; 0: when the batches are done"),
+      number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, 0.0,
+             "stop once the band's mean half width is no larger; 0: when the batches are done"),
+      number("plan.stop.least_gain", "", 0.0, 1.0, 0.0,
+             "stop once three batches lowered the expected wrong area by less than this part of "
+             "it, and the next would too; 0: when the "
+             "batches are done"),
+      number("plan.assumed_contrast", "reading", kLeastReading, kMostReading, nullptr,
+             "by which a tumour that must not be missed stands out, at least: for the answer that "
+             "there is none wider than so much; left out: "
+             "four times the readings' scatter"),
+      or_zero(number("plan.explore_mm", "mm", 0.05, 3.0, 0.0,
+                     "plan on a coarser mesh with edges of this length, and conclude on the whole "
+                     "one when all is felt; 0: all on the whole one; "
+                     "without effect on palpate plan and boundary, and on scans")),
+      number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0,
+             "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
+      word("probe.kind", {"simulated"}, "simulated",
+           "where readings come from in `palpate simulate`"),
+      number("probe.low", "reading", -kMostReading, kMostReading, 7.0,
+             "simulated reading on healthy tissue"),
+      number("probe.high", "reading", -kMostReading, kMostReading, 9.0,
+             "simulated reading deep inside a tumour; above probe.low, by 1e-30 at least and "
+             "enough to tell them apart"),
+      number("probe.slope_per_m", "1/m", 1e-3, 1e9, 1400.0, "steepness of the edge between them"),
+      number("probe.noise", "", 0.0, 1e6, 0.0, "standard deviation, as a fraction of high - low"),
+      number("probe.bias", "", -1e6, 1e6, 0.0,
+             "the paper's beta: what is added from one end of the tissue to the other, as a "
+             "fraction of high - low"),
+      numbers("probe.bias_axis", 3, "", -kMostDirection, kMostDirection, nullptr,
+              "along which; not zero; left out: the longest side of the tissue"),
+      number("probe.lag_mm", "mm", -100.0, 100.0, 0.0,
+             "how late a simulated reading comes: at x, travelling along t, it is of x - lag t"),
+      tumours("probe.tumours", kMostTumours, "a list of shapes; several may overlap"),
+      number("band.probability", "", 0.01, 1.0 - 1e-6, 0.95,
+             "with which the whole true outline lies between the band's two curves"),
+      number("band.cut_risk", "", 1e-6, 0.5, 0.05,
+             "of the cut line: outside of it a place is tumour with this probability at most"),
+      numbers("robot.from_tissue", 16, "", -kMostDirection, kMostDirection, identity,
+              "rigid transform to the robot's frame, row by row, its translation in metres"),
+      number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0,
+             "of the approach point, above the tissue"),
+      number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),
+      numbers("robot.shaft_direction", 3, "", -kMostDirection, kMostDirection, nullptr,
+              "from the tissue along the probe's shaft, in the robot's frame: only tissue whose "
+              "normal is near it is touched; left out: all"),
+      number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0,
+             "how near: the greatest angle between the two"),
+      number("robot.clearance_mm", "mm", 0.0, 1000.0, 0.0,
+             "tissue is touched only where a line of this length along its normal does not meet "
+             "tissue again; 0: everywhere"),
+      number("robot.probe_radius_mm", "mm", 0.0, 100.0, 0.0,
+             "of the probe, whose tip is round: over robot.clearance_mm it must have room as well; "
+             "0: a line"),
+      word("error.arithmetic", {"exact", "plain"}, "exact",
+           "of the error against a known truth: exact Booleans of polygons, with distances; or "
+           "areas summed triangle by triangle, without"),
+      integer("seed", 0, kMostSeed, 1, "of all that is random"),
+  };
+}
+
+}  // namespace
+
+const std::vector<SceneKey>& scene_keys() {
+  static const std::vector<SceneKey> keys = make_scene_keys();
+  return keys;
+}
+
+const std::vector<std::string>& tumour_shapes() {
+  static const std::vector<std::string> shapes = {"disk", "horseshoe", "polygon"};
+  return shapes;
+}
+
+const std::vector<SceneKey>& tumour_keys(const std::string& shape) {
+  static const SceneKey centre =
+      numbers("centre_mm", 3, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+              "in the mesh's frame, taken to the closest surface point");
+  static const std::vector<SceneKey> disk = {
+      centre,
+      number("radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "along the surface")};
+  static const std::vector<SceneKey> horseshoe = {
+      centre,
+      number("arc_radius_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr, "of the middle line"),
+      number("half_width_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+             "on both sides of it, with round caps; below arc_radius_mm"),
+      number("arc_deg", "degrees", 1e-3, 360.0, 180.0, "the solid part"),
+      numbers("facing", 3, "", -kMostDirection, kMostDirection, json{1, 0, 0},
+              "from the centre to the middle of the arc"),
+  };
+  static const std::vector<SceneKey> polygon = {
+      points(numbers("points_mm", kMostCorners, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+                     "corners, at least 3, in order, not crossing; the last may repeat the first")),
+  };
+  return shape == "disk" ? disk : shape == "horseshoe" ? horseshoe : polygon;
+}
+
+}  // namespace palpation::tool

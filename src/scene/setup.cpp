@@ -1,0 +1,200 @@
+#include "scene/setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "palpation/base/error.h"
+#include "scene/tumours.h"
+#include "scene/words.h"
+
+namespace palpation::tool {
+namespace {
+
+Metric metric_named(const std::string& name) {
+  if (name == "ambient") return Metric::Ambient;
+  return name == "intrinsic" ? Metric::Intrinsic : Metric::Chart;
+}
+
+KernelFamily kernel_family(const std::string& name) {
+  if (name == "matern-1/2") return KernelFamily::Matern12;
+  if (name == "matern-3/2") return KernelFamily::Matern32;
+  if (name == "matern-5/2") return KernelFamily::Matern52;
+  if (name == "periodic") return KernelFamily::Periodic;
+  return KernelFamily::SquaredExponential;
+}
+
+Acquisition acquisition_of(const Scene& scene) {
+  const std::string name = scene.word("plan.acquisition");
+  const double gamma = scene.number("plan.gamma");
+  const Scaling scaling = scene.word("plan.scaling") == "max" ? Scaling::MaxScaled : Scaling::Raw;
+  if (name == "ucb") return ucb(gamma, scaling);
+  if (name == "evr") return evr();
+  if (name == "straddle" || name == "auto") return straddle();
+  if (name == "randomized-straddle") return randomized_straddle(scene.seed());
+  if (name == "expected-error") return expected_symmetric_difference();
+  if (name == "lse") return lse_ambiguity();
+  if (name == "random") return random_scores(scene.seed());
+  return ils_ucb(gamma, scaling);
+}
+
+}  // namespace
+
+FieldModel field_of(const Scene& scene) {
+  FieldModel field;
+  field.metric = metric_named(scene.word("field.metric"));
+  field.kernel.family = kernel_family(scene.word("field.kernel"));
+  if (field.kernel.family == KernelFamily::Periodic) {
+    if (field.metric != Metric::Chart)
+      scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
+    field.kernel.period_m = scene.metres("field.period_mm");
+  }
+  if (field.kernel.family == KernelFamily::Matern12 && field.metric == Metric::Intrinsic)
+    scene.refuse("field.kernel",
+                 "is \"matern-1/2\", which field.metric intrinsic does not have: take "
+                 "squared-exponential, matern-3/2 or matern-5/2");
+  field.learn_length = scene.word("field.length_mm") == "learn";
+  if (!field.learn_length) field.kernel.length_m = scene.metres("field.length_mm");
+  field.learn_signal = scene.word("field.signal_sd") == "learn";
+  if (!field.learn_signal) field.kernel.signal_sd = scene.number("field.signal_sd");
+  field.learn_noise = scene.word("field.noise") == "learn" && !scene.has("field.noise_to_signal");
+  if (scene.has("field.noise_to_signal")) {
+    if (scene.word("field.noise") != "learn")
+      scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
+    if (field.learn_length || field.learn_signal)
+      scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
+    field.belief.noise_sd = scene.number("field.noise_to_signal");
+    field.belief.noise_is_relative = true;
+  } else if (!field.learn_noise) {
+    field.belief.noise_sd = scene.number("field.noise");
+  }
+  field.length_median_m = scene.metres("field.length_prior_mm");
+  field.linear_trend = scene.word("field.trend") == "linear";
+  if (scene.word("field.trend") == "zero")
+    field.constant.sd = 0.0;
+  else if (scene.has("field.constant_sd"))
+    field.constant.sd = scene.number("field.constant_sd");
+  field.belief.standardize = scene.truth("field.standardize");
+  field.belief.single_precision = scene.word("field.precision") == "single";
+  if (field.belief.single_precision && !field.learns()) {
+    if (field.belief.standardize && !field.belief.noise_is_relative)
+      scene.refuse(
+          "field.precision",
+          "is single, but how large a fixed field.noise is beside standardized readings shows only "
+          "when they are felt: set "
+          "field.standardize to false, or give field.noise_to_signal in place of field.noise");
+    const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) *
+                                  (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
+    if (field.belief.noise_sd < least_noise_sd)
+      scene.refuse("field.precision",
+                   "is single, which needs noise of 3.2 % of the signal at least: take double");
+  }
+  field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
+  field.rebuild_gain = scene.number("field.rebuild_gain");
+  field.screening = scene.truth("field.screening");
+  field.heavy_tails = scene.truth("field.heavy_tails");
+  field.indenter_radius_m = scene.metres("field.indenter_radius_mm");
+  field.lag.learn = scene.word("field.lag_mm") == "learn";
+  if (!field.lag.learn) field.lag.known_m = scene.metres("field.lag_mm");
+  return field;
+}
+
+LevelRule level_rule_of(const Scene& scene) {
+  LevelRule rule;
+  rule.fraction = scene.number("level.fraction");
+  if (scene.word("level.estimate") == "known") rule.known = scene.number("level.value");
+  rule.estimate =
+      scene.word("level.estimate") == "range" ? LevelEstimate::Range : LevelEstimate::Edge;
+  return rule;
+}
+
+Plan plan_of(const Scene& scene) {
+  Plan plan;
+  plan.acquisition = acquisition_of(scene);
+  const std::string design = scene.word("plan.initial.design");
+  plan.initial = design == "random" ? Design::Random
+                 : design == "grid" ? Design::Grid
+                                    : Design::LowDiscrepancy;
+  plan.initial_count = scene.integer("plan.initial.count");
+  plan.batch.size = scene.integer("plan.batch");
+  if (scene.truth("plan.readings_along_path")) plan.batch.way_reading_m = kWayStep_m;
+  plan.batch.least_spacing_m = scene.metres("plan.least_spacing_mm");
+  plan.batches = scene.integer("plan.batches");
+  plan.stop = {.error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6,
+               .band_m = scene.metres("plan.stop.band_mm"),
+               .least_gain = scene.number("plan.stop.least_gain"),
+               .band_probability = scene.number("band.probability")};
+  plan.edge_share =
+      scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
+  plan.safe_start = scene.truth("plan.safe_start");
+  return plan;
+}
+
+Robot robot_of(const Scene& scene) {
+  Robot robot;
+  const std::vector<double> rows = scene.numbers("robot.from_tissue");
+  for (int i = 0; i < 16; ++i) robot.from_tissue(i / 4, i % 4) = rows[i];
+  robot.standoff_m = scene.metres("robot.standoff_mm");
+  robot.indent_m = scene.metres("robot.indent_mm");
+  try {
+    check(robot);
+  } catch (const InvalidInput& error) {
+    scene.refuse("robot.from_tissue", without("Robot: from_tissue ", error.what()));
+  }
+  return robot;
+}
+
+Access access_of(const Scene& scene) {
+  Access access;
+  if (scene.gives("robot.shaft_direction")) {
+    const std::vector<double> direction = scene.numbers("robot.shaft_direction");
+    const Eigen::Matrix3d to_robot = robot_of(scene).from_tissue.topLeftCorner<3, 3>();
+    access.shaft_direction = to_robot.transpose() * Vec3(direction[0], direction[1], direction[2]);
+  }
+  access.cone_rad = scene.number("robot.cone_deg") * std::numbers::pi / 180.0;
+  access.clearance_m = scene.metres("robot.clearance_mm");
+  access.probe_radius_m = scene.metres("robot.probe_radius_mm");
+  return access;
+}
+
+bool limits_reach(const Scene& scene) {
+  return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0;
+}
+
+std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface) {
+  if (!limits_reach(scene)) return std::nullopt;
+  std::vector<int> vertices = reachable_vertices(surface, access_of(scene));
+  if (vertices.empty())
+    scene.refuse("robot",
+                 "reaches no tissue: with this shaft_direction, cone_deg and clearance_mm nothing "
+                 "can be touched");
+  return vertices;
+}
+
+Phantom phantom_of(const Scene& scene, const Surface& surface) {
+  StiffnessModel model;
+  model.low = scene.number("probe.low");
+  model.high = scene.number("probe.high");
+  model.slope_per_m = scene.number("probe.slope_per_m");
+  model.noise = scene.number("probe.noise");
+  model.bias = scene.number("probe.bias");
+  model.fraction = scene.number("level.fraction");
+  model.lag_m = scene.metres("probe.lag_mm");
+  if (scene.gives("probe.bias_axis")) {
+    const std::vector<double> axis = scene.numbers("probe.bias_axis");
+    model.bias_axis = Vec3(axis[0], axis[1], axis[2]).stableNormalized();
+  }
+  const std::vector<Tumour> tumours = tumours_of(scene);
+  try {
+    return Phantom(surface, tumours, model);
+  } catch (const InvalidInput& error) {
+    refuse_tumours(scene, surface, tumours);
+    const std::string words = without("Phantom: ", error.what());
+    const std::string axis = "bias axis ";
+    scene.refuse(words.starts_with(axis) ? "probe.bias_axis" : "probe", without(axis, words));
+  }
+}
+
+}  // namespace palpation::tool

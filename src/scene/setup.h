@@ -1,0 +1,33 @@
+/// From a scene to the objects of the library.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpation/exploration/exploration.h"
+#include "palpation/exploration/reach.h"
+#include "palpation/exploration/waypoint.h"
+#include "palpation/geometry/surface.h"
+#include "palpation/world/phantom.h"
+#include "scene/scene.h"
+
+namespace palpation::tool {
+
+/// The probe's readings on its way are this far apart, as the robot's are (Garg et al. 2016,
+/// section VII).
+inline constexpr double kWayStep_m = 0.001;
+
+FieldModel field_of(const Scene& scene);
+LevelRule level_rule_of(const Scene& scene);
+Plan plan_of(const Scene& scene);
+Robot robot_of(const Scene& scene);
+/// What the robot can touch, in the tissue's frame.
+Access access_of(const Scene& scene);
+/// Whether that is limited.
+bool limits_reach(const Scene& scene);
+/// The vertices that it can, where it is.
+std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface);
+Phantom phantom_of(const Scene& scene, const Surface& surface);
+
+}  // namespace palpation::tool

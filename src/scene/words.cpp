@@ -1,0 +1,215 @@
+#include "scene/words.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "palpation/boundary/level_set.h"
+#include "palpation/readings/readings.h"
+#include "scene/parts.h"
+
+namespace palpation::tool {
+namespace {
+
+std::string part_words(const TumourPart& part) {
+  const Vec2 size = (part.most_m - part.least_m) * 1e3;
+  std::string words = "  " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " mm around " +
+                      place_words(part.position_m, 1);
+  if (!part.polygon.holes.empty()) words += ", with " + counted(part.polygon.holes.size(), "hole");
+  if (part.touches_border) words += ", reaching the border of the tissue";
+  if (part.probability < kSure)
+    words += ", tumour with probability " + percent(part.probability) + " only";
+  return words + "\n";
+}
+
+/// What a surgeon asks: how far off the line may be, and where to cut.
+std::string band_words(const Certainty& certainty, const Surface& surface, double cut_risk) {
+  const double inner = superlevel_area(surface, certainty.score, certainty.band_score) * 1e6;
+  const double outer = superlevel_area(surface, certainty.score, -certainty.band_score) * 1e6;
+  const double cut =
+      superlevel_area(surface, certainty.score, Certainty::cut_score(cut_risk)) * 1e6;
+  return "With probability " + percent(certainty.probability) +
+         " the whole outline lies in a band around this line, " +
+         fixed(certainty.half_width_m * 1e3, 2) +
+         " mm to either side on average: " + fixed(inner, 1) + " mm2 lie inside of the band, " +
+         fixed(outer, 1) + " mm2 within its outer curve.\nExpected to be wrong: " +
+         fixed(certainty.expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
+         fixed(certainty.expected.missed_m2 * 1e6, 1) + " missed and " +
+         fixed(certainty.expected.extra_m2 * 1e6, 1) +
+         " extra. To leave tumour at no place with more than " + percent(cut_risk) +
+         " risk, cut around " + fixed(cut, 1) + " mm2.\n";
+}
+
+/// What is ruled out where nothing was found.
+std::string nothing_words(const Episode& episode) {
+  if (episode.exploration.trend_is_missing()) return "";
+  const double noise_sd = scatter(episode.exploration);
+  if (!episode.exploration.level() && noise_sd == 0.0) return "";
+  const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
+  const std::string contrast =
+      episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
+      : episode.exploration.level()
+          ? "so that its edge is at that level"
+          : "by four times the readings' scatter, " + reading_text(4.0 * noise_sd) + ", or more";
+  if (!diameter_m) return "So few readings rule out no tumour that stands out " + contrast + ".\n";
+  return "No tumour that stands out " + contrast + " is wider than " + fixed(*diameter_m * 1e3, 1) +
+         " mm, with probability " + percent(episode.band_probability) + " wherever it might be.\n";
+}
+
+double area_found_m2(const Episode& episode) {
+  return surface_area(episode.exploration.surface(), episode.estimate);
+}
+
+std::string found_words(const Episode& episode) {
+  if (episode.exploration.belief().site_count() == 0)
+    return episode.exploration.palpations().empty()
+               ? "No reading yet, so nothing is known.\n"
+               : "All readings are set aside, so nothing is known.\n";
+  if (!episode.exploration.level())
+    return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
+  const std::vector<TumourPart> parts = parts_of(episode);
+  const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
+  if (parts.empty()) {
+    if (episode.exploration.tip_hides_all())
+      return "Something stiff was felt, but it is nowhere wider than the probe's tip.\n";
+    return "Nothing found " + level + ": no tissue is that stiff.\n" + nothing_words(episode);
+  }
+  std::string words = "Found " + counted(parts.size(), "stiff region") + " " + level + ", " +
+                      fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in all:\n";
+  for (const TumourPart& part : parts) words += part_words(part);
+  words +=
+      band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
+  if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
+    words +=
+        "No other tumour that stands out " +
+        (episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
+                                  : std::string("as much")) +
+        " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
+        percent(episode.band_probability) + ".\n";
+  return words;
+}
+
+std::string stop_words(const std::string& reason) {
+  if (reason == "budget") return "Stopped because all planned batches are done.\n";
+  if (reason == "expected error")
+    return "Stopped because the expected wrong area is small enough.\n";
+  if (reason == "band") return "Stopped because the band is narrow enough.\n";
+  if (reason == "nothing to gain") return "Stopped because more readings would change little.\n";
+  if (reason == "nothing left to touch") return "Stopped because no place is left to touch.\n";
+  return "";
+}
+
+}  // namespace
+
+std::string no_level_words(const Exploration& exploration) {
+  if (exploration.trend_is_missing()) return kTooFewForTrend;
+  const std::vector<double> readings = readings_that_count(exploration);
+  if (readings.size() > 1 && all_equal(readings))
+    return "Nothing found: all " + std::to_string(readings.size()) + " readings are alike, " +
+           reading_text(readings.front()) +
+           ", to the last digit, as those of a sensor that is stuck.";
+  return kNoContrast;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string percent(double probability) {
+  const double value = 100.0 * probability;
+  return fixed(value, value > 99.0 && value < 100.0 ? 1 : 0) + " %";
+}
+
+std::string fixed(double value, int digits) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string reading_text(double value) {
+  const double size = std::abs(value);
+  if (size == 0.0 || (size >= 0.1 && size < 1e6)) return fixed(value, 3);
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", size >= 1e6 && size < 1e15 ? 15 : 4, value);
+  return text.data();
+}
+
+std::string place_words(const Vec3& place_m, int digits) {
+  return "(" + fixed(place_m.x() * 1e3, digits) + ", " + fixed(place_m.y() * 1e3, digits) + ", " +
+         fixed(place_m.z() * 1e3, digits) + ") mm";
+}
+
+std::string without(const std::string& start, const std::string& words) {
+  return words.starts_with(start) ? words.substr(start.size()) : words;
+}
+
+void tell(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "palpate: %s\n", warning.c_str());
+}
+
+std::string error_words(const RegionError& error, double search_area_m2,
+                        const std::string& against) {
+  std::string words = against + ": " + fixed(error.symmetric_difference_m2 * 1e6, 2) +
+                      " mm2 wrong (" + fixed(error.symmetric_difference_m2 * 1e4, 3) + " cm2, " +
+                      fixed(100.0 * error.symmetric_difference_m2 / search_area_m2, 3) +
+                      " % of the search area): " + fixed(error.missed_m2 * 1e6, 2) + " missed, " +
+                      fixed(error.extra_m2 * 1e6, 2) + " extra; Dice " + fixed(error.dice, 3);
+  if (error.hausdorff_m && error.mean_distance_m) {
+    words += ", boundaries " + fixed(*error.mean_distance_m * 1e3, 2) + " mm apart on average, " +
+             fixed(*error.hausdorff_m * 1e3, 2) + " at most";
+  }
+  return words + ".\n";
+}
+
+std::string batch_words(const Episode& episode) {
+  const TraceRow& row = episode.trace.back();
+  std::string words = counted(static_cast<std::size_t>(row.measurements), "reading");
+  if (row.error)
+    words +=
+        ", " +
+        fixed(100.0 * row.error->symmetric_difference_m2 / episode.exploration.surface().area(),
+              3) +
+        " % wrong";
+  if (!episode.exploration.contrast_seen()) words += ", no contrast yet";
+  return words;
+}
+
+std::string episode_words(const Episode& episode) {
+  const std::size_t readings = episode.exploration.palpations().size();
+  const auto set_aside = static_cast<std::size_t>(
+      std::ranges::count_if(episode.exploration.palpations(),
+                            [](const Palpation& one) { return !one.set_aside.empty(); }));
+  std::string words = counted(readings, "reading");
+  if (set_aside > 0) words += " (" + std::to_string(set_aside) + " set aside)";
+  if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
+  words += ".\n";
+  if (!episode.stops.empty()) words += stop_words(episode.stop_reason());
+  words += found_words(episode);
+  if (episode.error)
+    words += error_words(*episode.error, episode.exploration.surface().area(),
+                         "Against " + episode.truth_is);
+  return words;
+}
+
+std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m) {
+  if (stops.empty()) return "Nothing more to touch. " + stop_words(episode.stop_reason());
+  std::string words = "Touch next, in this order (" + fixed(path_m * 1e3, 0) +
+                      " mm to travel), in the robot's frame [mm]:\n";
+  for (const Waypoint& stop : stops) {
+    words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) +
+             "  " + fixed(stop.position.z() * 1e3, 2) + "\n";
+  }
+  return words;
+}
+
+void finish_output(OutputFolder& output, bool quiet) {
+  const std::optional<std::string> no_picture = output.draw();
+  if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
+  if (quiet) return;
+  std::printf("Written to %s%s\n", output.folder().string().c_str(),
+              no_picture ? "" : ", with picture.png");
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,53 @@
+/// Results in plain words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palpation/exploration/waypoint.h"
+#include "scene/episode.h"
+#include "scene/output_folder.h"
+
+namespace palpation::tool {
+
+/// What is said of readings that do not differ by more than noise.
+inline constexpr const char* kNoContrast =
+    "Nothing found: the readings show no contrast beyond their noise.";
+
+/// What is said where a trend is modelled and too few places are touched for one.
+inline constexpr const char* kTooFewForTrend =
+    "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
+
+/// What is said where no level could be found.
+std::string no_level_words(const Exploration& exploration);
+
+/// Below this probability a part is told as one that may not exist.
+inline constexpr double kSure = 0.95;
+
+std::string fixed(double value, int digits);
+/// "1 reading", "2 readings".
+std::string counted(std::size_t count, const std::string& noun);
+std::string percent(double probability);
+/// Readings have any unit: three digits behind the point where that says something.
+std::string reading_text(double value);
+/// "(5.0, 14.0, 0.0) mm".
+std::string place_words(const Vec3& place_m, int digits);
+/// The words after this start, where they have it.
+std::string without(const std::string& start, const std::string& words);
+
+/// One line on the state after a batch.
+std::string batch_words(const Episode& episode);
+/// What was touched and found, and how wrong it is where the truth is known.
+std::string episode_words(const Episode& episode);
+/// Warnings, to the error stream.
+void tell(const std::vector<std::string>& warnings);
+/// How wrong an estimate is; the sentence starts with what it is compared with.
+std::string error_words(const RegionError& error, double search_area_m2,
+                        const std::string& against = "Against the truth");
+/// The next stops.
+std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m);
+
+/// Draws the pictures, and says where all is, or why there is no picture.
+void finish_output(OutputFolder& output, bool quiet);
+
+}  // namespace palpation::tool
