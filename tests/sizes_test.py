@@ -39,8 +39,6 @@ EXCEPTIONS = {
     ("src/certainty/edge_belief.cpp", "file", ""): 322,
     ("src/certainty/edge_design.cpp", "function", "most_telling"): 81,
     ("src/draw/chart.cpp", "file", ""): 302,
-    ("src/draw/picture.cpp", "file", ""): 401,
-    ("src/draw/tissue_view.cpp", "file", ""): 436,
     ("src/experiments/coverage.cpp", "class", "Run"): 15,
     ("src/experiments/curved.cpp", "function", "curved"): 74,
     ("src/experiments/experiment_command.h", "options", "ExperimentArguments"): 10,

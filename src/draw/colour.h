@@ -23,6 +23,7 @@ inline constexpr Colour kPaleGrey{205, 207, 212};
 inline constexpr Colour kWhite{255, 255, 255};
 inline constexpr Colour kTruthGreen{0, 108, 62};
 inline constexpr Colour kAmber{245, 170, 20};
+inline constexpr Colour kNext{226, 0, 140};
 inline constexpr Colour kMissed{213, 62, 30};
 inline constexpr Colour kExtra{36, 122, 190};
 inline constexpr Colour kAgreement{164, 207, 190};

@@ -24,17 +24,20 @@ std::vector<LegendEntry> entries_of(const Outcome& outcome) {
     entries.push_back({"cut line" + risk, {kCutLine}, {}});
   }
   if (!outcome.shows_band() && (outcome.has_curve("band_inner") || outcome.has_curve("band_outer")))
-    entries.push_back({"band of the boundary", {kBandLine}, {}});
+    entries.push_back({"confidence band", {kBandLine}, {}});
   const auto add_touch = [&](const Touch& example, const std::string& words, auto&& belongs) {
     const bool occurs = std::any_of(outcome.touches.begin(), outcome.touches.end(), belongs);
     if (occurs) entries.push_back({words, {}, look_of(example, /*radius_px=*/6.5)});
   };
-  add_touch({.initial = true}, "first touches",
-            [](const Touch& t) { return t.initial && !t.set_aside && !t.on_the_way; });
-  add_touch({}, "chosen touches",
-            [](const Touch& t) { return !t.initial && !t.set_aside && !t.on_the_way; });
-  add_touch({.on_the_way = true}, "read on the way",
+  add_touch({.initial = true}, "initial samples", [](const Touch& t) {
+    return t.initial && !t.set_aside && !t.on_the_way && !t.planned;
+  });
+  add_touch({}, "adaptive samples", [](const Touch& t) {
+    return !t.initial && !t.set_aside && !t.on_the_way && !t.planned;
+  });
+  add_touch({.on_the_way = true}, "in-transit readings",
             [](const Touch& t) { return t.on_the_way && !t.set_aside; });
+  add_touch({.planned = true}, "next samples", [](const Touch& t) { return t.planned; });
   add_touch({.set_aside = true}, "set aside", [](const Touch& t) { return t.set_aside; });
   return entries;
 }

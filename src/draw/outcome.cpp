@@ -8,9 +8,11 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -142,6 +144,44 @@ std::optional<double> cut_risk_in(const Json& summary) {
   return found != summary.end() && found->is_object() ? number_in(*found, "risk") : std::nullopt;
 }
 
+/// What lies under nested keys, or null.
+const Json& within(const Json& object, std::initializer_list<const char*> keys) {
+  static const Json nothing;
+  const Json* here = &object;
+  for (const char* key : keys) {
+    const auto found = here->find(key);
+    if (!here->is_object() || found == here->end()) return nothing;
+    here = &*found;
+  }
+  return *here;
+}
+
+std::optional<double> number_within(const Json& object, std::initializer_list<const char*> keys) {
+  const Json& value = within(object, keys);
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+std::optional<RuledOut> ruled_out_in(const Json& summary) {
+  const std::optional<double> diameter_mm = number_in(summary, "nothing_wider_than_mm");
+  if (!diameter_mm) return std::nullopt;
+  return RuledOut{*diameter_mm, number_within(summary, {"options", "band", "probability"})};
+}
+
+/// A run that has not stopped is one that is to go on: the tool's plan.
+std::optional<Eigen::Matrix4d> from_tissue_in(const Json& summary) {
+  const auto stopped = summary.find("stop_reason");
+  if (stopped == summary.end() || !stopped->is_null()) return std::nullopt;
+  const Json& rows = within(summary, {"options", "robot", "from_tissue"});
+  const bool sound =
+      rows.is_array() && rows.size() == 16 &&
+      std::all_of(rows.begin(), rows.end(), [](const Json& x) { return x.is_number(); });
+  if (!sound) return std::nullopt;
+  Eigen::Matrix4d from_tissue;
+  for (Eigen::Index i = 0; i < 16; ++i)
+    from_tissue(i / 4, i % 4) = rows[static_cast<std::size_t>(i)].get<double>();
+  return from_tissue;
+}
+
 Summary read_summary(const fs::path& path) {
   if (!fs::exists(path)) return {};
   const Json json = Json::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
@@ -149,16 +189,33 @@ Summary read_summary(const fs::path& path) {
   Summary summary{.band = band_in(json),
                   .cut_risk = cut_risk_in(json),
                   .truth_line = truth_line_in(json),
-                  .nothing_wider_than_mm = number_in(json, "nothing_wider_than_mm"),
+                  .ruled_out = ruled_out_in(json),
                   .level = number_in(json, "level"),
                   .area_mm2 = number_in(json, "area_mm2"),
                   .expected_error_mm2 = number_in(json, "expected_error_mm2"),
                   .measurements = number_in(json, "measurements"),
+                  .noise_sd = number_within(json, {"learned", "noise_sd"}),
                   .error = error_in(json),
-                  .reading_unit = ""};
+                  .reading_unit = "",
+                  .from_tissue = from_tissue_in(json)};
   const auto unit = json.find("reading_unit");
   if (unit != json.end() && unit->is_string()) summary.reading_unit = unit->get<std::string>();
   return summary;
+}
+
+/// Waypoints are in the robot's frame.
+void add_planned(const fs::path& path, const Eigen::Matrix4d& from_tissue,
+                 std::vector<Touch>& touches) {
+  if (!fs::exists(path)) return;
+  const Table table(path);
+  const std::vector<double> x = table.numbers("x");
+  const std::vector<double> y = table.numbers("y");
+  const std::vector<double> z = table.numbers("z");
+  const Eigen::Matrix4d to_tissue = from_tissue.inverse();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 position = (to_tissue * Eigen::Vector4d(x[i], y[i], z[i], 1.0)).head<3>();
+    if (position.allFinite()) touches.push_back({.position = position, .planned = true});
+  }
 }
 
 std::optional<Table> read_trace(const fs::path& path) {
@@ -213,11 +270,14 @@ std::optional<double> Outcome::level_along(const std::string& kind, const std::s
 }
 
 Outcome read_outcome(const fs::path& folder) {
-  return {.surface = read_surface(folder / "surface.vtp"),
-          .curves = read_curves(folder / "boundary.vtp"),
-          .touches = read_touches(folder / "measurements.csv"),
-          .trace = read_trace(folder / "trace.csv"),
-          .summary = read_summary(folder / "summary.json")};
+  Outcome outcome{.surface = read_surface(folder / "surface.vtp"),
+                  .curves = read_curves(folder / "boundary.vtp"),
+                  .touches = read_touches(folder / "measurements.csv"),
+                  .trace = read_trace(folder / "trace.csv"),
+                  .summary = read_summary(folder / "summary.json")};
+  if (outcome.summary.from_tissue)
+    add_planned(folder / "waypoints.csv", *outcome.summary.from_tissue, outcome.touches);
+  return outcome;
 }
 
 }  // namespace palpation::draw

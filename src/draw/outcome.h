@@ -4,6 +4,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,7 +19,8 @@ struct Touch {
   Vec3 position = Vec3::Zero();  ///< metres
   bool initial = false;          ///< of the design, before anything was known
   bool on_the_way = false;       ///< read while sliding to the next stop
-  bool set_aside = false;        ///< not believed
+  bool set_aside = false;        ///< not used
+  bool planned = false;          ///< not touched yet: of a plan's next batch
 };
 
 struct Curve {
@@ -35,14 +37,21 @@ struct BandNumbers {
   std::optional<double> probability, score, half_width_mm, inner_area_mm2, outer_area_mm2;
 };
 
+/// No tumour is wider than this, with that probability.
+struct RuledOut {
+  double diameter_mm = 0.0;
+  std::optional<double> probability;
+};
+
 struct Summary {
   std::optional<BandNumbers> band;
   std::optional<double> cut_risk;
-  std::string truth_line;                       ///< what the true boundary is, for the legend
-  std::optional<double> nothing_wider_than_mm;  ///< where nothing was found
-  std::optional<double> level, area_mm2, expected_error_mm2, measurements;
+  std::string truth_line;             ///< what the true boundary is, for the legend
+  std::optional<RuledOut> ruled_out;  ///< where nothing was found
+  std::optional<double> level, area_mm2, expected_error_mm2, measurements, noise_sd;
   std::optional<ErrorNumbers> error;
-  std::string reading_unit;  ///< empty if nobody said
+  std::string reading_unit;                    ///< empty if nobody said
+  std::optional<Eigen::Matrix4d> from_tissue;  ///< of a plan that is to be carried out yet
 };
 
 struct Outcome {
@@ -65,7 +74,7 @@ struct Outcome {
 };
 
 /// Reads surface.vtp, and boundary.vtp, measurements.csv, trace.csv and summary.json where they
-/// exist. Throws IoError with path and reason.
+/// exist, and a plan's waypoints.csv. Throws IoError with path and reason.
 Outcome read_outcome(const std::filesystem::path& folder);
 
 }  // namespace palpation::draw

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "draw/axis.h"
+#include "draw/caption.h"
 #include "draw/layout.h"
 #include "draw/look.h"
+#include "draw/ruler.h"
 #include "draw/sheet.h"
 #include "draw/tissue_view.h"
 #include "palpation/base/error.h"
@@ -67,11 +70,14 @@ Range range_of(vtkDataArray& field) {
   return range;
 }
 
-// White is the level, so that the boundary runs where the colour turns.
-ColourScale scale_of_mean(vtkDataArray& mean, std::optional<double> level) {
+// White is the level, so that the boundary runs where the colour turns. Where nothing was found the
+// colours are no stronger than the noise makes them: its ripples must not look like a tumour.
+ColourScale scale_of_mean(vtkDataArray& mean, std::optional<double> level, double noise_sd) {
+  constexpr double kNoiseShown = 3.0;
   const Range range = range_of(mean);
   const double middle = level.value_or((range.lowest + range.highest) / 2.0);
-  const double half = std::max({range.highest - middle, middle - range.lowest, 1e-12});
+  const double least = level ? 0.0 : kNoiseShown * noise_sd;
+  const double half = std::max({range.highest - middle, middle - range.lowest, least, 1e-12});
   return {Palette::BlueWhiteRed, middle - half, middle + half};
 }
 
@@ -97,99 +103,11 @@ Plan plan_of(const Outcome& outcome) {
 void draw_title(Sheet& sheet, const Box& map, const std::string& letter, const std::string& words) {
   const Pixel place(map.left, map.top() + 22.0);
   const TextStyle bold{.size_px = 22.0, .bold = true};
+  const Pixel first_word = place + Pixel(text_width_px(letter, bold) + 10.0, 0.0);
+  const double room_px = map.right() + kRightOfMap_px - first_word.x();
+  const double width_px = text_width_px(words, {.size_px = 22.0});
   sheet.text(place, letter, bold);
-  sheet.text(place + Pixel(text_width_px(letter, bold) + 10.0, 0.0), words, {.size_px = 22.0});
-}
-
-int tick_count(double length_px) { return std::clamp(static_cast<int>(length_px / 56.0), 4, 9); }
-
-void draw_axes(Sheet& sheet, const View& view, const Box& map) {
-  const double px_per_mm = map.width / view.width_mm;
-  const bool own_axes = !view.in_chart && view.turn.isIdentity(1e-12);
-  for (const Tick& tick :
-       ticks(view.left_mm, view.left_mm + view.width_mm, tick_count(map.width))) {
-    const Pixel foot(map.left + (tick.value - view.left_mm) * px_per_mm, map.bottom);
-    sheet.line(foot, foot - Pixel(0.0, 6.0), kFrame);
-    sheet.text(foot - Pixel(0.0, 10.0), tick.label,
-               {.size_px = 17.0, .horizontal = Horizontal::Centre, .vertical = Vertical::Top});
-  }
-  for (const Tick& tick :
-       ticks(view.bottom_mm, view.bottom_mm + view.height_mm, tick_count(map.height))) {
-    const Pixel foot(map.left, map.bottom + (tick.value - view.bottom_mm) * px_per_mm);
-    sheet.line(foot, foot - Pixel(6.0, 0.0), kFrame);
-    sheet.text(foot - Pixel(10.0, 0.0), tick.label,
-               {.size_px = 17.0, .horizontal = Horizontal::Right});
-  }
-  sheet.text({map.centre().x(), map.bottom - 48.0}, own_axes ? "x [mm]" : "u [mm]",
-             {.size_px = 17.0, .horizontal = Horizontal::Centre});
-  sheet.text({map.left - 52.0, map.centre().y()}, own_axes ? "y [mm]" : "v [mm]",
-             {.size_px = 17.0,
-              .horizontal = Horizontal::Centre,
-              .vertical = Vertical::Centre,
-              .turned_deg = 90.0});
-}
-
-// The largest of 1, 2, 5 times a power of ten that takes at most 30 % of the map.
-double scale_bar_mm(const View& view) {
-  const double most = 0.3 * view.width_mm;
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * power <= most) return factor * power;
-  }
-  return power;
-}
-
-void draw_scale_bar(Sheet& sheet, const View& view, const Box& map) {
-  const double length_mm = scale_bar_mm(view);
-  const double length_px = length_mm * map.width / view.width_mm;
-  const Pixel left(map.left, map.bottom - 22.0);
-  sheet.line(left, left + Pixel(length_px, 0.0), {.width_px = 4.0});
-  sheet.text(left + Pixel(length_px + 10.0, 0.0), short_number(length_mm, 3) + " mm",
-             {.size_px = 17.0});
-}
-
-/// Less than a thousandth of a square micrometre is rounding.
-std::string short_area(double mm2) { return short_number(mm2 < 1e-9 ? 0.0 : mm2, 2); }
-
-void draw_ruler(Sheet& sheet, const View& view, const Box& map) {
-  if (view.flat) {
-    draw_axes(sheet, view, map);
-  } else {
-    draw_scale_bar(sheet, view, map);
-  }
-}
-
-void draw_bar(Sheet& sheet, const Box& map, const ColourScale& scale, const std::string& unit,
-              std::optional<double> mark) {
-  const double height = std::min(map.height, 460.0);
-  const Box bar{map.right() + 18.0, map.bottom + (map.height - height) / 2.0, 20.0, height};
-  const int steps = static_cast<int>(bar.height);
-  const auto place = [&](double value) {
-    return bar.bottom + bar.height * (value - scale.lowest) / (scale.highest - scale.lowest);
-  };
-  for (int i = 0; i < steps; ++i) {
-    const double value = scale.lowest + (scale.highest - scale.lowest) * (i + 0.5) / steps;
-    sheet.fill(Box{bar.left, bar.bottom + i, bar.width, std::min(1.5, bar.height - i)},
-               scale.at(value));
-  }
-  sheet.frame(bar, kFrame);
-  for (const Tick& tick : ticks(scale.lowest, scale.highest, tick_count(bar.height))) {
-    const Pixel foot(bar.right(), place(tick.value));
-    sheet.line(foot, foot + Pixel(5.0, 0.0), kFrame);
-    sheet.text(foot + Pixel(9.0, 0.0), tick.label, {.size_px = 16.0});
-  }
-  if (mark && *mark > scale.lowest && *mark < scale.highest) {
-    sheet.line({bar.left, place(*mark)}, {bar.right(), place(*mark)},
-               {.width_px = 3.0, .colour = {0, 0, 0}});
-  }
-  if (!unit.empty()) {
-    sheet.text({map.right() + kRightOfMap_px - 14.0, bar.centre().y()}, unit,
-               {.size_px = 16.0,
-                .colour = kGrey,
-                .horizontal = Horizontal::Centre,
-                .vertical = Vertical::Centre,
-                .turned_deg = 90.0});
-  }
+  sheet.text(first_word, words, {.size_px = 22.0 * std::min(1.0, room_px / width_px)});
 }
 
 void draw_boundaries(TissueScene& scene, const Outcome& outcome, bool with_truth) {
@@ -210,23 +128,31 @@ std::string unit_of(const Outcome& outcome) {
                                               : outcome.summary.reading_unit;
 }
 
+std::vector<Touch> planned_of(const std::vector<Touch>& touches) {
+  std::vector<Touch> planned;
+  std::copy_if(touches.begin(), touches.end(), std::back_inserter(planned),
+               [](const Touch& touch) { return touch.planned; });
+  return planned;
+}
+
 void draw_mean(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map,
                const std::string& letter, bool with_touches) {
   vtkDataArray* detrended =
       outcome.field("mean_detrended");  // what the level cuts, where there is a trend
   vtkDataArray& mean = detrended != nullptr ? *detrended : *outcome.field("mean");
-  const ColourScale scale = scale_of_mean(mean, plan.level);
+  const ColourScale scale = scale_of_mean(mean, plan.level, outcome.summary.noise_sd.value_or(0.0));
   TissueScene scene(sheet.scene(map), plan.view, map);
   scene.paint_field(outcome, mean, scale);
   if (with_touches) scene.draw_touches(outcome.touches, plan.touch_radius_px);
   draw_boundaries(scene, outcome, /*with_truth=*/true);
+  if (with_touches) scene.draw_touches(planned_of(outcome.touches), plan.touch_radius_px);
   scene.finish();
   draw_title(sheet, map, letter,
-             with_touches ? "Believed stiffness"
-             : plan.level ? "Boundary"
+             with_touches ? "Estimated stiffness (posterior mean)"
+             : plan.level ? "Estimated boundary"
                           : "Nothing found");
   draw_ruler(sheet, plan.view, map);
-  draw_bar(sheet, map, scale, unit_of(outcome), plan.level);
+  draw_colour_bar(sheet, map, scale, unit_of(outcome), plan.level);
 }
 
 void draw_uncertainty(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map) {
@@ -242,9 +168,9 @@ void draw_uncertainty(Sheet& sheet, const Outcome& outcome, const Plan& plan, co
   scene.draw_border(kRim);
   scene.draw_touches(outcome.touches, plan.touch_radius_px);
   scene.finish();
-  draw_title(sheet, map, "b", has_stddev ? "Standard deviation" : "Acquisition");
+  draw_title(sheet, map, "b", has_stddev ? "Posterior standard deviation" : "Acquisition function");
   draw_ruler(sheet, plan.view, map);
-  draw_bar(sheet, map, scale, has_stddev ? unit_of(outcome) : "", std::nullopt);
+  draw_colour_bar(sheet, map, scale, has_stddev ? unit_of(outcome) : "", std::nullopt);
 }
 
 void draw_patch_key(Sheet& sheet, const Pixel& place, Colour colour, const std::string& name,
@@ -274,7 +200,7 @@ void draw_margins(Sheet& sheet, const Outcome& outcome, const Plan& plan, const 
   scene.draw_border(kRim);
   scene.draw_curves(outcome, "estimate", kMarginLine);
   scene.finish();
-  draw_title(sheet, map, "c", "Margins");
+  draw_title(sheet, map, "c", "Missed and extra area");
   draw_ruler(sheet, plan.view, map);
   draw_margin_keys(sheet, outcome, map);
 }
@@ -282,8 +208,8 @@ void draw_margins(Sheet& sheet, const Outcome& outcome, const Plan& plan, const 
 void draw_zone_keys(Sheet& sheet, const BandNumbers& band, const Box& map) {
   const Pixel first(map.right() + 14.0, map.centre().y() + 92.0);
   const Pixel down(0.0, -62.0);
-  draw_patch_key(sheet, first, kSurelyTumour, "sure", band.inner_area_mm2);
-  draw_patch_key(sheet, first + down, kUnsure, "unsure", std::nullopt);
+  draw_patch_key(sheet, first, kSurelyTumour, "tumour", band.inner_area_mm2);
+  draw_patch_key(sheet, first + down, kUnsure, "uncertain", std::nullopt);
   if (band.half_width_mm)
     sheet.text(first + down + Pixel(0.0, -22.0),
                kPlusMinus + short_number(*band.half_width_mm, 2) + " mm",
@@ -304,9 +230,9 @@ void draw_band(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box
   scene.draw_curves(outcome, "truth", kTruthLine);
   scene.finish();
   draw_title(sheet, map, "c",
-             band.probability
-                 ? "Where it ends, " + short_number(100.0 * *band.probability, 3) + " % sure"
-                 : "Where it ends");
+             band.probability ? "Tumour boundary, " + short_number(100.0 * *band.probability, 3) +
+                                    " % confidence band"
+                              : "Tumour boundary, confidence band");
   draw_ruler(sheet, plan.close_up, map);
   if (plan.close_up.width_mm < plan.view.width_mm) sheet.frame(map, kFrame);
   draw_zone_keys(sheet, band, map);
@@ -320,7 +246,7 @@ void draw_probability(Sheet& sheet, const Outcome& outcome, const Plan& plan, co
   scene.finish();
   draw_title(sheet, map, "c", "Probability of tumour");
   draw_ruler(sheet, plan.view, map);
-  draw_bar(sheet, map, scale, "", std::nullopt);
+  draw_colour_bar(sheet, map, scale, "", std::nullopt);
 }
 
 void draw_third(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Box& map) {
@@ -334,48 +260,6 @@ void draw_third(Sheet& sheet, const Outcome& outcome, const Plan& plan, const Bo
     case Third::Mean:
       return draw_mean(sheet, outcome, plan, map, "c", /*with_touches=*/false);
   }
-}
-
-std::string touches_text(const Outcome& outcome) {
-  const double count =
-      outcome.summary.measurements.value_or(static_cast<double>(outcome.touches.size()));
-  return short_number(count, 7) + (count == 1.0 ? " touch" : " touches");
-}
-
-std::string error_text(const ErrorNumbers& error) {
-  std::string text;
-  if (error.symmetric_difference_mm2)
-    text += "Error " + short_number(*error.symmetric_difference_mm2, 3) + kSquareMm;
-  if (error.missed_mm2 && error.extra_mm2 && !text.empty())
-    text += ", " + short_area(*error.missed_mm2) + " missed and " + short_area(*error.extra_mm2) +
-            " extra";
-  if (error.percent_of_search_area && !text.empty())
-    text += " (" + short_number(*error.percent_of_search_area, 2) + " % of the search area)";
-  if (error.dice && text.empty()) text += "Dice " + short_number(*error.dice, 3);
-  return text;
-}
-
-std::string caption_of(const Outcome& outcome) {
-  constexpr const char* kBetween = "   \u00b7   ";
-  const Summary& summary = outcome.summary;
-  std::string caption = touches_text(outcome);
-  if (summary.nothing_wider_than_mm)
-    return caption + kBetween + "nothing found" + kBetween + "no tumour wider than " +
-           short_number(*summary.nothing_wider_than_mm, 3) + " mm";
-  if (summary.error) {
-    const std::string error = error_text(*summary.error);
-    if (!error.empty()) caption += kBetween + error;
-  } else if (summary.expected_error_mm2) {
-    caption += std::string(kBetween) + "expected error " +
-               short_number(*summary.expected_error_mm2, 3) + kSquareMm;
-  }
-  if (summary.error && summary.expected_error_mm2)
-    caption += std::string(kBetween) + "expected " + short_number(*summary.expected_error_mm2, 3) +
-               kSquareMm;
-  if (summary.area_mm2)
-    caption += std::string(kBetween) + "tumour " + short_number(*summary.area_mm2, 4) + kSquareMm;
-  if (summary.level) caption += std::string(kBetween) + "level " + short_number(*summary.level, 4);
-  return caption;
 }
 
 }  // namespace
