@@ -13,7 +13,7 @@ int main() {
   const Phantom phantom(tissue, {Disk{.centre_m = Vec3(0.0115, 0.030, 0.0), .radius_m = 0.00625}},
                         {.noise = 0.05});
 
-  Exploration exploration(tissue, {}, {}, {}, /*seed=*/1);
+  Exploration exploration(tissue);
   run(exploration, [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
   });

@@ -27,7 +27,7 @@ int main() {
   for (const auto& [name, acquisition] :
        {std::pair{"evr", Acquisition(evr())}, std::pair{"straddle", Acquisition(straddle())},
         std::pair{"mine", mine}}) {
-    Exploration exploration(tissue, {}, {.known = 8.0}, {.acquisition = acquisition}, /*seed=*/1);
+    Exploration exploration(tissue, {.level = {.known = 8.0}}, {.acquisition = acquisition});
     Random noise(2);
     run(exploration, [&](const SurfacePoint& where, const Vec3&) {
       return std::optional(phantom.touch(where, noise));

@@ -19,9 +19,8 @@ double read_stiffness_at(const Vec3& contact) {
 int main() {
   Random random(1);
   const Surface tissue(make_plane({.columns = 51, .rows = 101}, random));
-  Exploration exploration(tissue, {}, {.known = 1.5},
-                          {.acquisition = straddle(), .initial_count = 12, .batches = 6},
-                          /*seed=*/1);
+  Exploration exploration(tissue, {.level = {.known = 1.5}},
+                          {.initial = {.count = 12}, .batches = 6});
 
   for (std::vector<int> stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
     std::vector<SurfacePoint> targets;

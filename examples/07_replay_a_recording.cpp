@@ -28,8 +28,7 @@ int main() {
   std::printf("over the spot %.0f, beyond the scan %s\n", inside->reading,
               beyond ? "a reading" : "no contact");
 
-  Exploration exploration(tissue, {}, {.known = 8000.0}, {.acquisition = straddle()}, /*seed=*/1,
-                          {.touch_once = true});
+  Exploration exploration(tissue, {.level = {.known = 8000.0}}, {}, {.touch_once = true});
   run(exploration,
       [&](const SurfacePoint& where, const Vec3& travel) { return world.touch(where, travel); });
   const Region found =

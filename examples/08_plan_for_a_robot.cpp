@@ -9,7 +9,7 @@ using namespace palpation;
 int main() {
   Random random(1);
   const Surface tissue(make_plane({.columns = 26, .rows = 51}, random));
-  Exploration exploration(tissue, {}, {}, {.initial_count = 4}, /*seed=*/1);
+  Exploration exploration(tissue, {}, {.initial = {.count = 4}});
 
   // The tissue lies 100 mm in front of the robot, face up, turned by a right angle.
   Robot robot;

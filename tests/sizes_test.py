@@ -30,9 +30,9 @@ LEAST_TABLE = 10  # lines, with its braces
 EXCEPTIONS = {
     ("include/palpation/belief/belief.h", "class", "Belief"): 24,
     ("include/palpation/exploration/exploration.h", "class", "Exploration"): 25,
-    ("include/palpation/exploration/exploration.h", "class", "FieldModel"): 15,
-    ("include/palpation/exploration/exploration.h", "options", "FieldModel"): 19,
-    ("include/palpation/exploration/exploration.h", "options", "Plan"): 15,
+    ("include/palpation/exploration/model.h", "options", "FieldModel"): 15,
+    ("include/palpation/exploration/model.h", "options", "Model"): 20,
+    ("include/palpation/exploration/plan.h", "options", "Plan"): 12,
     ("include/palpation/world/phantom.h", "options", "StiffnessModel"): 8,
     ("src/belief/hyperparameters.cpp", "function", "learn"): 87,
     ("src/boundary/overlay.cpp", "file", ""): 385,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "palpation/base/error.h"
+#include "palpation/base/learnable.h"
 #include "palpation/base/parallel.h"
 #include "palpation/base/random.h"
 #include "palpation/base/types.h"
@@ -27,6 +28,8 @@
 #include "palpation/decision/design.h"
 #include "palpation/decision/tour.h"
 #include "palpation/exploration/exploration.h"
+#include "palpation/exploration/model.h"
+#include "palpation/exploration/plan.h"
 #include "palpation/exploration/reach.h"
 #include "palpation/exploration/stopping.h"
 #include "palpation/exploration/trace.h"

@@ -108,11 +108,12 @@ double seconds_to_prepare(const TriangleMesh& mesh, const Scene& scene) {
   const Surface fresh(mesh);
   const FieldModel field = field_of(scene);
   const Stopwatch watch;
-  const LengthRange lengths =
-      field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
-  Kernel kernel = field.kernel;
-  kernel.length_m = field.length_median_m;
-  const Prior prior(fresh, field.metric, kernel, field.constant, {}, lengths);
+  const LengthRange lengths = field.kernel.length_m.is_learned()
+                                  ? lengths_to_learn(field.kernel.length_median_m)
+                                  : LengthRange{};
+  Kernel kernel = kernel_of(field.kernel);
+  kernel.length_m = field.kernel.length_median_m;
+  const Prior prior(fresh, field.metric, kernel, field.trend.constant, {}, lengths);
   return watch.seconds();
 }
 

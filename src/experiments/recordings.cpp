@@ -209,8 +209,7 @@ void truth_and_lag(const ExperimentArguments& arguments, const Scene& scene,
           all.push_back(palpation);
       }
     }
-    Exploration exploration(forward.tissue, field_of(probe), level_rule_of(probe), plan_of(probe),
-                            probe.seed());
+    Exploration exploration(forward.tissue, model_of(probe), plan_of(probe));
     exploration.take_up(thinned(all, kMostBelieved));
     return exploration.lag()->value_m * 1e3;
   };
@@ -288,8 +287,7 @@ Believed believed(const ExperimentArguments& arguments, const Scene& scene,
                   const std::string& name) {
   Recorded recording = recorded(arguments, name);
   std::vector<Palpation> all = screened(recording.tissue, recording.palpations);
-  Exploration exploration(recording.tissue, field_of(scene), level_rule_of(scene), plan_of(scene),
-                          scene.seed());
+  Exploration exploration(recording.tissue, model_of(scene), plan_of(scene));
   exploration.take_up(thinned(all, kMostBelieved));
   return {std::move(recording), std::move(all), std::move(exploration)};
 }

@@ -40,35 +40,25 @@ bool has_range(const Marginals& marginals) {
 
 }  // namespace
 
-Exploration::Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan,
-                         std::uint64_t seed, Reach reach)
+Exploration::Exploration(Surface surface, Model model, Plan plan, Reach reach)
     : surface_(std::move(surface)),
-      field_(std::move(field)),
-      level_rule_(level),
+      model_(std::move(model)),
       plan_(std::move(plan)),
-      random_(seed),
       reachable_(static_cast<std::size_t>(surface_.vertex_count()), reach.vertices.empty()),
-      touch_once_(reach.touch_once || (!field_.learn_noise && field_.belief.noise_sd == 0.0)),
-      belief_(unlearned(surface_, field_)),
+      touch_once_(reach.touch_once || model_.field.is_noiseless()),
+      belief_(unlearned(surface_, model_.field)),
       marginals_(belief_.at_vertices()),
       component_(marginals_) {
-  require(plan_.initial_count >= 0, "Plan",
-          "initial_count = " + std::to_string(plan_.initial_count), "must not be negative");
-  require(plan_.edge_share >= 0.0 && plan_.edge_share <= 1.0, "Plan",
-          "edge_share = " + text_of(plan_.edge_share), "must lie in [0, 1]");
-  require(plan_.batches >= 0, "Plan", "batches = " + std::to_string(plan_.batches),
-          "must not be negative");
-  check(plan_.stop);
-  require(level_rule_.fraction > 0.0 && level_rule_.fraction < 1.0, "LevelRule",
-          "fraction = " + text_of(level_rule_.fraction), "must lie in (0, 1)");
+  check(model_);
+  check(plan_);
   for (int vertex : reach.vertices) {
     require(vertex >= 0 && vertex < surface_.vertex_count(), "Reach",
             "vertex " + std::to_string(vertex), "is not on the surface");
     reachable_[vertex] = true;
   }
-  if (level_rule_.known) level_ = Level{*level_rule_.known, 0.0};
+  if (model_.level.known) level_ = Level{*model_.level.known, 0.0};
   if (touch_once_ && plan_.batch.least_spacing_m == 0.0) plan_.batch.least_spacing_m = kDistinct_m;
-  contrast_seen_ = !needs_contrast();
+  contrast_seen_ = !model_.needs_contrast();
   plan_next();
 }
 
@@ -88,7 +78,7 @@ void Exploration::record(std::span<const Palpation> palpations) {
 
 void Exploration::foresee() {
   const bool is_built_anew =
-      restates_known_readings(field_) || (field_.learns() && !may_grow(field_));
+      restates_known_readings(model_.field) || (model_.field.learns() && !may_grow(model_.field));
   if (next_.empty() || is_built_anew) return;
   std::vector<SurfacePoint> places;
   for (const int stop : next_) places.push_back(surface_.at_vertex(stop));
@@ -106,17 +96,17 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   }
   std::vector<Palpation> recorded = recorded_;
   recorded.insert(recorded.end(), palpations.begin(), palpations.end());
-  std::vector<Palpation> all = screened_readings(surface_, field_, recorded, lag_);
+  std::vector<Palpation> all = screened_readings(surface_, model_.field, recorded, lag_);
   const double evidence = believe(all, palpations);
   if (!trend_is_missing()) judge_contrast(all, evidence);
   recorded_ = std::move(recorded);
   palpations_ = std::move(all);
   marginals_ = belief_.at_vertices();
   component_ = marginals_;
-  if (field_.linear_trend) component_.mean = belief_.at_vertices(Part::Detrended).mean;
+  if (model_.field.trend.is_linear) component_.mean = belief_.at_vertices(Part::Detrended).mean;
   edge_.reset();
-  if (!level_rule_.known) level_.reset();
-  if (belief_.site_count() > 0 && contrast_seen_ && !trend_is_missing() && !level_rule_.known) {
+  if (!model_.level.known) level_.reset();
+  if (belief_.site_count() > 0 && contrast_seen_ && !trend_is_missing() && !model_.level.known) {
     const bool is_flat = all_equal(used_readings(palpations_)) || !has_range(component_);
     if (!is_flat) estimate_boundary();
   }
@@ -124,41 +114,43 @@ void Exploration::learn_from(std::span<const Palpation> palpations) {
   untouched_m2_ = 0.0;
   if (level_ && belief_.site_count() > 0) {
     certainty_ =
-        edge_ ? certainty_of(surface_, *edge_, plan_.stop.band_probability)
-              : certainty_of(surface_, belief_, component_, *level_, plan_.stop.band_probability);
-    if (field_.screening) doubt_where_contact_fades();
-    if (field_.indenter_radius_m > 0.0)
-      take_back_tip(*certainty_, surface_, field_.indenter_radius_m);
+        edge_ ? certainty_of(surface_, *edge_, model_.band_probability)
+              : certainty_of(surface_, belief_, component_, *level_, model_.band_probability);
+    if (model_.field.probe.screening) doubt_where_contact_fades();
+    if (model_.field.probe.indenter_radius_m > 0.0)
+      take_back_tip(*certainty_, surface_, model_.field.probe.indenter_radius_m);
     if (edge_) untouched_m2_ = doubt_untouched(*certainty_, belief_, component_, *level_);
     expected_errors_m2_.push_back(certainty_->expected.symmetric_difference_m2());
   }
-  if (field_.indenter_radius_m > 0.0 && level_)
-    component_.mean = eroded(surface_, component_.mean, field_.indenter_radius_m).field;
+  if (model_.field.probe.indenter_radius_m > 0.0 && level_)
+    component_.mean = eroded(surface_, component_.mean, model_.field.probe.indenter_radius_m).field;
   if (!palpations.empty()) probe_ = palpations.back().where;
   plan_next();
 }
 
 void Exploration::estimate_boundary() {
-  if (level_rule_.estimate == LevelEstimate::Range) {
-    level_ = level_from_range(component_, level_rule_.fraction);
+  if (model_.level.estimate == LevelEstimate::Range) {
+    level_ = level_from_range(component_, model_.level.fraction);
     return;
   }
-  level_ = level_from_edge(surface_, belief_, component_, level_rule_.fraction);
+  level_ = level_from_edge(surface_, belief_, component_, model_.level.fraction);
   // The profile may have settled on noise: the middle of the readings' own two plateaus is a second
   // start.
   std::vector<double> first_levels = {level_->value};
   if (const auto plateaus = two_plateaus(used_readings(belief_.detrended_palpations()))) {
-    first_levels.push_back(plateaus->low + level_rule_.fraction * (plateaus->high - plateaus->low));
+    first_levels.push_back(plateaus->low +
+                           model_.level.fraction * (plateaus->high - plateaus->low));
   }
-  const double noise_log_sd = field_.learn_noise ? learned_noise_log_sd(belief_.site_count()) : 0.0;
-  edge_ =
-      EdgeBelief::around(belief_, component_, first_levels, level_rule_.fraction, {}, noise_log_sd);
+  const double noise_log_sd =
+      model_.field.noise.sd.is_learned() ? learned_noise_log_sd(belief_.site_count()) : 0.0;
+  edge_ = EdgeBelief::around(belief_, component_, first_levels, model_.level.fraction, {},
+                             noise_log_sd);
   if (edge_) level_ = edge_->level();
   // Where contact fades no profile fits: its plateau may run away, and with it the level. The
   // mean's range is left: its least is felt all over healthy tissue, its greatest is as unsure a
   // plateau as it was for the profile.
   const double least = component_.mean.minCoeff(), greatest = component_.mean.maxCoeff(),
-               fraction = level_rule_.fraction;
+               fraction = model_.level.fraction;
   if (level_->value > least && level_->value < greatest) return;
   edge_.reset();
   level_ = level_from_range(component_, fraction);
@@ -171,28 +163,30 @@ void Exploration::doubt_where_contact_fades() {
   if (!fading) return;
   if (edge_) {
     doubt_fading_contact(*certainty_, surface_, *fading, edge_->offset_sd(),
-                         4.0 * level_rule_.fraction / edge_->profile().slope_per_m);
+                         4.0 * model_.level.fraction / edge_->profile().slope_per_m);
     return;
   }
   const double level_sd = level_->stddev.value_or(0.0),
                contrast = component_.mean.maxCoeff() - component_.mean.minCoeff();
   const Field sd = (component_.variance.array() + level_sd * level_sd).sqrt();
-  doubt_fading_contact(*certainty_, surface_, *fading, sd, level_rule_.fraction * contrast);
+  doubt_fading_contact(*certainty_, surface_, *fading, sd, model_.level.fraction * contrast);
 }
 
 bool Exploration::tip_hides_all() const {
-  if (field_.indenter_radius_m == 0.0 || !edge_ || edge_->depth().maxCoeff() < 0.0) return false;
+  if (model_.field.probe.indenter_radius_m == 0.0 || !edge_ || edge_->depth().maxCoeff() < 0.0)
+    return false;
   return contour().field.maxCoeff() < 0.0;
 }
 
 Contour Exploration::contour() const {
   require(level_.has_value(), "Exploration::contour", "no level", "draws no boundary");
-  if (edge_) return {eroded(surface_, edge_->depth(), field_.indenter_radius_m).field, 0.0};
+  if (edge_)
+    return {eroded(surface_, edge_->depth(), model_.field.probe.indenter_radius_m).field, 0.0};
   return {component_.mean, level_->value};
 }
 
 bool Exploration::trend_is_missing() const {
-  return field_.linear_trend && !belief_.prior().has_slope();
+  return model_.field.trend.is_linear && !belief_.prior().has_slope();
 }
 
 /// Until contrast is seen, a learned field is not to be believed: spread the touches by the
@@ -249,13 +243,14 @@ std::vector<int> Exploration::in_tour_order(std::vector<int> stops) const {
 void Exploration::plan_next() {
   next_.clear();
   stop_reason_.clear();
-  if (batch_ == 0 && plan_.initial_count > 0) {
+  if (batch_ == 0 && plan_.initial.count > 0) {
+    Random random(plan_.initial.seed);
     next_ = in_tour_order(
-        initial_design(surface_, plan_.initial, plan_.initial_count, candidates(), random_));
+        initial_design(surface_, plan_.initial.design, plan_.initial.count, candidates(), random));
     if (next_.empty()) stop_reason_ = "nothing left to touch";
     return;
   }
-  const int done = plan_.initial_count > 0 ? batch_ - 1 : batch_;
+  const int done = plan_.initial.count > 0 ? batch_ - 1 : batch_;
   if (done >= plan_.batches) {
     stop_reason_ = "budget";
     return;
@@ -278,11 +273,10 @@ std::vector<int> Exploration::searching_stops() const {
   options.from = probe_;
   const std::vector<double> readings = used_readings(belief_.palpations());
   std::vector<int> stops;
-  if (plan_.safe_start && field_.learns() && readings.size() > 1 && !all_equal(readings)) {
-    Kernel kernel = field_.kernel;
-    if (field_.learn_length) kernel.length_m = field_.length_median_m;
+  if (model_.safe_start && model_.field.learns() && readings.size() > 1 && !all_equal(readings)) {
+    Kernel kernel = kernel_of(model_.field.kernel);
     kernel.signal_sd = spread_of(readings).sd;
-    const Belief doubting(unlearned(surface_, field_).prior().with(kernel),
+    const Belief doubting(unlearned(surface_, model_.field).prior().with(kernel),
                           {.noise_sd = kDoubt * kernel.signal_sd});
     options.size = static_cast<int>(std::floor(kSecondLooks * plan_.batch.size));
     stops = choose_batch(doubting.condition_on(belief_.palpations()), ucb(0.5), Level{},
@@ -291,7 +285,7 @@ std::vector<int> Exploration::searching_stops() const {
     options.size = plan_.batch.size;
   }
   return with_others(std::move(stops),
-                     unlearned(surface_, field_).condition_on(belief_.palpations()), options);
+                     unlearned(surface_, model_.field).condition_on(belief_.palpations()), options);
 }
 
 /// First what tells the most about the boundary, then what the acquisition finds best once those
@@ -316,8 +310,10 @@ std::vector<int> Exploration::chosen_stops() const {
 /// shorter.
 Belief Exploration::searching_belief() const {
   Kernel kernel = belief_.prior().kernel();
-  if (!field_.learn_length || kernel.length_m <= field_.length_median_m) return belief_;
-  kernel.length_m = field_.length_median_m;
+  if (!model_.field.kernel.length_m.is_learned() ||
+      kernel.length_m <= model_.field.kernel.length_median_m)
+    return belief_;
+  kernel.length_m = model_.field.kernel.length_median_m;
   return Belief(belief_.prior().with(kernel), belief_.options()).condition_on(belief_.palpations());
 }
 

@@ -55,7 +55,7 @@ std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std:
 /// units of the prior's signal.
 Slope slope_of(const Surface& surface, const FieldModel& field, std::size_t places,
                double half_contrast) {
-  if (!field.linear_trend || places < kPlacesForSlope) return {};
+  if (!field.trend.is_linear || places < kPlacesForSlope) return {};
   return slope_across(surface, field.metric, kSlopeToHalfContrast * half_contrast);
 }
 
@@ -66,18 +66,23 @@ Prior with_slope(const Prior& prior, const Slope& slope) {
 /// Learned noise this low is kept in double, so that rounding refuses none.
 constexpr double kSurelyEnoughForSingle = (1.0 + 1e-9) * kLeastNoiseForSingle;
 
+/// What stands in for a noise until it is learned, over the signal.
+constexpr double kNoiseToSignal = 0.1;
+
 }  // namespace
 
 Belief unlearned(const Surface& surface, const FieldModel& field) {
-  Kernel kernel = field.kernel;
-  if (field.learn_length) kernel.length_m = field.length_median_m;
-  if (field.learn_signal) kernel.signal_sd = 1.0;
-  BeliefOptions options = field.belief;
-  if (field.learn_noise) options.noise_sd = 0.1 * kernel.signal_sd;
-  if (field.learns()) options.standardize = options.noise_is_relative = false;
-  const LengthRange lengths =
-      field.learn_length ? lengths_to_learn(field.length_median_m) : LengthRange{};
-  return Belief(Prior(surface, field.metric, kernel, field.constant, {}, lengths), options);
+  const Kernel kernel = kernel_of(field.kernel);
+  const BeliefOptions options{
+      .noise_sd = field.noise.sd.value_or(kNoiseToSignal * kernel.signal_sd),
+      .noise_is_relative = field.noise.is_relative && !field.learns(),
+      .standardize = field.standardize && !field.learns(),
+      .reduced_rank_tolerance = field.economy.reduced_rank_tolerance,
+      .single_precision = field.economy.single_precision};
+  const LengthRange lengths = field.kernel.length_m.is_learned()
+                                  ? lengths_to_learn(field.kernel.length_median_m)
+                                  : LengthRange{};
+  return Belief(Prior(surface, field.metric, kernel, field.trend.constant, {}, lengths), options);
 }
 
 /// Half the contrast is what the signal's standard deviation stands for.
@@ -122,13 +127,13 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field,
   const std::size_t places = gather_sites(fresh.prior(), palpations).size();
   if (places < 2 || all_equal(readings)) return {fresh, start};
   LearnOptions options;
-  options.length_median_m = field.length_median_m;
-  if (!field.learn_length) options.length_m = field.kernel.length_m;
-  if (!field.learn_signal) options.signal_sd = field.kernel.signal_sd;
-  if (!field.learn_noise) options.noise_sd = field.belief.noise_sd;
+  options.length_median_m = field.kernel.length_median_m;
+  options.length_m = field.kernel.length_m.given();
+  options.signal_sd = field.kernel.signal_sd.given();
+  options.noise_sd = field.noise.sd.given();
   // A field of zero mean around the readings' mean, if they are standardized: what is learned is in
   // reading units all the same.
-  const bool centred = field.belief.standardize && field.constant.sd == 0.0;
+  const bool centred = field.standardize && field.trend.constant.sd == 0.0;
   const Spread spread = centred ? spread_of(readings) : Spread{0.0, 1.0};
   std::vector<Palpation> shifted = to_learn_from(palpations, most_places);
   for (Palpation& palpation : shifted) palpation.reading -= spread.mean;
@@ -136,11 +141,11 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field,
   Slope slope = slope_of(surface, field, places, kHalf * (*greatest - *least));
   const Learned learned = learn(with_slope(fresh.prior(), slope), shifted, start, options);
 
-  Kernel kernel = field.kernel;
+  Kernel kernel = kernel_of(field.kernel);
   kernel.length_m = learned.values.length_m;
   kernel.signal_sd = learned.values.signal_sd / spread.sd;
   slope.sd /= spread.sd;
-  const Prior prior = fresh.prior().with(kernel, field.constant, slope);
+  const Prior prior = fresh.prior().with(kernel, field.trend.constant, slope);
   BeliefOptions believed = fresh.options();
   believed.noise_sd = learned.values.noise_sd;
   believed.standardize = centred;
@@ -160,11 +165,12 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field,
 }
 
 bool restates_known_readings(const FieldModel& field) {
-  return field.lag.is_modelled() || field.screening || field.heavy_tails || field.linear_trend;
+  return field.probe.has_lag() || field.probe.screening || field.noise.heavy_tails ||
+         field.trend.is_linear;
 }
 
 bool may_grow(const FieldModel& field) {
-  return field.learns() && field.rebuild_gain > 0.0 && field.constant.sd > 0.0 &&
+  return field.learns() && field.economy.rebuild_gain > 0.0 && field.trend.constant.sd > 0.0 &&
          !restates_known_readings(field);
 }
 
@@ -173,7 +179,7 @@ FieldFit grow_field(const Surface& surface, const FieldModel& field,
                     const Hyperparameters& learned) {
   const LearnedField taught = learn_field(surface, field, palpations, learned);
   const bool was_taught = learned.signal_sd > 0.0;
-  if (!was_taught || taught.gain >= field.rebuild_gain ||
+  if (!was_taught || taught.gain >= field.economy.rebuild_gain ||
       std::ranges::any_of(palpations, is_on_the_way))
     return believe(surface, field, palpations, taught);
   return {in_force.condition_on(palpations.subspan(in_force.palpations().size())), learned,
@@ -185,7 +191,7 @@ FieldFit believe(const Surface& surface, const FieldModel& field,
   const auto belief_of = [&](const LearnedField& by) {
     if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way))
       return by.blank.condition_on(palpations);
-    const double length_m = field.learn_length ? field.length_median_m : field.kernel.length_m;
+    const double length_m = kernel_of(field.kernel).length_m;
     const double noise_sd = by.in_force().noise_sd;
     return by.blank.condition_on(
         merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));

@@ -66,7 +66,7 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field,
 bool restates_known_readings(const FieldModel& field);
 
 /// Whether a belief of this field may grow by what is felt, under hyperparameters that are nearly
-/// the best (FieldModel::rebuild_gain).
+/// the best (Economy::rebuild_gain).
 bool may_grow(const FieldModel& field);
 
 /// As fit_field, of a field that may grow: what was learned before stays, and the belief in force

@@ -9,11 +9,9 @@ std::vector<Palpation> screened_readings(const Surface& surface, const FieldMode
                                          std::span<const Palpation> recorded,
                                          const std::optional<Lag>& before) {
   std::vector<Palpation> result(recorded.begin(), recorded.end());
-  if (!field.screening) return result;
-  if (!field.lag.is_modelled()) return screened(surface, recorded);
-  const double lag_m = !field.lag.learn ? field.lag.known_m
-                       : before         ? before->value_m
-                                        : LagPrior{}.mean_m;
+  if (!field.probe.screening) return result;
+  if (!field.probe.has_lag()) return screened(surface, recorded);
+  const double lag_m = field.probe.lag_m.value_or(before ? before->value_m : LagPrior{}.mean_m);
   std::vector<Palpation> moved = displaced(surface, recorded, lag_m);
   for (std::size_t i = 0; i < moved.size(); ++i) {
     moved[i].travel.setZero();

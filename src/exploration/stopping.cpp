@@ -26,8 +26,6 @@ void check(const StopRule& rule) {
           "must not be negative or NaN");
   require(rule.least_gain >= 0.0 && rule.least_gain <= 1.0, "StopRule",
           "least_gain = " + text_of(rule.least_gain), "must lie in [0, 1]");
-  require(rule.band_probability > 0.0 && rule.band_probability < 1.0, "StopRule",
-          "band_probability = " + text_of(rule.band_probability), "must lie in (0, 1)");
 }
 
 double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now,

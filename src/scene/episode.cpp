@@ -63,14 +63,14 @@ Reach within_reach(const Scene& scene, const Surface& surface, Reach reach) {
 
 Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach given_reach) {
   Reach reach = within_reach(scene, surface, std::move(given_reach));
-  return Episode{.exploration = Exploration(surface, field_of(scene), level_rule_of(scene),
-                                            std::move(plan), scene.seed(), std::move(reach)),
-                 .cut_risk = scene.number("band.cut_risk"),
-                 .band_probability = scene.number("band.probability"),
-                 .level_fraction = scene.number("level.fraction"),
-                 .assumed_contrast = scene.has("plan.assumed_contrast")
-                                         ? std::optional(scene.number("plan.assumed_contrast"))
-                                         : std::nullopt};
+  return Episode{
+      .exploration = Exploration(surface, model_of(scene), std::move(plan), std::move(reach)),
+      .cut_risk = scene.number("band.cut_risk"),
+      .band_probability = scene.number("band.probability"),
+      .level_fraction = scene.number("level.fraction"),
+      .assumed_contrast = scene.has("plan.assumed_contrast")
+                              ? std::optional(scene.number("plan.assumed_contrast"))
+                              : std::nullopt};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
@@ -150,14 +150,14 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
   const Stopwatch starting;
   const CoarseMesh coarse = coarsen(surface, scene.metres("plan.explore_mm"));
   const Plan plan = plan_of(scene);
-  if (std::max(plan.initial_count, plan.batch.size) > static_cast<int>(coarse.vertices.size()))
+  if (std::max(plan.initial.count, plan.batch.size) > static_cast<int>(coarse.vertices.size()))
     scene.refuse_value("plan.explore_mm", "finer: it leaves " +
                                               std::to_string(coarse.vertices.size()) +
                                               " vertices, fewer than are touched at once");
-  Exploration planner(Surface(coarse.mesh), field_of(scene), level_rule_of(scene), plan,
-                      scene.seed(), coarse_reach(scene, surface, coarse, world.reach));
+  Exploration planner(Surface(coarse.mesh), model_of(scene), plan,
+                      coarse_reach(scene, surface, coarse, world.reach));
   Plan nothing = plan;
-  nothing.initial_count = nothing.batches = 0;
+  nothing.initial.count = nothing.batches = 0;
   Episode episode = started(scene, surface, world, nothing);
   episode.start_seconds = starting.seconds();
   BatchStopwatch stopwatch;
@@ -248,7 +248,7 @@ void scan(Episode& episode, std::span<const SurfacePoint> places, const Probe& p
 Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
                  const AfterBatch& after_batch) {
   Plan nothing = plan_of(scene);
-  nothing.initial_count = 0;
+  nothing.initial.count = 0;
   nothing.batches = 0;
   Episode episode = started(scene, surface, world, nothing);
   const double spacing = scene.metres("plan.row_spacing_mm");

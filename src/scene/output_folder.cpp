@@ -246,7 +246,7 @@ json OutputFolder::summary(const Episode& episode) const {
       {"warnings", warnings},
       {"stop_reason", episode.stop_reason().empty() ? json(nullptr) : json(episode.stop_reason())},
       {"chart_hash", surface_.chart().hash()}};
-  if (field_of(scene_).lag.is_modelled()) {
+  if (field_of(scene_).probe.has_lag()) {
     result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
     result["lag_sd_mm"] =
         exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);

@@ -42,7 +42,7 @@ std::vector<double> readings_that_count(const Exploration& exploration) {
 
 double scatter(const Exploration& exploration) {
   const double seen = spread_of(readings_that_count(exploration)).sd;
-  const bool is_given = !exploration.field().learn_noise;
+  const bool is_given = !exploration.model().field.noise.sd.is_learned();
   return seen > 0.0 && is_given ? std::max(seen, std::sqrt(exploration.belief().noise_variance()))
                                 : seen;
 }

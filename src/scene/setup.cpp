@@ -40,65 +40,58 @@ Acquisition acquisition_of(const Scene& scene) {
   return ils_ucb(gamma, scaling);
 }
 
-}  // namespace
+Learnable learnable(const Scene& scene, const char* key) {
+  return scene.word(key) == "learn" ? kLearned : Learnable(scene.number(key));
+}
 
-FieldModel field_of(const Scene& scene) {
-  FieldModel field;
-  field.metric = metric_named(scene.word("field.metric"));
-  field.kernel.family = kernel_family(scene.word("field.kernel"));
-  if (field.kernel.family == KernelFamily::Periodic) {
-    if (field.metric != Metric::Chart)
+Learnable learnable_metres(const Scene& scene, const char* key) {
+  return scene.word(key) == "learn" ? kLearned : Learnable(scene.metres(key));
+}
+
+KernelModel kernel_model_of(const Scene& scene, Metric metric) {
+  KernelModel kernel{.family = kernel_family(scene.word("field.kernel")),
+                     .length_m = learnable_metres(scene, "field.length_mm"),
+                     .signal_sd = learnable(scene, "field.signal_sd"),
+                     .length_median_m = scene.metres("field.length_prior_mm")};
+  if (kernel.family == KernelFamily::Periodic) {
+    if (metric != Metric::Chart)
       scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
-    field.kernel.period_m = scene.metres("field.period_mm");
+    kernel.period_m = scene.metres("field.period_mm");
   }
-  if (field.kernel.family == KernelFamily::Matern12 && field.metric == Metric::Intrinsic)
+  if (kernel.family == KernelFamily::Matern12 && metric == Metric::Intrinsic)
     scene.refuse("field.kernel",
                  "is \"matern-1/2\", which field.metric intrinsic does not have: take "
                  "squared-exponential, matern-3/2 or matern-5/2");
-  field.learn_length = scene.word("field.length_mm") == "learn";
-  if (!field.learn_length) field.kernel.length_m = scene.metres("field.length_mm");
-  field.learn_signal = scene.word("field.signal_sd") == "learn";
-  if (!field.learn_signal) field.kernel.signal_sd = scene.number("field.signal_sd");
-  field.learn_noise = scene.word("field.noise") == "learn" && !scene.has("field.noise_to_signal");
-  if (scene.has("field.noise_to_signal")) {
-    if (scene.word("field.noise") != "learn")
-      scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
-    if (field.learn_length || field.learn_signal)
-      scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
-    field.belief.noise_sd = scene.number("field.noise_to_signal");
-    field.belief.noise_is_relative = true;
-  } else if (!field.learn_noise) {
-    field.belief.noise_sd = scene.number("field.noise");
-  }
-  field.length_median_m = scene.metres("field.length_prior_mm");
-  field.linear_trend = scene.word("field.trend") == "linear";
-  if (scene.word("field.trend") == "zero")
-    field.constant.sd = 0.0;
-  else if (scene.has("field.constant_sd"))
-    field.constant.sd = scene.number("field.constant_sd");
-  field.belief.standardize = scene.truth("field.standardize");
-  field.belief.single_precision = scene.word("field.precision") == "single";
-  if (field.belief.single_precision && !field.learns()) {
-    if (field.belief.standardize && !field.belief.noise_is_relative)
-      scene.refuse(
-          "field.precision",
-          "is single, but how large a fixed field.noise is beside standardized readings shows only "
-          "when they are felt: set "
-          "field.standardize to false, or give field.noise_to_signal in place of field.noise");
-    const double least_noise_sd = std::sqrt(kLeastNoiseForSingle) *
-                                  (field.belief.noise_is_relative ? 1.0 : field.kernel.signal_sd);
-    if (field.belief.noise_sd < least_noise_sd)
-      scene.refuse("field.precision",
-                   "is single, which needs noise of 3.2 % of the signal at least: take double");
-  }
-  field.belief.reduced_rank_tolerance = scene.number("field.reduced_rank");
-  field.rebuild_gain = scene.number("field.rebuild_gain");
-  field.screening = scene.truth("field.screening");
-  field.heavy_tails = scene.truth("field.heavy_tails");
-  field.indenter_radius_m = scene.metres("field.indenter_radius_mm");
-  field.lag.learn = scene.word("field.lag_mm") == "learn";
-  if (!field.lag.learn) field.lag.known_m = scene.metres("field.lag_mm");
-  return field;
+  return kernel;
+}
+
+NoiseModel noise_of(const Scene& scene, const KernelModel& kernel) {
+  NoiseModel noise{.sd = learnable(scene, "field.noise"),
+                   .heavy_tails = scene.truth("field.heavy_tails")};
+  if (!scene.has("field.noise_to_signal")) return noise;
+  if (!noise.sd.is_learned())
+    scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
+  if (kernel.length_m.is_learned() || kernel.signal_sd.is_learned())
+    scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
+  noise.sd = scene.number("field.noise_to_signal");
+  noise.is_relative = true;
+  return noise;
+}
+
+/// Single precision needs noise, and to know how much.
+void check_precision(const Scene& scene, const FieldModel& field) {
+  if (!field.economy.single_precision || field.learns()) return;
+  const bool is_relative = field.noise.is_relative;
+  if (field.standardize && !is_relative)
+    scene.refuse(
+        "field.precision",
+        "is single, but how large a fixed field.noise is beside standardized readings shows only "
+        "when they are felt: set "
+        "field.standardize to false, or give field.noise_to_signal in place of field.noise");
+  const double signal_sd = is_relative ? 1.0 : *field.kernel.signal_sd.given();
+  if (*field.noise.sd.given() < std::sqrt(kLeastNoiseForSingle) * signal_sd)
+    scene.refuse("field.precision",
+                 "is single, which needs noise of 3.2 % of the signal at least: take double");
 }
 
 LevelRule level_rule_of(const Scene& scene) {
@@ -110,25 +103,53 @@ LevelRule level_rule_of(const Scene& scene) {
   return rule;
 }
 
+}  // namespace
+
+FieldModel field_of(const Scene& scene) {
+  FieldModel field{.metric = metric_named(scene.word("field.metric")),
+                   .standardize = scene.truth("field.standardize")};
+  field.kernel = kernel_model_of(scene, field.metric);
+  field.noise = noise_of(scene, field.kernel);
+  field.trend.is_linear = scene.word("field.trend") == "linear";
+  if (scene.word("field.trend") == "zero")
+    field.trend.constant.sd = 0.0;
+  else if (scene.has("field.constant_sd"))
+    field.trend.constant.sd = scene.number("field.constant_sd");
+  field.economy = {.reduced_rank_tolerance = scene.number("field.reduced_rank"),
+                   .single_precision = scene.word("field.precision") == "single",
+                   .rebuild_gain = scene.number("field.rebuild_gain")};
+  check_precision(scene, field);
+  field.probe = {.lag_m = learnable_metres(scene, "field.lag_mm"),
+                 .indenter_radius_m = scene.metres("field.indenter_radius_mm"),
+                 .screening = scene.truth("field.screening")};
+  return field;
+}
+
+Model model_of(const Scene& scene) {
+  return {.field = field_of(scene),
+          .level = level_rule_of(scene),
+          .band_probability = scene.number("band.probability"),
+          .safe_start = scene.truth("plan.safe_start")};
+}
+
 Plan plan_of(const Scene& scene) {
   Plan plan;
   plan.acquisition = acquisition_of(scene);
   const std::string design = scene.word("plan.initial.design");
-  plan.initial = design == "random" ? Design::Random
-                 : design == "grid" ? Design::Grid
-                                    : Design::LowDiscrepancy;
-  plan.initial_count = scene.integer("plan.initial.count");
+  plan.initial = {.design = design == "random" ? Design::Random
+                            : design == "grid" ? Design::Grid
+                                               : Design::LowDiscrepancy,
+                  .count = scene.integer("plan.initial.count"),
+                  .seed = scene.seed()};
   plan.batch.size = scene.integer("plan.batch");
   if (scene.truth("plan.readings_along_path")) plan.batch.way_reading_m = kWayStep_m;
   plan.batch.least_spacing_m = scene.metres("plan.least_spacing_mm");
   plan.batches = scene.integer("plan.batches");
   plan.stop = {.error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6,
                .band_m = scene.metres("plan.stop.band_mm"),
-               .least_gain = scene.number("plan.stop.least_gain"),
-               .band_probability = scene.number("band.probability")};
+               .least_gain = scene.number("plan.stop.least_gain")};
   plan.edge_share =
       scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
-  plan.safe_start = scene.truth("plan.safe_start");
   return plan;
 }
 

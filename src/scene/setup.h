@@ -19,7 +19,7 @@ namespace palpation::tool {
 inline constexpr double kWayStep_m = 0.001;
 
 FieldModel field_of(const Scene& scene);
-LevelRule level_rule_of(const Scene& scene);
+Model model_of(const Scene& scene);
 Plan plan_of(const Scene& scene);
 Robot robot_of(const Scene& scene);
 /// What the robot can touch, in the tissue's frame.

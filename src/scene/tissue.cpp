@@ -207,8 +207,7 @@ void check_all(const Scene& scene) {
     scene.refuse("plan.acquisition", "is " + strategy +
                                          ", a scan that takes no account of robot.shaft_direction "
                                          "and robot.clearance_mm: leave them out");
-  field_of(scene);
-  level_rule_of(scene);
+  model_of(scene);
   plan_of(scene);
   robot_of(scene);
   if (scene.gives("surface.patch.radius_mm") && !scene.gives("surface.patch.centre_mm"))

@@ -45,8 +45,7 @@ void report(const Episode& episode, bool quiet) {
 
 MeasurementsFile measured_on(const Scene& scene, const Surface& surface,
                              const std::filesystem::path& path) {
-  const FieldModel field = field_of(scene);
-  const bool noiseless = !field.learn_noise && field.belief.noise_sd == 0.0;
+  const bool noiseless = field_of(scene).is_noiseless();
   MeasurementsFile measured = read_measurements(path, surface, {.empty_noise_is_none = noiseless});
   if (measured.places > kMostPlaces)
     throw IoError(path.string() + ": readings at " + std::to_string(measured.places) +

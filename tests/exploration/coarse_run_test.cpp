@@ -27,7 +27,7 @@ Felt felt_with(const CoarseMesh& coarse, const Surface& tissue, const Phantom& p
                double way_step_m = 0.0) {
   Random random(1);
   Felt felt;
-  Exploration planner(Surface(coarse.mesh), {}, {}, {.batches = 5}, 1);
+  Exploration planner(Surface(coarse.mesh), {}, {.batches = 5});
   felt.palpations = run_coarsely(
       planner, coarse, tissue,
       [&](const SurfacePoint& where, const Vec3&) {
@@ -49,7 +49,7 @@ TEST(CoarseRun, OnTheWholeMeshIsTheRun) {
   std::iota(whole.vertices.begin(), whole.vertices.end(), 0);
   const Felt felt = felt_with(whole, tissue, phantom);
 
-  Exploration exploration(tissue, {}, {}, {.batches = 5}, 1);
+  Exploration exploration(tissue, {}, {.batches = 5});
   Random random(1);
   run(exploration, [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
@@ -86,7 +86,7 @@ TEST(CoarseRun, EndsWithABoundaryAsGoodAsThatOfThePlanOnTheWholeMesh) {
   const Phantom phantom = disk_phantom(tissue);
   const Region truth = superlevel_region(tissue, phantom.truth(), phantom.true_level());
   for (const double explore_m : {0.0005, 0.001, 0.002}) {
-    Exploration concluded(tissue, {}, {}, {.initial_count = 0, .batches = 0}, 1);
+    Exploration concluded(tissue, {}, {.initial = {.count = 0}, .batches = 0});
     concluded.take_up(felt_with(coarsen(tissue, explore_m), tissue, phantom).palpations);
     ASSERT_TRUE(concluded.level());
     const Contour contour = concluded.contour();
@@ -100,7 +100,7 @@ TEST(CoarseRun, EndsWithABoundaryAsGoodAsThatOfThePlanOnTheWholeMesh) {
 
 TEST(CoarseRun, RefusesAPlannerOfAnotherTissue) {
   const Surface tissue = plane(26, 51);
-  Exploration planner(tissue, {}, {}, {}, 1);
+  Exploration planner(tissue);
   const Probe nothing = [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); };
   EXPECT_THROW(run_coarsely(planner, coarsen(tissue, 0.003), tissue, nothing), InvalidInput);
 }

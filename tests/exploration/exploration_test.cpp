@@ -26,7 +26,7 @@ Probe probe_of(const Phantom& phantom, Random& random) {
 TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  Exploration exploration(tissue, {}, {}, {.batches = 3}, 1);
+  Exploration exploration(tissue, {}, {.batches = 3});
   Random random(1);
   std::vector<std::size_t> sizes;
   run(exploration, probe_of(phantom, random),
@@ -40,7 +40,7 @@ TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
 TEST(Exploration, AnswersTheSameUntilSomethingIsRecorded) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  Exploration exploration(tissue, {}, {}, {}, 1);
+  Exploration exploration(tissue);
   const std::vector<int> first = exploration.next();
   EXPECT_EQ(exploration.next(), first);
   Random random(1);
@@ -53,7 +53,8 @@ TEST(Exploration, IsRepeatable) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.10);
   const auto stops = [&] {
-    Exploration exploration(tissue, {}, {}, {.initial = Design::Random, .batches = 4}, 7);
+    Exploration exploration(tissue, {},
+                            {.initial = {.design = Design::Random, .seed = 7}, .batches = 4});
     Random random(3);
     run(exploration, probe_of(phantom, random));
     return exploration.marginals();
@@ -64,12 +65,9 @@ TEST(Exploration, IsRepeatable) {
 TEST(Exploration, PlansTheSameWithForesightAndWithout) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  const FieldModel fixed{.belief = {.noise_sd = 0.1},
-                         .learn_length = false,
-                         .learn_signal = false,
-                         .learn_noise = false};
+  const FieldModel fixed{.kernel = {.length_m = 0.0033, .signal_sd = 1.0}, .noise = {.sd = 0.1}};
   const auto planned = [&](bool foresees) {
-    Exploration exploration(tissue, fixed, {.known = 8.0}, {.batches = 4}, 7);
+    Exploration exploration(tissue, {.field = fixed, .level = {.known = 8.0}}, {.batches = 4});
     Random random(3);
     std::vector<std::vector<int>> stops;
     std::optional<SurfacePoint> here;
@@ -91,20 +89,17 @@ TEST(Exploration, PlansTheSameWithForesightAndWithout) {
 TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
   const Surface tissue = plane(26, 51);
   const Phantom healthy(tissue, {}, {.noise = 0.05});
-  const FieldModel given{.kernel = {.length_m = 0.0033},
-                         .belief = {.noise_sd = 0.1},
-                         .learn_length = false,
-                         .learn_signal = false,
-                         .learn_noise = false};
+  const FieldModel given{.kernel = {.length_m = 0.0033, .signal_sd = 1.0}, .noise = {.sd = 0.1}};
   for (const LevelEstimate estimate : {LevelEstimate::Edge, LevelEstimate::Range}) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
-      Exploration exploration(tissue, given, {.estimate = estimate}, {.batches = 5}, seed);
+      Exploration exploration(tissue, {.field = given, .level = {.estimate = estimate}},
+                              {.batches = 5});
       Random random(seed);
       run(exploration, probe_of(healthy, random));
       EXPECT_FALSE(exploration.level()) << seed;
     }
   }
-  Exploration over_a_disk(tissue, given, {}, {.batches = 5}, 1);
+  Exploration over_a_disk(tissue, {.field = given}, {.batches = 5});
   Random random(1);
   const Phantom disk = disk_phantom(tissue, 0.05);
   run(over_a_disk, probe_of(disk, random));
@@ -114,13 +109,11 @@ TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
 TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
   const Surface tissue = plane(26, 51);
   Random random(3);
-  FieldModel given{.kernel = {.length_m = 0.0033},
-                   .learn_length = false,
-                   .learn_signal = false,
-                   .learn_noise = false};
+  FieldModel given{.kernel = {.length_m = 0.0033, .signal_sd = 1.0}};
   for (const double noise_sd : {0.1, 1e-7}) {
-    given.belief.noise_sd = noise_sd;
-    Exploration exploration(tissue, given, {.estimate = LevelEstimate::Range}, {.batches = 0}, 1);
+    given.noise.sd = noise_sd;
+    Exploration exploration(tissue, {.field = given, .level = {.estimate = LevelEstimate::Range}},
+                            {.batches = 0});
     exploration.take_up(bumpy_readings(tissue, 1000, random));
     EXPECT_TRUE(exploration.level()) << noise_sd;
   }
@@ -129,7 +122,7 @@ TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
 TEST(Exploration, FindsTheDiskAndItsLevel) {
   const Surface tissue = plane(51, 101);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  Exploration exploration(tissue, {}, {}, {.acquisition = straddle(), .batches = 9}, 2);
+  Exploration exploration(tissue, {}, {.acquisition = straddle(), .batches = 9});
   Random random(2);
   run(exploration, probe_of(phantom, random));
   EXPECT_TRUE(exploration.contrast_seen());
@@ -145,7 +138,7 @@ TEST(Exploration, FindsTheDiskAndItsLevel) {
 TEST(Exploration, ExploresByVarianceUntilThereIsContrast) {
   const Surface tissue = plane(26, 51);
   const Phantom healthy(tissue, {}, {.noise = 0.05});
-  Exploration exploration(tissue, {}, {}, {.batches = 4}, 1);
+  Exploration exploration(tissue, {}, {.batches = 4});
   Random random(1);
   run(exploration, probe_of(healthy, random));
   EXPECT_FALSE(exploration.contrast_seen());
@@ -171,7 +164,7 @@ TEST(Exploration, ForgetsStopsWithoutContact) {
     if (tissue.position(where).x() < 0.0125) return std::nullopt;
     return phantom.touch(where, random);
   };
-  Exploration exploration(tissue, {}, {}, {.batches = 6}, 1);
+  Exploration exploration(tissue, {}, {.batches = 6});
   std::multiset<int> asked;
   while (!exploration.next().empty()) {
     const std::vector<int> stops = exploration.next();
@@ -188,8 +181,9 @@ TEST(Exploration, ForgetsStopsWithoutContact) {
 TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
   const Surface tissue = plane(4, 5);
   const Phantom phantom = disk_phantom(tissue, 0.05);
-  Exploration exploration(tissue, {}, {}, {.initial_count = 4, .batch = {.size = 5}, .batches = 10},
-                          1, {.touch_once = true});
+  Exploration exploration(tissue, {},
+                          {.initial = {.count = 4}, .batch = {.size = 5}, .batches = 10},
+                          {.touch_once = true});
   Random random(1);
   run(exploration, probe_of(phantom, random));
   EXPECT_EQ(exploration.stop_reason(), "nothing left to touch");
@@ -199,9 +193,8 @@ TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
 TEST(Exploration, StopsAtTheExpectedErrorThatWasAskedFor) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.02);
-  Exploration exploration(tissue, {}, {.known = 8.0},
-                          {.acquisition = straddle(), .batches = 40, .stop = {.error_m2 = 10e-6}},
-                          1);
+  Exploration exploration(tissue, {.level = {.known = 8.0}},
+                          {.acquisition = straddle(), .batches = 40, .stop = {.error_m2 = 10e-6}});
   Random random(1);
   run(exploration, probe_of(phantom, random));
   EXPECT_EQ(exploration.stop_reason(), "expected error");
@@ -210,7 +203,7 @@ TEST(Exploration, StopsAtTheExpectedErrorThatWasAskedFor) {
 TEST(Exploration, TakesUpReadingsMadeElsewhere) {
   const Surface tissue = plane(26, 51);
   Random random(4);
-  Exploration exploration(tissue, {}, {}, {.batches = 3}, 1);
+  Exploration exploration(tissue, {}, {.batches = 3});
   exploration.take_up(bumpy_readings(tissue, 30, random));
   EXPECT_EQ(exploration.belief().palpations().size(), 30u);
   EXPECT_EQ(exploration.next().size(), 10u);
@@ -228,17 +221,16 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
     }
     return wrong;
   };
-  const auto explored = [&](const LagModel& lag) {
-    Exploration exploration(tissue, {.lag = lag}, {.known = 8.0},
-                            {.acquisition = straddle(), .batches = 9}, 2);
+  const auto explored = [&](Learnable lag_m) {
+    Exploration exploration(tissue, {.field = {.probe = {.lag_m = lag_m}}, .level = {.known = 8.0}},
+                            {.acquisition = straddle(), .batches = 9});
     Random random(2);
     run(exploration, [&](const SurfacePoint& where, const Vec3& travel) {
       return std::optional(phantom.touch(where, travel, random));
     });
     return exploration;
   };
-  const Exploration ignored = explored({}), learned = explored({.learn = true}),
-                    known = explored({.known_m = 0.0015});
+  const Exploration ignored = explored(0.0), learned = explored(kLearned), known = explored(0.0015);
   EXPECT_FALSE(ignored.lag().has_value());
   ASSERT_TRUE(learned.lag().has_value());
   EXPECT_NEAR(learned.lag()->value_m, 0.0015, 2.0 * learned.lag()->stddev_m);
@@ -258,7 +250,7 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
 Exploration explored_with_tip(double tip_radius_m) {
   const Surface tissue = plane(26, 51);
   const Phantom phantom = disk_phantom(tissue, 0.02);
-  Exploration exploration(tissue, {.indenter_radius_m = tip_radius_m}, {}, {}, 1);
+  Exploration exploration(tissue, {.field = {.probe = {.indenter_radius_m = tip_radius_m}}});
   Random random(1);
   run(exploration, probe_of(phantom, random));
   return exploration;

@@ -25,7 +25,8 @@ std::vector<Hyperparameters> explored(const Surface& tissue, double rebuild_gain
   const Probe probe = [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
   };
-  Exploration exploration(tissue, {.rebuild_gain = rebuild_gain}, {}, {.batches = 8}, 7);
+  Exploration exploration(tissue, {.field = {.economy = {.rebuild_gain = rebuild_gain}}},
+                          {.batches = 8});
   std::vector<Hyperparameters> all;
   for (auto stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
     if (foresees) exploration.foresee();

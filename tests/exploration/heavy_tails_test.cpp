@@ -21,8 +21,7 @@ double wrong_mm2(bool heavy_tails) {
   constexpr int kRuns = 3;
   double sum = 0.0;
   for (int seed = 1; seed <= kRuns; ++seed) {
-    Exploration exploration(tissue, {.heavy_tails = heavy_tails}, {}, {},
-                            static_cast<std::uint64_t>(seed));
+    Exploration exploration(tissue, {.field = {.noise = {.heavy_tails = heavy_tails}}});
     Random random(static_cast<std::uint64_t>(seed));
     run(exploration, [&](const SurfacePoint& where, const Vec3&) {
       Palpation palpation = phantom.touch(where, random);
@@ -67,7 +66,7 @@ TEST(HeavyTails, MakeNoTumourOfNoise) {
       palpations.push_back(touch(tissue, random.below(tissue.vertex_count()),
                                  7.0 + 0.1 * far_out * random.normal()));
     }
-    Exploration exploration(tissue, {.heavy_tails = true}, {}, {}, 1);
+    Exploration exploration(tissue, {.field = {.noise = {.heavy_tails = true}}});
     exploration.take_up(palpations);
     EXPECT_FALSE(exploration.contrast_seen()) << seed;
   }

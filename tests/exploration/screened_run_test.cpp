@@ -22,11 +22,7 @@ int set_aside_in(const Exploration& exploration) {
       all.begin(), all.end(), [](const Palpation& one) { return !one.set_aside.empty(); }));
 }
 
-FieldModel screened_field() {
-  FieldModel field;
-  field.screening = true;
-  return field;
-}
+FieldModel screened_field() { return {.probe = {.screening = true}}; }
 
 // Tumours down to 2.5 mm, little and much noise, with a lag that is not known of, none, and one
 // that is: next to nothing is set aside, and never in the first touches, where one of them may be
@@ -41,13 +37,11 @@ TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
                               {Disk{Vec3(0.0115, 0.030, 0.0), noise > 0.1 ? 0.006 : 0.0025}},
                               {.noise = noise, .lag_m = lag_m});
         FieldModel field = screened_field();
-        if (known) field.lag.known_m = lag_m;
-        Exploration exploration(tissue, field, {.known = 8.0},
+        if (known) field.probe.lag_m = lag_m;
+        Exploration exploration(tissue, {.field = field, .level = {.known = 8.0}},
                                 {.acquisition = straddle(),
-                                 .initial = Design::Random,
-                                 .initial_count = 10,
-                                 .batches = 6},
-                                5);
+                                 .initial = {.design = Design::Random, .count = 10, .seed = 5},
+                                 .batches = 6});
         Random random(5);
         int first = -1;
         run(
@@ -81,7 +75,7 @@ TEST(Exploration, FindsNoTumourInOneReadingOfAHundred) {
   for (const bool trend : {false, true}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const std::vector<Palpation> readings = healthy_but_one(tissue, 100, seed);
-      Exploration exploration(tissue, FieldModel{.linear_trend = trend}, {}, {}, 1);
+      Exploration exploration(tissue, {.field = {.trend = {.is_linear = trend}}});
       exploration.take_up(readings);
       EXPECT_FALSE(exploration.contrast_seen()) << seed << " " << trend;
       EXPECT_FALSE(exploration.level()) << seed << " " << trend;
@@ -109,11 +103,10 @@ TEST(Exploration, FindsATumourBesideAReadingThatStandsAlone) {
       readings[66].reading = wild;
       FieldModel field;
       if (!learned) {
-        field.learn_length = field.learn_signal = field.learn_noise = false;
-        field.kernel.length_m = 0.004;
-        field.belief.noise_sd = 0.1;
+        field.kernel = {.length_m = 0.004, .signal_sd = 1.0};
+        field.noise.sd = 0.1;
       }
-      Exploration exploration(tissue, field, {}, {}, 1);
+      Exploration exploration(tissue, {.field = field});
       exploration.take_up(std::span(readings).first(100));
       exploration.take_up(std::span(readings).subspan(100));
       ASSERT_TRUE(exploration.lone_reading()) << wild;
@@ -133,7 +126,7 @@ TEST(Exploration, FindsATumourThatASecondReadingConfirms) {
   std::vector<Palpation> readings = healthy_but_one(tissue, 100, 1);
   readings.push_back(readings[33]);
   readings.back().reading = 8.6;
-  Exploration exploration(tissue, {}, {}, {}, 1);
+  Exploration exploration(tissue);
   exploration.take_up(readings);
   EXPECT_TRUE(exploration.contrast_seen());
   EXPECT_FALSE(exploration.lone_reading());
@@ -143,7 +136,7 @@ TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> hung;
   for (int vertex = 0; vertex < 20; ++vertex) hung.push_back(touch(tissue, 26 * vertex, 7.0));
-  Exploration exploration(tissue, screened_field(), {}, {}, 1);
+  Exploration exploration(tissue, {.field = screened_field()});
   exploration.take_up(hung);
   ASSERT_EQ(exploration.palpations().size(), 20u);
   for (const Palpation& palpation : exploration.palpations())

@@ -112,8 +112,8 @@ std::string reason_of_a_run(const StopRule& stop, double noise, int batches = 30
   const Surface tissue = sheet(26, 51);
   const Phantom phantom(tissue, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.006}},
                         {.noise = noise});
-  Exploration exploration(tissue, {}, {.estimate = LevelEstimate::Edge},
-                          {.acquisition = straddle(), .batches = batches, .stop = stop}, 1);
+  Exploration exploration(tissue, {.level = {.estimate = LevelEstimate::Edge}},
+                          {.acquisition = straddle(), .batches = batches, .stop = stop});
   Random random(1);
   run(exploration, [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
@@ -143,7 +143,7 @@ TEST(StopRule, RefusesWhatIsNone) {
   EXPECT_THROW(check(StopRule{.error_m2 = -1.0}), InvalidInput);
   EXPECT_THROW(check(StopRule{.band_m = std::nan("")}), InvalidInput);
   EXPECT_THROW(check(StopRule{.least_gain = 1.5}), InvalidInput);
-  EXPECT_THROW(check(StopRule{.band_probability = 1.0}), InvalidInput);
+  EXPECT_THROW(check(Model{.band_probability = 1.0}), InvalidInput);
 }
 
 }  // namespace

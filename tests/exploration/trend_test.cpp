@@ -10,7 +10,8 @@ namespace {
 
 Exploration explored(const Surface& tissue, const Phantom& phantom, const FieldModel& field,
                      const LevelRule& level, int batches) {
-  Exploration exploration(tissue, field, level, {.acquisition = straddle(), .batches = batches}, 1);
+  Exploration exploration(tissue, {.field = field, .level = level},
+                          {.acquisition = straddle(), .batches = batches});
   Random random(1);
   run(exploration, [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
@@ -40,7 +41,8 @@ TEST(Trend, IsTakenOutOfLevelAndBoundary) {
   for (const LevelEstimate estimate : {LevelEstimate::Edge, LevelEstimate::Range}) {
     const LevelRule level{.estimate = estimate};
     const Phantom tilted = tilted_disk(tissue, 1.0);
-    EXPECT_LT(wrong_mm2(explored(tissue, tilted, {.linear_trend = true}, level, 6), tilted), 13.0);
+    EXPECT_LT(wrong_mm2(explored(tissue, tilted, {.trend = {.is_linear = true}}, level, 6), tilted),
+              13.0);
     EXPECT_GT(wrong_mm2(explored(tissue, tilted, {}, level, 6), tilted),
               estimate == LevelEstimate::Range ? 100.0 : 16.0);
   }
@@ -48,10 +50,9 @@ TEST(Trend, IsTakenOutOfLevelAndBoundary) {
 
 TEST(Trend, ServesFieldsOfFixedHyperparametersToo) {
   const Surface tissue = plane(26, 51);
-  FieldModel field{.kernel = {.length_m = 0.0035, .signal_sd = 1.0},
-                   .belief = {.noise_sd = 0.05},
-                   .linear_trend = true};
-  field.learn_length = field.learn_signal = field.learn_noise = false;
+  const FieldModel field{.kernel = {.length_m = 0.0035, .signal_sd = 1.0},
+                         .trend = {.is_linear = true},
+                         .noise = {.sd = 0.05}};
   const Phantom tilted = tilted_disk(tissue, 1.0);
   EXPECT_LT(
       wrong_mm2(explored(tissue, tilted, field, {.estimate = LevelEstimate::Edge}, 6), tilted),
@@ -61,7 +62,7 @@ TEST(Trend, ServesFieldsOfFixedHyperparametersToo) {
 TEST(Trend, IsNoTumour) {
   const Surface tissue = plane(26, 51);
   const Phantom healthy(tissue, {}, {.noise = 0.05, .bias = 1.0});
-  EXPECT_FALSE(explored(tissue, healthy, {.linear_trend = true}, {}, 4).contrast_seen());
+  EXPECT_FALSE(explored(tissue, healthy, {.trend = {.is_linear = true}}, {}, 4).contrast_seen());
   EXPECT_TRUE(explored(tissue, healthy, {}, {}, 4).contrast_seen());
 }
 
@@ -69,8 +70,8 @@ TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
   const Surface tissue = plane(26, 51);
   Random random(4);
   const std::vector<Palpation> readings = bumpy_readings(tissue, 15, random);
-  Exploration exploration(tissue, {.linear_trend = true}, {}, {.batches = 3, .safe_start = false},
-                          1);
+  Exploration exploration(tissue, {.field = {.trend = {.is_linear = true}}, .safe_start = false},
+                          {.batches = 3});
   exploration.take_up(std::span(readings).first(14));
   EXPECT_TRUE(exploration.trend_is_missing());
   EXPECT_FALSE(exploration.level().has_value());
@@ -82,7 +83,7 @@ TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
 TEST(Trend, LeavesTheWholeFieldToItsMarginals) {
   const Surface tissue = plane(26, 51);
   const Phantom tilted = tilted_disk(tissue, 1.0);
-  const Exploration with = explored(tissue, tilted, {.linear_trend = true}, {}, 3),
+  const Exploration with = explored(tissue, tilted, {.trend = {.is_linear = true}}, {}, 3),
                     without = explored(tissue, tilted, {}, {}, 3);
   EXPECT_TRUE(with.component().variance == with.marginals().variance);
   // What is taken out is the slope: 2 over 50 mm, known to a quarter from so few readings around a

@@ -14,8 +14,8 @@ double wrong_mm2(double way_step_m) {
   const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.25});
   Random random(1);
   Exploration exploration(
-      tissue, {}, {},
-      {.acquisition = straddle(), .batch = {.way_reading_m = way_step_m}, .batches = 4}, 1);
+      tissue, {},
+      {.acquisition = straddle(), .batch = {.way_reading_m = way_step_m}, .batches = 4});
   const Probe probe = [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
   };

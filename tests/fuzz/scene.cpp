@@ -26,8 +26,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   try_to([&] {
     const tool::Scene scene = tool::Scene::read(file.path(), {});
     fuzz::expect(scene.complete().is_object(), "a scene is an object");
-    try_to([&] { tool::field_of(scene); });
-    try_to([&] { tool::level_rule_of(scene); });
+    try_to([&] { tool::model_of(scene); });
     try_to([&] { tool::plan_of(scene); });
     try_to([&] { tool::robot_of(scene); });
     try_to([&] { tool::phantom_of(scene, fuzz::sheet()); });

@@ -53,15 +53,13 @@ Result explored(const TriangleMesh& mesh, int centre) {
   const Phantom phantom(tissue, {Disk{tissue.vertex(centre), 0.00625}}, {.slope_per_m = 1400.0});
   FieldModel field;
   field.metric = Metric::Chart;
-  field.kernel.length_m = 0.0033;
-  field.belief.noise_sd = 0.1;
-  field.learn_length = field.learn_signal = field.learn_noise = false;
-  Exploration exploration(tissue, field, {.known = 8.0},
+  field.kernel = {.length_m = 0.0033, .signal_sd = 1.0};
+  field.noise.sd = 0.1;
+  Exploration exploration(tissue, {.field = field, .level = {.known = 8.0}},
                           {.acquisition = straddle(),
-                           .initial_count = 0,
+                           .initial = {.count = 0},
                            .batch = {.least_spacing_m = 0.0005},
-                           .batches = 5},
-                          1);
+                           .batches = 5});
   Random unused(0);
   std::vector<Palpation> first;
   for (const int vertex : {100, 333, 555, 640, 700, 901, 1100})

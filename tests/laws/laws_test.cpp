@@ -32,14 +32,13 @@ Result explored(const TriangleMesh& mesh, double scale = 1.0,
   FieldModel field;
   field.metric = Metric::Ambient;
   field.kernel.length_m = 0.0033 * scale;
-  field.belief.noise_sd = 0.1;
-  field.learn_length = field.learn_signal = field.learn_noise = false;
-  Exploration exploration(tissue, field, {.known = 8.0},
+  field.kernel.signal_sd = 1.0;
+  field.noise.sd = 0.1;
+  Exploration exploration(tissue, {.field = field, .level = {.known = 8.0}},
                           {.acquisition = straddle(),
-                           .initial_count = 0,
+                           .initial = {.count = 0},
                            .batch = {.least_spacing_m = 0.0005 * scale},
-                           .batches = 4},
-                          1);
+                           .batches = 4});
 
   // The first touches are at the same places of the tissue, wherever it lies.
   Random unused(0);
@@ -127,7 +126,7 @@ TEST(Laws, AFieldThatIsLinearlyInterpolatedHasTheSameRegionOnSplitFaces) {
 TEST(Laws, ThePlanarSceneComputesNothingItDoesNotNeed) {
   const Surface tissue(jittered_mesh());
   const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.05});
-  Exploration exploration(tissue, {}, {}, {.batches = 2}, 1);
+  Exploration exploration(tissue, {}, {.batches = 2});
   Random random(1);
   run(
       exploration,

@@ -114,7 +114,7 @@ TEST(Threads, ExploreSideBySide) {
   const Phantom phantom(surface, {Disk{Vec3(0.010, 0.015, 0.0), 0.005}}, {.noise = 0.02});
   std::array<double, kThreads> levels{};
   in_threads([&](int i) {
-    Exploration exploration(surface, {}, {}, {.batches = 2}, 1);
+    Exploration exploration(surface, {}, {.batches = 2});
     Random random(1);
     run(
         exploration,

@@ -65,8 +65,8 @@ TEST(Scene, RefusesSinglePrecisionBeforeATouchWhereItMayNotSuffice) {
   EXPECT_THROW(field(R"("noise": 0.5)"), IoError) << "beside readings that are not felt yet";
   EXPECT_THROW(field(R"("noise_to_signal": 0.03)"), IoError);
   EXPECT_THROW(field(R"("noise": 0.03, "standardize": false)"), IoError);
-  EXPECT_TRUE(field(R"("noise_to_signal": 0.04)").belief.single_precision);
-  EXPECT_TRUE(field(R"("noise": 0.04, "standardize": false)").belief.single_precision);
+  EXPECT_TRUE(field(R"("noise_to_signal": 0.04)").economy.single_precision);
+  EXPECT_TRUE(field(R"("noise": 0.04, "standardize": false)").economy.single_precision);
 }
 
 TEST(Scene, SpeedStandsForItsPartsWhereTheyAreNotGiven) {
@@ -131,8 +131,8 @@ TEST(Setup, CutsARefinedPatchAtItsRadiusWhateverTheMeshWas) {
 
 TEST(Setup, TakesTheLevelFromWhereTheSceneSays) {
   const auto rule = [](const char* estimate) {
-    return level_rule_of(
-        Scene(json{{"level", {{"estimate", estimate}, {"value", 8}}}}, "test", "."));
+    return model_of(Scene(json{{"level", {{"estimate", estimate}, {"value", 8}}}}, "test", "."))
+        .level;
   };
   EXPECT_EQ(rule("range").estimate, LevelEstimate::Range);
   EXPECT_EQ(rule("edge").estimate, LevelEstimate::Edge);
@@ -145,17 +145,17 @@ TEST(Setup, ReadsThePapersModel) {
        {{"length_mm", 3.3}, {"signal_sd", 5}, {"noise_to_signal", 0.2}, {"constant_sd", 7.2}}}};
   const FieldModel field = field_of(Scene(given, "test", "."));
   EXPECT_FALSE(field.learns());
-  EXPECT_TRUE(field.belief.standardize);
-  EXPECT_TRUE(field.belief.noise_is_relative);
-  EXPECT_EQ(field.belief.noise_sd, 0.2);
-  EXPECT_EQ(field.constant.sd, 7.2);
-  EXPECT_EQ(field.belief.reduced_rank_tolerance, 0.0);
+  EXPECT_TRUE(field.standardize);
+  EXPECT_TRUE(field.noise.is_relative);
+  EXPECT_EQ(field.noise.sd, 0.2);
+  EXPECT_EQ(field.trend.constant.sd, 7.2);
+  EXPECT_EQ(field.economy.reduced_rank_tolerance, 0.0);
 }
 
 TEST(Setup, ReducesTheRankWhereThatIsAskedFor) {
   const auto tolerance = [](double given) {
     return field_of(Scene(json{{"field", {{"reduced_rank", given}}}}, "test", "."))
-        .belief.reduced_rank_tolerance;
+        .economy.reduced_rank_tolerance;
   };
   EXPECT_EQ(tolerance(1e-10), 1e-10);
   EXPECT_EQ(tolerance(0.0), 0.0);

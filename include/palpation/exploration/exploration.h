@@ -1,6 +1,6 @@
 /// Ask and tell: where to touch next, given all that was felt so far.
 ///
-///     Exploration exploration(tissue, field, level, plan, seed);
+///     Exploration exploration(tissue, model, plan);
 ///     while (const auto stops = exploration.next(); !stops.empty())
 ///     exploration.record(touch_all(stops));
 ///
@@ -14,94 +14,15 @@
 #include <string>
 #include <vector>
 
-#include "palpation/belief/belief.h"
 #include "palpation/belief/hyperparameters.h"
 #include "palpation/belief/lag.h"
 #include "palpation/belief/level.h"
 #include "palpation/certainty/certainty.h"
 #include "palpation/certainty/edge_belief.h"
-#include "palpation/decision/acquisition.h"
-#include "palpation/decision/batch.h"
-#include "palpation/decision/design.h"
-#include "palpation/exploration/stopping.h"
+#include "palpation/exploration/model.h"
+#include "palpation/exploration/plan.h"
 
 namespace palpation {
-
-/// How late readings come (lag.h). By default they do not.
-struct LagModel {
-  double known_m = 0.0;
-  bool learn = false;  ///< in place of known_m
-  bool is_modelled() const { return learn || known_m != 0.0; }
-};
-
-/// How the field is modelled. What is to be learned is learned anew after every batch.
-struct FieldModel {
-  Metric metric = Metric::Chart;
-  Kernel kernel{};  ///< its length and signal where they are not learned
-  Constant constant{};
-  BeliefOptions
-      belief{};  ///< noise_sd where it is not learned; where anything is learned, `standardize`
-                 ///< only centres a field of zero mean on the readings' mean
-  bool learn_length = true;
-  bool learn_signal = true;
-  bool learn_noise = true;
-  double length_median_m = 0.0035;  ///< of the length's prior (hyperparameters.h)
-  LagModel lag{};
-  double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early:
-                                   ///< boundary and band lie that much inwards
-  bool heavy_tails = false;  ///< the noise of readings is Student's t, of four degrees of freedom,
-                             ///< and large residuals weigh less
-  bool screening = false;  ///< readings that are no tissue are set aside (screening.h), judged anew
-                           ///< after every batch
-  /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are
-  /// touched, and until then nothing is concluded. Level and boundary are of the field without it.
-  bool linear_trend = false;
-  /// Nats of log posterior that other hyperparameters must gain before the field is built anew with
-  /// them; until then it grows by the fresh readings alone. 0: always the best ones. Only where
-  /// nothing but the hyperparameters moves old readings: no lag, screening, heavy tails or trend, a
-  /// constant that is not zero, and touches at stops.
-  double rebuild_gain = 0.0;
-
-  bool learns() const { return learn_length || learn_signal || learn_noise; }
-};
-
-/// What the level is estimated from, where it is not known: the range of the mean (the paper's
-/// way), or the profile of the readings across the edge (edge_profile.h), which knows how sure it
-/// is.
-enum class LevelEstimate { Range, Edge };
-
-/// How the level is found.
-struct LevelRule {
-  std::optional<double> known{};  ///< in reading units
-  double fraction = 0.5;          ///< of the way from the low plateau to the high one
-  LevelEstimate estimate = LevelEstimate::Edge;
-};
-
-struct Plan {
-  Acquisition acquisition = straddle();
-  Design initial = Design::Grid;
-  int initial_count = 16;
-  BatchOptions batch{.least_spacing_m = 0.0005};
-  int batches = 9;  ///< after the initial one
-  /// The part of the batches that goes where it tells the most about the boundary (edge_belief.h),
-  /// once one is seen and the level is inferred from its edge: half of it in the first batch, half
-  /// as much again in the last. The rest follows the acquisition, and finds what the boundary does
-  /// not know of: with more than this a second, small tumour is missed.
-  double edge_share = 0.65;
-  StopRule stop{};
-  /// Until the readings show contrast (contrast.h), conclude nothing, explore by the field's
-  /// variance, and where the field is learned, which five readings of healthy tissue would teach
-  /// that noise is all, by that of a field of the prior's length, with a second look where readings
-  /// were high. Not asked of a field and a level that are both given.
-  bool safe_start = true;
-};
-
-/// What may be touched.
-struct Reach {
-  std::vector<int> vertices{};  ///< rising; empty: all
-  bool touch_once =
-      false;  ///< a touched vertex is no candidate any more; so too where readings have no noise
-};
 
 /// The boundary is where the field, one value per vertex, reaches the level.
 struct Contour {
@@ -111,9 +32,8 @@ struct Contour {
 
 class Exploration {
  public:
-  /// Throws InvalidInput as Prior, BeliefOptions and the options above say.
-  Exploration(Surface surface, FieldModel field, LevelRule level, Plan plan, std::uint64_t seed,
-              Reach reach = {});
+  /// Throws InvalidInput as Prior, BeliefOptions and the checks of model and plan say.
+  explicit Exploration(Surface surface, Model model = {}, Plan plan = {}, Reach reach = {});
 
   /// The next stops, in the order of travel from where the probe was last: first the initial
   /// design, then batches. Empty when finished.
@@ -122,7 +42,7 @@ class Exploration {
   /// For the time while the robot moves: does the work for the stops of next() that no reading
   /// changes, so that after record() the next plan follows at once if all of them were touched, in
   /// this order, and nothing on the way. Changes no answer. Only where the field grows by what is
-  /// felt (FieldModel::rebuild_gain), or nothing of it is learned, nothing set aside and no trend
+  /// felt (Economy::rebuild_gain), or nothing of it is learned, nothing set aside and no trend
   /// modelled; else it does nothing.
   void foresee();
 
@@ -139,7 +59,7 @@ class Exploration {
   const std::string& stop_reason() const { return stop_reason_; }
 
   const Surface& surface() const { return surface_; }
-  const FieldModel& field() const { return field_; }
+  const Model& model() const { return model_; }
   /// What was recorded, as it was made; with the reason where it was set aside.
   const std::vector<Palpation>& palpations() const { return palpations_; }
   /// Knows the same readings, where a lag is modelled at the places where they belong, and those on
@@ -163,7 +83,7 @@ class Exploration {
   /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the
   /// tip is taken back is nothing.
   bool tip_hides_all() const;
-  /// How sure the boundary is, its band with the probability that the plan's stop rule names;
+  /// How sure the boundary is, its band with the model's probability;
   /// nothing where there is no level or no reading.
   const std::optional<Certainty>& certainty() const { return certainty_; }
   /// Area too far from any reading for the boundary's depth to tell (certainty.h), m2; 0 where
@@ -179,7 +99,7 @@ class Exploration {
   /// trend apart: what it alone shows is no contrast, and where the others show some and it lies
   /// ten times as far out, it is set aside (kStandsAlone).
   const std::optional<Palpation>& lone_reading() const { return lone_reading_; }
-  bool is_screened() const { return field_.screening; }
+  bool is_screened() const { return model_.field.probe.screening; }
   /// Whether a trend is modelled, but too few places are touched yet to tell a tumour from a tilt.
   bool trend_is_missing() const;
   /// The lag in use; nothing where none is modelled, or it is to be learned and no reading tells.
@@ -187,7 +107,6 @@ class Exploration {
 
  private:
   void learn_from(std::span<const Palpation> palpations);
-  bool needs_contrast() const;
   double believe(std::span<const Palpation> all, std::span<const Palpation> fresh);
   bool shows_contrast(std::span<const Palpation> all, double evidence) const;
   void judge_contrast(std::vector<Palpation>& all, double evidence);
@@ -207,10 +126,8 @@ class Exploration {
                                       const BatchOptions& options) const;
 
   Surface surface_;
-  FieldModel field_;
-  LevelRule level_rule_;
+  Model model_;
   Plan plan_;
-  Random random_;
   std::vector<bool> reachable_;
   bool touch_once_;
 

@@ -14,11 +14,9 @@ struct StopRule {
   double band_m = 0.0;      ///< the band's mean half width is no larger
   double least_gain = 0.0;  ///< the last three batches and the next one lower the expected error by
                             ///< less than this part of it
-  double band_probability = 0.95;  ///< of the band
 };
 
-/// Throws InvalidInput unless error and band are not negative, the gain is in [0, 1] and the
-/// probability in (0, 1).
+/// Throws InvalidInput unless error and band are not negative and the gain is in [0, 1].
 void check(const StopRule& rule);
 
 /// The expected error once these vertices are touched too, the level and the hyperparameters

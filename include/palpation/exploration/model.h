@@ -1,0 +1,107 @@
+/// What is taken for true of tissue, probe and tumour before anything is concluded from readings.
+#pragma once
+
+#include <optional>
+
+#include "palpation/base/learnable.h"
+#include "palpation/belief/belief.h"
+
+namespace palpation {
+
+/// How the field goes together from place to place.
+struct KernelModel {
+  KernelFamily family = KernelFamily::SquaredExponential;
+  Learnable length_m = kLearned;
+  Learnable signal_sd = kLearned;  ///< as Kernel has it
+  double length_median_m =
+      0.0035;             ///< of the prior of a length that is learned (hyperparameters.h)
+  double period_m = 0.0;  ///< of the periodic kernel
+};
+
+/// The kernel before any reading: for what is learned its prior's median stands in.
+Kernel kernel_of(const KernelModel& model);
+
+/// What all readings have in common.
+struct Trend {
+  Constant constant{};
+  /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are
+  /// touched, and until then nothing is concluded. Level and boundary are of the field without it.
+  bool is_linear = false;
+};
+
+/// Of readings whose own noise is not given.
+struct NoiseModel {
+  Learnable sd = kLearned;
+  bool is_relative = false;  ///< sd, which is given, is a fraction of the kernel's signal_sd
+  bool heavy_tails = false;  ///< the noise is Student's t, of four degrees of freedom, and large
+                             ///< residuals weigh less
+};
+
+/// What a probe does to what is felt.
+struct ProbeModel {
+  Learnable lag_m = 0.0;           ///< how late readings come (lag.h)
+  double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early:
+                                   ///< boundary and band lie that much inwards
+  bool screening = false;  ///< readings that are no tissue are set aside (screening.h), judged anew
+                           ///< after every batch
+
+  bool has_lag() const { return lag_m != Learnable(0.0); }
+};
+
+/// What is saved, and what it costs.
+struct Economy {
+  double reduced_rank_tolerance = 0.0;  ///< as BeliefOptions has it
+  bool single_precision = false;        ///< as BeliefOptions has it
+  /// Nats of log posterior that other hyperparameters must gain before the field is built anew with
+  /// them; until then it grows by the fresh readings alone. 0: always the best ones. Only where
+  /// nothing but the hyperparameters moves old readings: no lag, screening, heavy tails or trend, a
+  /// constant that is not zero, and touches at stops.
+  double rebuild_gain = 0.0;
+};
+
+/// How the field is modelled. What is to be learned is learned anew after every batch.
+struct FieldModel {
+  Metric metric = Metric::Chart;
+  KernelModel kernel{};
+  Trend trend{};
+  NoiseModel noise{};
+  bool standardize = false;  ///< as BeliefOptions has it; where anything is learned, it only
+                             ///< centres a field of zero mean on the readings' mean
+  ProbeModel probe{};
+  Economy economy{};
+
+  bool learns() const {
+    return kernel.length_m.is_learned() || kernel.signal_sd.is_learned() || noise.sd.is_learned();
+  }
+  bool is_noiseless() const { return noise.sd == Learnable(0.0); }
+};
+
+/// What the level is estimated from, where it is not known: the range of the mean (the paper's
+/// way), or the profile of the readings across the edge (edge_profile.h), which knows how sure it
+/// is.
+enum class LevelEstimate { Range, Edge };
+
+/// How the level is found.
+struct LevelRule {
+  std::optional<double> known{};  ///< in reading units
+  double fraction = 0.5;          ///< of the way from the low plateau to the high one
+  LevelEstimate estimate = LevelEstimate::Edge;
+};
+
+struct Model {
+  FieldModel field{};
+  LevelRule level{};
+  double band_probability = 0.95;  ///< with which the whole true outline lies in the band
+  /// Until the readings show contrast (contrast.h), conclude nothing, explore by the field's
+  /// variance, and where the field is learned, which five readings of healthy tissue would teach
+  /// that noise is all, by that of a field of the prior's length, with a second look where readings
+  /// were high. Not asked of a field and a level that are both given.
+  bool safe_start = true;
+
+  bool needs_contrast() const { return safe_start && (field.learns() || !level.known); }
+};
+
+/// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1).
+void check(const Model& model);
+
+}  // namespace palpation

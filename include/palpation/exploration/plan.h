@@ -1,0 +1,45 @@
+/// Where to touch, as far as it is decided beforehand.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "palpation/decision/acquisition.h"
+#include "palpation/decision/batch.h"
+#include "palpation/decision/design.h"
+#include "palpation/exploration/stopping.h"
+
+namespace palpation {
+
+/// The first batch, before anything is known.
+struct InitialDesign {
+  Design design = Design::Grid;
+  int count = 16;
+  std::uint64_t seed = 1;  ///< of what is random in the design
+};
+
+struct Plan {
+  Acquisition acquisition = straddle();
+  InitialDesign initial{};
+  BatchOptions batch{.least_spacing_m = 0.0005};
+  int batches = 9;  ///< after the initial one
+  /// The part of the batches that goes where it tells the most about the boundary (edge_belief.h),
+  /// once one is seen and the level is inferred from its edge: half of it in the first batch, half
+  /// as much again in the last. The rest follows the acquisition, and finds what the boundary does
+  /// not know of: with more than this a second, small tumour is missed.
+  double edge_share = 0.65;
+  StopRule stop{};
+};
+
+/// Throws InvalidInput unless counts are not negative, the share is in [0, 1], and as
+/// check(StopRule).
+void check(const Plan& plan);
+
+/// What may be touched.
+struct Reach {
+  std::vector<int> vertices{};  ///< rising; empty: all
+  bool touch_once =
+      false;  ///< a touched vertex is no candidate any more; so too where readings have no noise
+};
+
+}  // namespace palpation
