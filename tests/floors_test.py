@@ -2,7 +2,8 @@
 """The floors of the house: who may include whom.
 
 Reads the include lines of include/ and src/ and fails on an upward or sideways arrow, on a third party outside the folders that may use it, and on
-anything but the standard library, Eigen and the project's own headers in a public header. Before it judges the tree it judges samples that it must
+anything but the standard library, Eigen and the project's own headers in a public header. Headers in src/ follow the same floors. All that is installed is
+in palpation/palpation.h. Before it judges the tree it judges samples that it must
 reject: a guard that cannot bark is worse than none.
 
 usage: floors_test.py PROJECT_ROOT        needs Python 3 and nothing else
@@ -27,12 +28,12 @@ FLOORS = [
 ]
 FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
 PROGRAMS = {"scene", "tool", "experiments", "draw"}  # no public headers, and nothing is installed
-SHARED = {"scene"}  # their headers in src/ are for the floors above, too
 ROOFS = {"src/tool/main.cpp"}  # a program's main puts the siblings of its floor together
 
-# Third party: how its headers are spelled, and the folders whose sources may use it. Boost comes with CGAL, as the language of its graphs.
+# Third party: how its headers are spelled, and the folders whose sources may use it. Boost also comes with CGAL, as the language of its graphs.
 THIRD_PARTIES = {
     "OpenMesh": (r"OpenMesh/", {"geometry"}),
+    "Boost.Math": (r"boost/math/", {"base"}),
     "CGAL": (r"CGAL/|boost/", {"geometry", "boundary"}),
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),
@@ -95,12 +96,8 @@ def fault(folder, is_public, header, is_roof=False):
     if len(parts) == 2 and parts[0] in FLOOR_OF:
         if is_public:
             return f"{header}: a private header in a public one"
-        if parts[0] == folder or (is_roof and FLOOR_OF[parts[0]] == FLOOR_OF[folder]):
-            return None
-        if parts[0] in SHARED:
-            words = arrow_fault(folder, parts[0])
-            return f"{header}: {words}" if words else None
-        return f"{header}: private to {parts[0]}"
+        words = None if is_roof and FLOOR_OF[parts[0]] == FLOOR_OF[folder] else arrow_fault(folder, parts[0])
+        return f"{header}: {words}" if words else None
 
     for party, (spelling, folders) in THIRD_PARTIES.items():
         if re.match(spelling, header):
@@ -141,7 +138,17 @@ def faults_of(root):
             words = fault(folder, is_public, header, place in ROOFS)
             if words:
                 faults.append(f"{place}:{line}: {words}")
-    return faults, read
+    return faults + unlisted(root), read
+
+
+def unlisted(root):
+    """Headers that are installed and that the header of everything, where there is one, does not include."""
+    everything = root / "include/palpation/palpation.h"
+    if not everything.exists():
+        return []
+    listed = {header for _, header in includes_of(everything.read_text(encoding="utf-8"))}
+    units = sorted(path.relative_to(root / "include").as_posix() for path in (root / "include/palpation").glob("*/*.h"))
+    return [f"include/{unit}:1: is installed, and palpation/palpation.h does not include it" for unit in units if unit not in listed]
 
 
 # (file, its text, part of the words of the fault or None where there must be none)
@@ -156,9 +163,9 @@ SAMPLES = [
     ("src/tool/good.cpp", '#include <CLI/CLI.hpp>\n#include <nlohmann/json.hpp>\n#include "tool/commands.h"\n#include "scene/scene.h"\n#include "palpation/io/read_mesh.h"\n', None),
     ("src/tool/main.cpp", '#include "tool/commands.h"\n#include "experiments/experiment.h"\n', None),
     ("src/experiments/good.cpp", '#include <nlohmann/json.hpp>\n#include "scene/scene.h"\n#include "experiments/experiment.h"\n', None),
-    ("src/tool/sibling.cpp", '#include "experiments/experiment.h"\n', "private to experiments"),
-    ("src/experiments/sibling.cpp", '#include "tool/commands.h"\n', "private to tool"),
-    ("src/scene/upstairs.cpp", '#include "tool/commands.h"\n', "private to tool"),
+    ("src/tool/sibling.cpp", '#include "experiments/experiment.h"\n', "sideways"),
+    ("src/experiments/sibling.cpp", '#include "tool/commands.h"\n', "sideways"),
+    ("src/scene/upstairs.cpp", '#include "tool/commands.h"\n', "upward"),
     ("src/io/shared.cpp", '#include "scene/scene.h"\n', "upward"),
     ("src/scene/third.cpp", "#include <CLI/CLI.hpp>\n", "CLI11 may only"),
     ("src/draw/good.cpp", "#include <vtkRenderer.h>\n#include <nlohmann/json.hpp>\n#include <EGL/egl.h>\n#include <dlfcn.h>\n", None),
@@ -180,7 +187,8 @@ SAMPLES = [
     ("src/geometry/third.cpp", "#include <vtkPolyData.h>\n", "VTK may only"),
     ("src/geometry/optimizer.cpp", "#include <nlopt.h>\n", "NLopt may only"),
     ("src/boundary/third.cpp", "#include <OpenMesh/Core/IO/MeshIO.hh>\n", "OpenMesh may only"),
-    ("src/world/third.cpp", "#include <boost/math/special_functions.hpp>\n", "CGAL may only"),
+    ("src/world/third.cpp", "#include <boost/math/special_functions.hpp>\n", "Boost.Math may only"),
+    ("src/base/boost.cpp", "#include <boost/graph/graph_traits.hpp>\n", "CGAL may only"),
     ("src/exploration/third.cpp", "#include <nlohmann/json.hpp>\n", "nlohmann-json may only"),
     ("src/io/third.cpp", "#include <CLI/App.hpp>\n", "CLI11 may only"),
     ("src/tool/third.cpp", "#include <vtkRenderer.h>\n", "VTK may only"),
@@ -189,8 +197,12 @@ SAMPLES = [
     ("src/base/short.cpp", '#include "types.h"\n', "unknown"),
     ("src/base/macro.cpp", "#include HEADER\n", "spell"),
     ("src/base/dots.cpp", '#include "palpation/base/../io/read_mesh.h"\n', "without .."),
-    ("src/boundary/private.cpp", '#include "geometry/half_edges.h"\n', "private to geometry"),
-    ("src/io/upstairs.cpp", '#include "tool/commands.h"\n', "private to tool"),
+    ("src/boundary/shared.cpp", '#include "geometry/half_edges.h"\n#include "base/cross.h"\n', None),
+    ("src/tool/shared.cpp", '#include "boundary/erosion.h"\n', None),
+    ("src/io/upstairs.cpp", '#include "tool/commands.h"\n', "upward"),
+    ("src/geometry/upstairs.cpp", '#include "boundary/erosion.h"\n', "upward"),
+    ("src/boundary/beside.cpp", '#include "belief/sites.h"\n', "sideways"),
+    ("src/draw/beside.cpp", '#include "tool/commands.h"\n', "sideways"),
     ("include/palpation/boundary/third.h", "#include <CGAL/Polygon_set_2.h>\n", "public header"),
     ("include/palpation/geometry/third.h", "#include <OpenMesh/Core/Mesh/Traits.hh>\n", "public header"),
     ("include/palpation/io/third.h", "#include <vtkSmartPointer.h>\n", "public header"),
@@ -220,10 +232,24 @@ def test_itself():
             sys.exit(f"this test is broken: {name} has one fault, {expected}, but it says {faults}")
 
 
+def test_that_all_is_listed():
+    """Of two public headers beside the header of everything, the one that it leaves out is the fault."""
+    with tempfile.TemporaryDirectory() as folder:
+        base = pathlib.Path(folder) / "include/palpation/base"
+        base.mkdir(parents=True)
+        for unit in ("error", "types"):
+            (base / f"{unit}.h").write_text("#include <vector>\n", encoding="utf-8")
+        (base.parent / "palpation.h").write_text('#include "palpation/base/error.h"\n', encoding="utf-8")
+        faults, _ = faults_of(pathlib.Path(folder))
+    if len(faults) != 1 or not faults[0].startswith("include/palpation/base/types.h:1: is installed"):
+        sys.exit(f"this test is broken: base/types.h alone is left out, but it says {faults}")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: floors_test.py PROJECT_ROOT")
     test_itself()
+    test_that_all_is_listed()
 
     faults, read = faults_of(pathlib.Path(sys.argv[1]))
     if read < 20:

@@ -1,10 +1,10 @@
-#include "palpation/base/cholesky.h"
+#include "base/cholesky.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "palpation/base/tile.h"
+#include "base/tile.h"
 
 namespace palpation {
 namespace {

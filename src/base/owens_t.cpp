@@ -1,4 +1,4 @@
-#include "palpation/base/owens_t.h"
+#include "base/owens_t.h"
 
 #include <array>
 #include <cmath>

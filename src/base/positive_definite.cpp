@@ -1,10 +1,10 @@
-#include "palpation/base/positive_definite.h"
+#include "base/positive_definite.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "palpation/base/cholesky.h"
-#include "palpation/base/tile.h"
+#include "base/cholesky.h"
+#include "base/tile.h"
 
 namespace palpation {
 

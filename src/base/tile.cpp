@@ -1,6 +1,6 @@
 // Compiled with contraction to fused multiply-add, where the instruction set has it
 // (CMakeLists.txt).
-#include "palpation/base/tile.h"
+#include "base/tile.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "palpation/base/tile.h"
+#include "base/tile.h"
 
 #define PALPATION_INLINE inline __attribute__((always_inline))
 

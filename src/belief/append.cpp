@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/cholesky.h"
 #include "belief/correlations.h"
 #include "belief/foreseen.h"
 #include "belief/rows.h"
 #include "belief/vertex_tiles.h"
-#include "palpation/base/cholesky.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 

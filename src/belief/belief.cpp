@@ -13,7 +13,7 @@
 #include "belief/rows.h"
 #include "belief/seen.h"
 #include "palpation/base/error.h"
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/targets.h"
 #include "belief/intrinsic.h"
 #include "belief/isotropic.h"
 #include "belief/vertex_tiles.h"
 #include "palpation/base/parallel.h"
-#include "palpation/base/targets.h"
 
 namespace palpation {
 namespace {

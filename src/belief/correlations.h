@@ -7,10 +7,10 @@
 #include <optional>
 #include <span>
 
-#include "palpation/base/tile.h"
+#include "base/tile.h"
+#include "geometry/spectrum.h"
 #include "palpation/belief/prior.h"
 #include "palpation/belief/sites.h"
-#include "palpation/geometry/spectrum.h"
 
 namespace palpation {
 

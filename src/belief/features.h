@@ -16,10 +16,10 @@
 #include <span>
 #include <vector>
 
+#include "base/tile.h"
 #include "belief/aligned.h"
 #include "belief/correlations.h"
 #include "belief/vertex_tiles.h"
-#include "palpation/base/tile.h"
 
 namespace palpation {
 

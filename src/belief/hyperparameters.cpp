@@ -14,8 +14,8 @@
 #include "belief/likelihood.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
-#include "palpation/readings/readings.h"
-#include "palpation/readings/rounding.h"
+#include "readings/readings.h"
+#include "readings/rounding.h"
 
 namespace palpation {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "geometry/spectrum.h"
 #include "palpation/belief/prior.h"
-#include "palpation/geometry/spectrum.h"
 
 namespace palpation {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "base/positive_definite.h"
 #include "belief/pair_correlations.h"
-#include "palpation/base/positive_definite.h"
 #include "palpation/belief/hyperparameters.h"
 
 namespace palpation {

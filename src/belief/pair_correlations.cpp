@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/targets.h"
+#include "base/tile.h"
 #include "belief/intrinsic.h"
 #include "belief/isotropic.h"
-#include "palpation/base/targets.h"
-#include "palpation/base/tile.h"
 
 namespace palpation {
 namespace {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/tile.h"
 #include "belief/aligned.h"
-#include "palpation/base/tile.h"
 #include "palpation/belief/belief.h"
 
 namespace palpation {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "palpation/base/tile.h"
+#include "base/tile.h"
 #include "palpation/belief/prior.h"
 
 namespace palpation {

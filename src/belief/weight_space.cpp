@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/tile.h"
 #include "belief/aligned.h"
 #include "palpation/base/parallel.h"
-#include "palpation/base/tile.h"
 
 namespace palpation {
 

@@ -1,4 +1,4 @@
-#include "palpation/boundary/erosion.h"
+#include "boundary/erosion.h"
 
 #include <algorithm>
 #include <cmath>

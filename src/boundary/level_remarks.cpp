@@ -1,4 +1,4 @@
-#include "palpation/boundary/level_remarks.h"
+#include "boundary/level_remarks.h"
 
 #include <algorithm>
 #include <limits>

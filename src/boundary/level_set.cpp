@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/careful_sum.h"
 #include "boundary/above_level.h"
 #include "boundary/level_walk.h"
 #include "boundary/reproducer.h"
 #include "boundary/simple_loops.h"
 #include "boundary/tissue_area.h"
-#include "palpation/base/careful_sum.h"
 #include "palpation/base/error.h"
 #include "palpation/geometry/chart_place.h"
 

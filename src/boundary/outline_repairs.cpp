@@ -1,4 +1,4 @@
-#include "palpation/boundary/outline_repairs.h"
+#include "boundary/outline_repairs.h"
 
 #include "boundary/outline.h"
 

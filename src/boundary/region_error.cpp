@@ -6,8 +6,8 @@
 
 #include "boundary/tissue_area.h"
 #include "boundary/tissue_ruler.h"
+#include "geometry/nearest_segment.h"
 #include "palpation/base/error.h"
-#include "palpation/geometry/nearest_segment.h"
 
 namespace palpation {
 

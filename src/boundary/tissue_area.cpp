@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/careful_sum.h"
 #include "boundary/convex.h"
-#include "palpation/base/careful_sum.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {

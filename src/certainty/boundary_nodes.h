@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "palpation/certainty/layout.h"
+#include "certainty/layout.h"
 
 namespace palpation {
 

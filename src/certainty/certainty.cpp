@@ -4,11 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "boundary/erosion.h"
+#include "certainty/layout.h"
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
-#include "palpation/boundary/erosion.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/certainty/layout.h"
+#include "readings/contact.h"
 
 namespace palpation {
 namespace {

@@ -1,4 +1,4 @@
-#include "palpation/certainty/contrast.h"
+#include "certainty/contrast.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "certainty/depth.h"
 
+#include "geometry/nearest_segment.h"
 #include "palpation/base/parallel.h"
-#include "palpation/geometry/nearest_segment.h"
 
 namespace palpation {
 namespace {

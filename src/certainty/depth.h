@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "certainty/layout.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/certainty/layout.h"
 
 namespace palpation {
 

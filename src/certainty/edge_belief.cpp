@@ -12,7 +12,7 @@
 #include "certainty/normal.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/readings/rounding.h"
+#include "readings/rounding.h"
 
 namespace palpation {
 namespace {

@@ -1,4 +1,4 @@
-#include "palpation/certainty/layout.h"
+#include "certainty/layout.h"
 
 #include "palpation/geometry/chart_place.h"
 

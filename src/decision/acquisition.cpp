@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
+#include "base/owens_t.h"
 #include "decision/scoring.h"
 #include "palpation/base/error.h"
-#include "palpation/base/owens_t.h"
 #include "palpation/base/random.h"
 
 namespace palpation {

@@ -3,14 +3,14 @@
 #include <tuple>
 #include <utility>
 
+#include "certainty/contrast.h"
+#include "certainty/detection.h"
 #include "exploration/field_fit.h"
 #include "exploration/heavy_tails.h"
 #include "exploration/lag_fit.h"
-#include "palpation/certainty/contrast.h"
-#include "palpation/certainty/detection.h"
 #include "palpation/exploration/exploration.h"
-#include "palpation/readings/readings.h"
 #include "palpation/readings/screening.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {

@@ -1,4 +1,4 @@
-#include "palpation/exploration/coarse_run.h"
+#include "exploration/coarse_run.h"
 
 #include <algorithm>
 

@@ -6,16 +6,17 @@
 #include <limits>
 #include <utility>
 
+#include "boundary/erosion.h"
+#include "certainty/contrast.h"
 #include "exploration/field_fit.h"
 #include "exploration/screened_readings.h"
 #include "palpation/base/error.h"
-#include "palpation/boundary/erosion.h"
-#include "palpation/certainty/contrast.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/decision/tour.h"
 #include "palpation/geometry/distance.h"
-#include "palpation/readings/readings.h"
+#include "readings/contact.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "palpation/base/error.h"
-#include "palpation/readings/readings.h"
-#include "palpation/readings/way.h"
+#include "readings/readings.h"
+#include "readings/way.h"
 
 namespace palpation {
 namespace {

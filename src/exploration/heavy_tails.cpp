@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "exploration/field_fit.h"
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/owens_t.h"
 #include "palpation/base/error.h"
 
 namespace palpation {

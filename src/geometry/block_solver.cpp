@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "palpation/base/targets.h"
+#include "base/targets.h"
 
 namespace palpation {
 namespace {

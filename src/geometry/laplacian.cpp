@@ -1,4 +1,4 @@
-#include "palpation/geometry/laplacian.h"
+#include "geometry/laplacian.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 /// their distance from it: what is far away only matters to long waves.
 #pragma once
 
-#include "palpation/geometry/laplacian.h"
+#include "geometry/laplacian.h"
 
 namespace palpation {
 

@@ -1,4 +1,4 @@
-#include "palpation/geometry/mesh_faults.h"
+#include "geometry/mesh_faults.h"
 
 #include <algorithm>
 #include <numeric>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "palpation/geometry/laplacian.h"
+#include "geometry/laplacian.h"
 
 namespace palpation {
 

@@ -1,4 +1,4 @@
-#include "palpation/geometry/nearest_segment.h"
+#include "geometry/nearest_segment.h"
 
 #include <Eigen/LU>
 #include <algorithm>

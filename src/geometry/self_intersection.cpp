@@ -1,4 +1,4 @@
-#include "palpation/geometry/self_intersection.h"
+#include "geometry/self_intersection.h"
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,4 +1,4 @@
-#include "palpation/geometry/spectrum.h"
+#include "geometry/spectrum.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -7,12 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "base/tile.h"
 #include "geometry/margin.h"
 #include "geometry/slow_subspace.h"
 #include "geometry/surface_state.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
-#include "palpation/base/tile.h"
 
 namespace palpation {
 

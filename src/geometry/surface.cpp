@@ -6,13 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "base/careful_sum.h"
 #include "geometry/flatten.h"
 #include "geometry/loops_in_the_way.h"
 #include "geometry/overlap.h"
 #include "geometry/plane.h"
 #include "geometry/surface_state.h"
 #include "geometry/topology.h"
-#include "palpation/base/careful_sum.h"
 #include "palpation/base/error.h"
 
 namespace palpation {

@@ -11,7 +11,7 @@
 
 #include "geometry/check_mesh.h"
 #include "geometry/half_edge_mesh.h"
-#include "palpation/geometry/spectrum.h"
+#include "geometry/spectrum.h"
 
 namespace palpation {
 

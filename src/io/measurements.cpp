@@ -13,7 +13,7 @@
 #include "io/places.h"
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {

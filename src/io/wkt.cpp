@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "boundary/outline_repairs.h"
 #include "io/mesh_source.h"
 #include "io/mesh_text.h"
 #include "io/number_text.h"
 #include "palpation/base/error.h"
-#include "palpation/boundary/outline_repairs.h"
 #include "palpation/io/atomic_file.h"
 
 namespace palpation {

@@ -1,11 +1,11 @@
-#include "palpation/readings/contact.h"
+#include "readings/contact.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 #include "readings/robust.h"
 
 namespace palpation {

@@ -1,4 +1,4 @@
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 
 #include <Eigen/QR>
 #include <algorithm>

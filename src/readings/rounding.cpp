@@ -1,9 +1,9 @@
-#include "palpation/readings/rounding.h"
+#include "readings/rounding.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "palpation/readings/readings.h"
 #include "readings/outliers.h"
 #include "readings/passes.h"
+#include "readings/readings.h"
 #include "readings/robust.h"
 
 namespace palpation {

@@ -1,4 +1,4 @@
-#include "palpation/readings/way.h"
+#include "readings/way.h"
 
 #include <cmath>
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "exploration/coarse_run.h"
 #include "palpation/base/error.h"
 #include "palpation/decision/baseline.h"
-#include "palpation/exploration/coarse_run.h"
 #include "palpation/geometry/path.h"
 #include "scene/setup.h"
 #include "scene/stopwatch.h"

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/mesh_faults.h"
+#include "geometry/self_intersection.h"
 #include "palpation/base/error.h"
-#include "palpation/geometry/mesh_faults.h"
-#include "palpation/geometry/self_intersection.h"
 #include "scene/words.h"
 
 namespace palpation::tool {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/level_remarks.h"
+#include "certainty/contrast.h"
 #include "palpation/base/error.h"
-#include "palpation/boundary/level_remarks.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/certainty/contrast.h"
 #include "palpation/certainty/reference_bound.h"
-#include "palpation/readings/contact.h"
-#include "palpation/readings/readings.h"
 #include "palpation/readings/screening.h"
+#include "readings/contact.h"
+#include "readings/readings.h"
 #include "scene/parts.h"
 #include "scene/words.h"
 

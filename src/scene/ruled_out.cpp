@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpation/certainty/detection.h"
-#include "palpation/readings/readings.h"
+#include "certainty/detection.h"
+#include "readings/readings.h"
 #include "scene/episode.h"
 
 namespace palpation::tool {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "palpation/boundary/level_set.h"
-#include "palpation/readings/readings.h"
+#include "readings/readings.h"
 #include "scene/parts.h"
 
 namespace palpation::tool {

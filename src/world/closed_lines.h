@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/nearest_segment.h"
 #include "palpation/base/types.h"
-#include "palpation/geometry/nearest_segment.h"
 
 namespace palpation {
 

@@ -1,4 +1,4 @@
-#include "palpation/base/cholesky.h"
+#include "base/cholesky.h"
 
 #include <gtest/gtest.h>
 

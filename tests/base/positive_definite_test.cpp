@@ -1,4 +1,4 @@
-#include "palpation/base/positive_definite.h"
+#include "base/positive_definite.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "palpation/base/tile.h"
+#include "base/tile.h"
 
 #include <gtest/gtest.h>
 

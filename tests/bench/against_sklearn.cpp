@@ -12,9 +12,9 @@
 #include <sstream>
 #include <string>
 
+#include "base/tile.h"
 #include "bench/tissue.h"
 #include "palpation/base/parallel.h"
-#include "palpation/base/tile.h"
 #include "palpation/belief/hyperparameters.h"
 #include "palpation/decision/batch.h"
 

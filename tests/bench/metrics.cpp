@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "geometry/spectrum.h"
 #include "palpation/base/parallel.h"
 #include "palpation/belief/hyperparameters.h"
 #include "palpation/decision/batch.h"
 #include "palpation/geometry/make_plane.h"
-#include "palpation/geometry/spectrum.h"
 
 using namespace palpation;
 

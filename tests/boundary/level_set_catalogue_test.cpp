@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "boundary/level_remarks.h"
 #include "boundary/loop_laws.h"
 #include "boundary/meshes.h"
 #include "boundary/small_stack.h"
-#include "palpation/boundary/level_remarks.h"
 #include "palpation/boundary/level_set.h"
 
 namespace palpation {

@@ -11,10 +11,10 @@
 #include <string>
 
 #include "boundary/meshes.h"
+#include "boundary/outline_repairs.h"
 #include "boundary/polygons.h"
 #include "boundary/small_stack.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/boundary/outline_repairs.h"
 
 namespace palpation {
 namespace {

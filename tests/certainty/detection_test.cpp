@@ -1,4 +1,4 @@
-#include "palpation/certainty/detection.h"
+#include "certainty/detection.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "belief/tissue.h"
+#include "certainty/contrast.h"
 #include "palpation/base/error.h"
-#include "palpation/certainty/contrast.h"
 #include "palpation/world/phantom.h"
 
 namespace palpation {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "belief/tissue.h"
+#include "certainty/contrast.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/certainty/contrast.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/readings/screening.h"
 #include "palpation/world/phantom.h"

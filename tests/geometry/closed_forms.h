@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/laplacian.h"
 #include "palpation/base/random.h"
-#include "palpation/geometry/laplacian.h"
 
 namespace palpation::closed {
 

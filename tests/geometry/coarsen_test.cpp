@@ -1,4 +1,4 @@
-#include "palpation/geometry/coarsen.h"
+#include "geometry/coarsen.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/self_intersection.h"
 #include "palpation/base/error.h"
-#include "palpation/geometry/self_intersection.h"
 #include "palpation/geometry/surface.h"
 
 namespace palpation {

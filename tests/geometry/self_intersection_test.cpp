@@ -1,4 +1,4 @@
-#include "palpation/geometry/self_intersection.h"
+#include "geometry/self_intersection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "palpation/geometry/spectrum.h"
+#include "geometry/spectrum.h"
 
 #include <gtest/gtest.h>
 

@@ -10,10 +10,10 @@
 #include <numbers>
 #include <regex>
 
+#include "geometry/self_intersection.h"
 #include "io/memory_file.h"
 #include "io/mesh_seeds.h"
 #include "io/temporary_folder.h"
-#include "palpation/geometry/self_intersection.h"
 #include "palpation/geometry/surface.h"
 #include "palpation/io/read_mesh.h"
 

@@ -1,4 +1,4 @@
-#include "palpation/readings/contact.h"
+#include "readings/contact.h"
 
 #include <gtest/gtest.h>
 

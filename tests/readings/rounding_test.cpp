@@ -1,4 +1,4 @@
-#include "palpation/readings/rounding.h"
+#include "readings/rounding.h"
 
 #include <gtest/gtest.h>
 

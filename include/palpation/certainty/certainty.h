@@ -10,9 +10,10 @@
 #include "palpation/belief/level.h"
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/expected_error.h"
-#include "palpation/readings/contact.h"
 
 namespace palpation {
+
+struct FadingContact;
 
 struct Certainty {
   Field score;                ///< at the vertices

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "palpation/base/owens_t.h"
 #include "palpation/certainty/certainty.h"
 
 namespace palpation {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/coarsen.h"
 #include "palpation/exploration/exploration.h"
-#include "palpation/geometry/coarsen.h"
 
 namespace palpation {
 

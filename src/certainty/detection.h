@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "palpation/certainty/layout.h"
+#include "certainty/layout.h"
 
 namespace palpation {
 

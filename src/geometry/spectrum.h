@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "palpation/geometry/laplacian.h"
+#include "geometry/laplacian.h"
 #include "palpation/geometry/surface_point.h"
 
 namespace palpation {
