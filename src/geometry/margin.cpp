@@ -6,96 +6,23 @@
 #include <vector>
 
 #include "geometry/metric_builder.h"
+#include "geometry/notches.h"
 
 namespace palpation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kStraight =
-    1e-3;  // rad: less of a notch is none, but a border that is not quite straight
-constexpr double kLeastNotch = 0.1;      // rad: a notch that has closed, or more than closed
 constexpr double kGrowth = 0.3;          // of a ring's distance from the border is its width
 constexpr double kCoarsest = 1.0 / 6.0;  // of the margin is the first ring's width at most
 constexpr double kFillShare = 1.0 / 16;  // of the margin: edges in what is filled
 constexpr double kHoleLeft =
     0.3;  // of its length is left of a border that closes in, where the margin ends
 
-/// One vertex of a border, with the edge from it to the next, tissue on the left.
-struct Rim {
-  int vertex;
-  int half_edge;
-  double length;
-  double interior;     // angle of the tissue, rad
-  double chord = 0.0;  // between the neighbours, across a notch
-};
-using Loop = std::vector<Rim>;
-
-std::size_t before(const Loop& loop, std::size_t i) { return i == 0 ? loop.size() - 1 : i - 1; }
-std::size_t after(const Loop& loop, std::size_t i) { return i + 1 == loop.size() ? 0 : i + 1; }
-bool is_notch(const Rim& rim) { return rim.interior > kPi + kStraight; }
-double opening(const Rim& rim) { return std::max(2.0 * kPi - rim.interior, kLeastNotch); }
-
-double chord_at(const Loop& loop, std::size_t i) {
-  const double a = loop[before(loop, i)].length, b = loop[i].length;
-  const double half = std::sin(0.5 * opening(loop[i]));
-  return std::sqrt((a - b) * (a - b) + 4.0 * a * b * half * half);
-}
-
-double turning_of(const Loop& loop) {
-  double turning = 0.0;
-  for (const Rim& rim : loop) turning += kPi - rim.interior;
-  return turning;
-}
-
-/// The notch at i becomes a flat triangle, and its chord part of the border.
-void fill(Loop& loop, std::size_t i, double target, MetricBuilder& builder) {
-  const std::size_t last = before(loop, i), next = after(loop, i);
-  const double chord = std::max(loop[i].chord, 1e-6 * std::max(loop[last].length, loop[i].length));
-  const int face = builder.add_face({loop[next].vertex, loop[i].vertex, loop[last].vertex},
-                                    {loop[i].length, loop[last].length, chord}, target);
-  builder.glue(3 * face, loop[i].half_edge);
-  builder.glue(3 * face + 1, loop[last].half_edge);
-  loop[next].interior += builder.angle(face, 0);
-  loop[last].interior += builder.angle(face, 2);
-  loop[last].half_edge = 3 * face + 2;
-  loop[last].length = chord;
-  loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
-}
-
-/// Three edges around what was a hole.
-void close(Loop& loop, double target, MetricBuilder& builder) {
-  const int face = builder.add_face({loop[1].vertex, loop[0].vertex, loop[2].vertex},
-                                    {loop[0].length, loop[2].length, loop[1].length}, target);
-  builder.glue(3 * face, loop[0].half_edge);
-  builder.glue(3 * face + 1, loop[2].half_edge);
-  builder.glue(3 * face + 2, loop[1].half_edge);
-  loop.clear();
-}
-
-/// Narrow notches first.
-void fill_notches(Loop& loop, double widest, double target, MetricBuilder& builder) {
-  for (std::size_t i = 0; i < loop.size(); ++i) loop[i].chord = chord_at(loop, i);
-  while (loop.size() > 3) {
-    std::size_t narrowest = loop.size();
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      if (is_notch(loop[i]) && loop[i].chord <= widest &&
-          (narrowest == loop.size() || loop[i].chord < loop[narrowest].chord))
-        narrowest = i;
-    }
-    if (narrowest == loop.size()) return;
-    fill(loop, narrowest, target, builder);
-    const std::size_t next = narrowest == loop.size() ? 0 : narrowest, last = before(loop, next);
-    loop[last].chord = chord_at(loop, last);
-    loop[next].chord = chord_at(loop, next);
-  }
-  if (turning_of(loop) < -kPi) close(loop, target, builder);
-}
-
 /// A border laid out in the plane, edge after edge, twice around: near each other, places beside it
 /// are as far apart as there.
 class Development {
  public:
-  explicit Development(const Loop& loop) : loop_(loop) {
+  explicit Development(const BorderLoop& loop) : loop_(loop) {
     Vec2 corner = Vec2::Zero();
     double heading = 0.0;
     for (std::size_t round = 0; round < 2; ++round) {
@@ -148,7 +75,7 @@ class Development {
     return {from, to};
   }
 
-  const Loop& loop_;
+  const BorderLoop& loop_;
   std::vector<Vec2> corners_;
   std::vector<double> headings_;
 };
@@ -165,7 +92,7 @@ struct Ring {
   std::vector<int> half_edges;  // the border edge from each point to the next
 };
 
-Ring first_ring(const Loop& loop, const Development& development) {
+Ring first_ring(const BorderLoop& loop, const Development& development) {
   Ring ring;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const double around = 2.0 * static_cast<double>(i) + 0.5;
@@ -255,7 +182,7 @@ void stitch(Ring& inner, Ring& outer, double period, double target, MetricBuilde
   builder.glue(first_face, open_side);
 }
 
-void add_rings(const Loop& loop, double first_width, double width, MetricBuilder& builder) {
+void add_rings(const BorderLoop& loop, double first_width, double width, MetricBuilder& builder) {
   const Development development(loop);
   const double whole = ring_length(development, 0.0);
   Ring inner = first_ring(loop, development);
@@ -274,7 +201,7 @@ void add_rings(const Loop& loop, double first_width, double width, MetricBuilder
 
 /// Starts the loop where its edges change most, wherever its vertices' numbers begin: what is built
 /// on it then does not depend on those.
-void start_at_landmark(Loop& loop) {
+void start_at_landmark(BorderLoop& loop) {
   const auto change = [&](std::size_t i) {
     const double a = loop[before(loop, i)].length, b = loop[i].length;
     return (b - a) / (a + b) + 0.1 * (loop[i].interior - kPi);
@@ -288,9 +215,9 @@ void start_at_landmark(Loop& loop) {
 }
 
 /// The border as the mesh has it. `corner_sums`: the angles around each vertex.
-Loop loop_of(const MetricMesh& mesh, const std::vector<int>& vertices, const Field& corner_sums,
-             const std::vector<int>& border_from) {
-  Loop loop;
+BorderLoop loop_of(const MetricMesh& mesh, const std::vector<int>& vertices,
+                   const Field& corner_sums, const std::vector<int>& border_from) {
+  BorderLoop loop;
   for (const int vertex : vertices) {
     const int half_edge = border_from[vertex];
     loop.push_back(
@@ -315,7 +242,7 @@ MetricMesh with_margin(const MetricMesh& mesh, const std::vector<std::vector<int
   }
   MetricBuilder builder(mesh);
   for (const std::vector<int>& vertices : border_loops) {
-    Loop loop = loop_of(mesh, vertices, corner_sums, border_from);
+    BorderLoop loop = loop_of(mesh, vertices, corner_sums, border_from);
     start_at_landmark(loop);
     double perimeter = 0.0;
     for (const Rim& rim : loop) perimeter += rim.length;
