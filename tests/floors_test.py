@@ -18,7 +18,7 @@ import tempfile
 FLOORS = [
     ["base"],
     ["geometry"],
-    ["readings"],
+    ["readings", "probing"],
     ["belief", "boundary"],
     ["decision", "certainty", "world"],
     ["exploration"],

@@ -112,13 +112,12 @@ void check_columns(const std::vector<std::string>& columns, const std::string& n
     fail_at_line(name, line, "column " + in_quotes(*twice) + " appears twice");
 }
 
-void check_row(std::size_t cells, std::size_t columns, const std::string& name, std::int64_t line) {
-  if (cells == columns) return;
-  fail_at_line(
-      name, line,
-      std::to_string(cells) + (cells == 1 ? " cell" : " cells") + ", but the header names " +
-          std::to_string(columns) +
-          (cells > columns ? " columns (decimals take a point, not a comma)" : " columns"));
+/// What is wrong with how many cells a row has; empty if nothing is.
+std::string row_fault(std::size_t cells, std::size_t columns) {
+  if (cells == columns) return {};
+  return std::to_string(cells) + (cells == 1 ? " cell" : " cells") + ", but the header names " +
+         std::to_string(columns) +
+         (cells > columns ? " columns (decimals take a point, not a comma)" : " columns");
 }
 
 std::string_view without_mark(std::string_view text, const std::string& name) {
@@ -140,11 +139,12 @@ std::string_view CsvTable::cell(std::size_t row, std::size_t column) const {
   return std::string_view(cells_).substr(start, ends_[index] - start);
 }
 
-CsvTable read_csv(const std::filesystem::path& path) {
-  return parse_csv(read_file(path, kMostBytes), path.string());
+CsvTable read_csv(const std::filesystem::path& path, std::vector<std::string>* torn_rows) {
+  return parse_csv(read_file(path, kMostBytes), path.string(), torn_rows);
 }
 
-CsvTable parse_csv(std::string_view text, const std::string& name) {
+CsvTable parse_csv(std::string_view text, const std::string& name,
+                   std::vector<std::string>* torn_rows) {
   if (text.size() > kMostBytes)
     throw IoError(name + ": more than " + std::to_string(kMostBytes) + " bytes");
   text = without_mark(text, name);
@@ -173,7 +173,11 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
       table.header_line_ = number;
       continue;
     }
-    check_row(cells.size(), table.columns_.size(), name, number);
+    if (const std::string fault = row_fault(cells.size(), table.columns_.size()); !fault.empty()) {
+      if (!torn_rows) fail_at_line(name, number, fault);
+      torn_rows->push_back("line " + std::to_string(number) + ": " + fault);
+      continue;
+    }
     for (const std::string& cell : cells) {
       table.cells_ += cell;
       table.ends_.push_back(static_cast<std::uint32_t>(table.cells_.size()));

@@ -1,6 +1,5 @@
 // palpate: where to touch next, and where the tumour under the surface ends.
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <new>
 #include <thread>
@@ -12,6 +11,8 @@
 #include "scene/progress.h"
 #include "scene/scene_schema.h"
 #include "tool/commands.h"
+#include "tool/option_checks.h"
+#include "tool/readings_options.h"
 #include "tool/standard_streams.h"
 
 namespace {
@@ -21,29 +22,6 @@ using namespace palpation::tool;
 
 constexpr double kMostSeed = 9007199254740991.0;  // as in a scene
 constexpr double kMostTrials = 1e6;
-
-/// A number in a range; what is no number is in none.
-CLI::Validator number_among(const std::string& characters, const std::string& kind, double least,
-                            double most) {
-  const std::string range = text_of(least) + " to " + text_of(most);
-  const auto fault = [=](std::string& text) {
-    double value = 0.0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_one = status == std::errc{} && end == text.data() + text.size() &&
-                        text.find_first_not_of(characters) == std::string::npos;
-    return is_one && value >= least && value <= most
-               ? std::string()
-               : "is " + text + ", but must be a " + kind + " from " + range;
-  };
-  return CLI::Validator(fault, range);
-}
-
-CLI::Validator number(double least, double most) {
-  return number_among("0123456789+-.eE", "number", least, most);
-}
-CLI::Validator whole(double least, double most) {
-  return number_among("0123456789", "whole number", least, most);
-}
 
 struct Arguments {
   SceneArguments scene;
@@ -251,6 +229,7 @@ int run_tool(int count, char** words) {
   app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
   add_scene_commands(app, arguments);
   add_mesh_commands(app, arguments);
+  add_readings_command(app);
   add_experiment_command(app, arguments);
   add_help_command(app, arguments);
   for (CLI::App* command : app.get_subcommands({}))

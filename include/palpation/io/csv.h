@@ -34,7 +34,8 @@ class CsvTable {
   int header_line() const { return header_line_; }
 
  private:
-  friend CsvTable parse_csv(std::string_view text, const std::string& name);
+  friend CsvTable parse_csv(std::string_view text, const std::string& name,
+                            std::vector<std::string>* torn_rows);
 
   std::string name_;
   std::vector<std::string> columns_;
@@ -44,9 +45,12 @@ class CsvTable {
   std::vector<int> lines_;
 };
 
-CsvTable read_csv(const std::filesystem::path& path);
+/// Rows with more or fewer cells than the header are errors or, where the caller gives a place for
+/// their messages, left out: a log that was cut off has one at its end.
+CsvTable read_csv(const std::filesystem::path& path, std::vector<std::string>* torn_rows = nullptr);
 /// The same from text; `name` stands for the path in messages.
-CsvTable parse_csv(std::string_view text, const std::string& name);
+CsvTable parse_csv(std::string_view text, const std::string& name,
+                   std::vector<std::string>* torn_rows = nullptr);
 
 /// The index of a column, or nothing.
 std::optional<std::size_t> find_column(const CsvTable& table, std::string_view column);
