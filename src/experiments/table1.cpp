@@ -141,9 +141,9 @@ void report_defaults(const Table& table, const Errors& errors,
                      const ExperimentArguments& arguments) {
   std::printf(
       "\nLevel unknown, the tool's defaults (trend on in the rows with bias); over half the tumour "
-      "wrong: lost\n");
+      "wrong: missed\n");
   std::printf(
-      "%-12s%-12s  error, %%              (ILS-UCB as printed)  lost   reference bound   error / "
+      "%-12s%-12s  error, %%              (ILS-UCB as printed)  missed reference bound   error / "
       "bound\n",
       "", "");
   std::string csv = "row,shape,trials,error_percent,standard_error,printed,lost,bound_percent\n";

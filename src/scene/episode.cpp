@@ -57,7 +57,7 @@ Reach within_reach(const Scene& scene, const Surface& surface, Reach reach) {
   std::erase_if(reach.vertices, [&](int vertex) {
     return !std::binary_search(reached->begin(), reached->end(), vertex);
   });
-  if (reach.vertices.empty()) scene.refuse("robot", "reaches none of the tissue that answers");
+  if (reach.vertices.empty()) scene.refuse("robot", "reaches no tissue that can be felt");
   return reach;
 }
 
@@ -68,9 +68,9 @@ Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach giv
       .cut_risk = scene.number("band.cut_risk"),
       .band_probability = scene.number("band.probability"),
       .level_fraction = scene.number("level.fraction"),
-      .assumed_contrast = scene.has("plan.assumed_contrast")
-                              ? std::optional(scene.number("plan.assumed_contrast"))
-                              : std::nullopt};
+      .min_contrast = scene.has("plan.min_contrast")
+                          ? std::optional(scene.number("plan.min_contrast"))
+                          : std::nullopt};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {

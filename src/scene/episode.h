@@ -51,8 +51,7 @@ struct Episode {
   double cut_risk = 0.05;  ///< of the cut line
   double band_probability = 0.95;
   double level_fraction = 0.5;
-  std::optional<double>
-      assumed_contrast{};  ///< of tumours that must not be missed, in reading units
+  std::optional<double> min_contrast{};  ///< of tumours that must not be missed, in reading units
   double start_seconds =
       0.0;  ///< until the field could take readings: an intrinsic one finds the surface's waves
   std::vector<double>

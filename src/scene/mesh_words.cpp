@@ -163,23 +163,22 @@ std::pair<double, double> curvature_range(const Surface& surface) {
 std::string crossing_words(const Surface& surface) {
   if (surface.is_planar()) return "";
   if (surface.face_count() > kMostFacesToCross) {
-    return "Not looked for places where it runs through itself, as it has more than " +
+    return "Self-intersections were not searched for: it has more than " +
            std::to_string(kMostFacesToCross) + " triangles.\n";
   }
   const SelfIntersections found = self_intersections(surface);
   if (!found.complete) {
-    return "Warning: so many triangles lie close together that the search for places where it runs "
-           "through itself was given up.\n"
+    return "Warning: so many triangles lie close together that the search for self-intersections "
+           "was given up.\n"
            "  Simplify or remesh it.\n";
   }
   if (found.pairs == 0) return "";
   const auto [a, b] = *found.first;
   const Vec3 place = surface.position({a, Vec3::Constant(1.0 / 3.0)});
-  return "Warning: it runs through itself: " + counted(found.pairs, "pair", "pairs") +
+  return "Warning: it self-intersects: " + counted(found.pairs, "pair", "pairs") +
          " of triangles meet, such as triangles " + std::to_string(a) + " and " +
          std::to_string(b) + " around " + place_words(place, 2) +
-         ".\n  Tissue does not do so. Cut away one of the sheets, or work on a patch away from "
-         "it.\n";
+         ".\n  Tissue cannot. Delete one of the sheets, or work on a patch away from it.\n";
 }
 
 const std::string kChoosePart =
@@ -189,7 +188,7 @@ const std::string kChoosePart =
 
 std::string disk_advice(const Surface& surface, const std::string& next) {
   if (surface.face_count() > kMostFacesToFlatten)
-    return "Curved: a disk, which can be laid flat; how well is not tried here, as it has more "
+    return "Curved: a disk, which can be flattened; how well is not tested here, as it has more "
            "than " +
            std::to_string(kMostFacesToFlatten) + " triangles.\n" + next;
   try {
@@ -205,7 +204,7 @@ std::string disk_advice(const Surface& surface, const std::string& next) {
               "Recommended: field.metric intrinsic, whose lengths are those along the surface; or "
               "a smaller part by surface.patch.\n"
             : "Recommended: field.metric chart, less than 10 % off everywhere and the cheapest.\n";
-    return "Curved: laid flat, it is " + stretch_words(chart.distortion) + ", " +
+    return "Curved: flattened, it is " + stretch_words(chart.distortion) + ", " +
            fixed(100.0 * chart.distortion.rms_stretch_error, 2) +
            " % off on average; areas and errors are measured on the tissue.\n" + warning + next;
   } catch (const InvalidInput& error) {
@@ -221,7 +220,7 @@ std::string advice(const Surface& surface, const std::string& next) {
            next;
   if (surface.has_chart()) return disk_advice(surface, next);
   if (surface.topology().is_closed())
-    return "Closed: it cannot be laid flat as a whole, so it has no chart.\n" + kChoosePart;
+    return "Closed: it cannot be flattened as a whole, so it has no chart.\n" + kChoosePart;
   try {
     surface.chart();
   } catch (const InvalidInput& error) {

@@ -54,7 +54,7 @@ std::string reduced_rank_words(const Belief& belief) {
   const double tolerance = belief.options().reduced_rank_tolerance;
   if (tolerance == 0.0 || belief.reduced_rank() || belief.site_count() < kManySites) return "";
   const double noise = belief.noise_variance() / (belief.signal_sd() * belief.signal_sd());
-  const std::string words = "field.reduced_rank is not in force: ";
+  const std::string words = "field.reduced_rank is not in effect: ";
   if (noise >= kLeastNoiseForReducedRank * tolerance)
     return words + "it would take no fewer features than there are readings.";
   return words + "the noise's variance is " + text_of(noise) + " of the signal's, and must be " +
@@ -144,9 +144,8 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   }
   if (exploration.tip_hides_all())
     remarks.push_back(
-        "What was felt is nowhere wider than the probe's tip, field.indenter_radius_mm: nothing is "
-        "left once the tip is "
-        "taken back, but something stiff is there.");
+        "The stiff region is nowhere wider than the probe's tip (field.indenter_radius_mm): "
+        "correcting for the tip leaves nothing, but something stiff is there.");
   if (const std::string outside = level_outside_words(exploration); !outside.empty())
     remarks.push_back(outside);
   const Contour contour = exploration.contour();
@@ -175,7 +174,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   }
   const std::optional<Certainty>& certainty = exploration.certainty();
   if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
-    remarks.push_back("No place is tumour as good as surely: the band has no inner curve.");
+    remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   const double found_m2 = surface_area(exploration.surface(), episode.estimate);
   if (found_m2 > kMuchStiff * exploration.surface().area())
     remarks.push_back(
@@ -191,8 +190,8 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
     remarks.push_back("The boundary is expected to be wrong by " +
                       fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
                       fixed(*times, 0) +
-                      " times what as many readings with so little noise can reach at best: more "
-                      "batches would pay.");
+                      " times the least that so many readings with so little noise allow: more "
+                      "batches would help.");
   return remarks;
 }
 

@@ -57,12 +57,12 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   if (!exploration.level()) {
     const double noise_sd = scatter(exploration);
     if (noise_sd == 0.0) return std::nullopt;  // a stuck sensor rules nothing out
-    if (episode.assumed_contrast) sought.contrast_to_noise = *episode.assumed_contrast / noise_sd;
+    if (episode.min_contrast) sought.contrast_to_noise = *episode.min_contrast / noise_sd;
     return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));
   }
   const Healthy healthy = healthy_part(exploration);
   if (healthy.vertices.empty() || exploration.tip_hides_all()) return std::nullopt;
-  const double contrast = episode.assumed_contrast.value_or(
+  const double contrast = episode.min_contrast.value_or(
       (exploration.level()->value - healthy.mean) / episode.level_fraction);
   sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
   if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;

@@ -9,6 +9,7 @@
 #include "scene/scene_json.h"
 #include "scene/scene_schema.h"
 #include "scene/speed.h"
+#include "scene/spellings.h"
 
 namespace palpation::tool {
 namespace {
@@ -32,12 +33,6 @@ const SceneKey* first_of_group(const std::string& path) {
     return key.path.starts_with(path + ".");
   });
   return found == keys.end() ? nullptr : &*found;
-}
-
-json::json_pointer pointer_to(const std::string& path) {
-  std::string pointer = "/" + path;
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  return json::json_pointer(pointer);
 }
 
 std::string unknown_words(const std::string& path) {
@@ -80,6 +75,11 @@ bool leads_through_objects(const json& given, const std::string& path) {
   return here->is_object();
 }
 
+void take_away(json& given, const std::string& path) {
+  const json::json_pointer place = pointer_to(path);
+  if (given.contains(place)) given[place.parent_pointer()].erase(place.back());
+}
+
 json overridden(json given, std::span<const std::string> overrides) {
   std::set<std::string> seen;
   for (const std::string& override : overrides) {
@@ -87,8 +87,8 @@ json overridden(json given, std::span<const std::string> overrides) {
     if (equals == std::string::npos || equals == 0)
       throw IoError("--set " + shown_key(override) +
                     ": must have the form KEY=VALUE, such as plan.batch=5");
-    const std::string key = override.substr(0, equals);
-    const std::string name = "--set " + shown_key(key);
+    const std::string written = override.substr(0, equals), key = schema_path(written);
+    const std::string name = "--set " + shown_key(written);
     const SceneKey* known = find_key(key);
     if (known == nullptr) {
       const SceneKey* member = first_of_group(key);
@@ -97,15 +97,15 @@ json overridden(json given, std::span<const std::string> overrides) {
                             : unknown_words(key)));
     }
     if (!seen.insert(key).second) throw IoError(name + ": is given twice");
-    const json value = override_value(*known, override.substr(equals + 1), name);
+    const json value =
+        respelled_value(*known, override_value(*known, override.substr(equals + 1), name));
     if (!value.is_null()) {
       if (const std::optional<Fault> fault = fault_of(*known, value))
         throw IoError(name + fault->place + ": " + fault->words);
-      if (leads_through_objects(given, key)) given[pointer_to(key)] = value;
-    } else if (given.contains(pointer_to(key))) {
-      const auto parent = pointer_to(key).parent_pointer();
-      given[parent].erase(pointer_to(key).back());
     }
+    for (const std::string& path : names_of_key(key)) take_away(given, path);
+    if (!value.is_null() && leads_through_objects(given, written))
+      given[pointer_to(written)] = value;
   }
   return given;
 }
@@ -113,7 +113,10 @@ json overridden(json given, std::span<const std::string> overrides) {
 }  // namespace
 
 Scene::Scene(const json& given, std::string name, std::filesystem::path folder)
-    : given_(given), name_(std::move(name)), folder_(std::move(folder)) {
+    : name_(std::move(name)), folder_(std::move(folder)) {
+  Respelled scene = respelled(given);
+  given_ = std::move(scene.scene);
+  remarks_ = std::move(scene.remarks);
   if (!given_.is_object())
     throw IoError(name_ + ": is " + shown(given_) +
                   ", but must be a JSON object, such as { \"version\": 1, ... }");
@@ -134,11 +137,17 @@ Scene Scene::parse(std::string_view text, std::string name, std::filesystem::pat
 Scene Scene::with(const std::string& path, const json& value) const {
   json changed = given_;
   changed[pointer_to(path)] = value;
-  return Scene(changed, name_, folder_);
+  return with_given(changed);
 }
 
 Scene Scene::with_overrides(std::span<const std::string> overrides) const {
-  return Scene(overridden(given_, overrides), name_, folder_);
+  return with_given(overridden(given_, overrides));
+}
+
+Scene Scene::with_given(const json& given) const {
+  Scene changed(given, name_, folder_);
+  changed.remarks_.insert(changed.remarks_.begin(), remarks_.begin(), remarks_.end());
+  return changed;
 }
 
 void Scene::refuse(const std::string& path, const std::string& words) const {
@@ -201,6 +210,7 @@ void Scene::check_together() const {
 
 std::vector<std::string> Scene::warnings() const {
   std::vector<std::string> warnings;
+  for (const std::string& remark : remarks_) warnings.push_back(name_ + ": " + remark);
   const auto warn = [&](const std::string& path, bool has_effect, const std::string& because) {
     if (gives(path) && !has_effect)
       warnings.push_back(name_ + ": " + path + ": has no effect, since " + because + ".");

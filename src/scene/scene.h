@@ -51,7 +51,7 @@ class Scene {
   nlohmann::json complete() const;
   /// Only what was given: what --print-scene prints.
   const nlohmann::json& given() const { return given_; }
-  /// Values that were given but have no effect, a sentence each.
+  /// Values that were given but have no effect, and keys under an old name, a sentence each.
   std::vector<std::string> warnings() const;
 
   /// Throws IoError about a key: "<scene>: <path>: <words>".
@@ -64,8 +64,10 @@ class Scene {
   const nlohmann::json* value_of_speed(const std::string& path) const;
   void check_members(const nlohmann::json& object, const std::string& prefix) const;
   void check_together() const;
+  Scene with_given(const nlohmann::json& given) const;
 
-  nlohmann::json given_;
+  nlohmann::json given_;  ///< as the schema spells it
+  std::vector<std::string> remarks_;
   std::string name_;
   std::filesystem::path folder_;
 };

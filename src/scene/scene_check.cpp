@@ -166,6 +166,12 @@ std::string last_name(const std::string& path) { return path.substr(path.rfind('
 
 }  // namespace
 
+json::json_pointer pointer_to(const std::string& path) {
+  std::string pointer = "/" + path;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  return json::json_pointer(pointer);
+}
+
 std::optional<Fault> fault_of(const SceneKey& key, const json& value) {
   switch (key.kind) {
     case ValueKind::Number:

@@ -60,7 +60,8 @@ class SceneReader : public json::json_sax_t {
 
   bool key(string_t& name) override {
     open_.back().key = name;
-    if (open_.back().value->contains(name)) throw IoError(name_ + ": " + path() + ": stands twice");
+    if (open_.back().value->contains(name))
+      throw IoError(name_ + ": " + path() + ": appears twice");
     return true;
   }
 

@@ -218,47 +218,45 @@ std::vector<SceneKey> make_scene_keys() {
            {"auto", "ils-ucb", "ucb", "evr", "straddle", "randomized-straddle", "expected-error",
             "lse", "random", "raster", "refinement"},
            "auto",
-           "what makes a touch worth while: auto sends most of a batch where it tells the most "
-           "about the boundary, and the rest where the "
-           "straddle criterion looks for more; raster and refinement are the classical scans "
-           "instead, as long as they are "
-           "whatever plan.batches says"),
+           "the acquisition function: auto sends most of a batch where it improves the boundary "
+           "the most, and the rest where the straddle criterion looks for more tumours; raster and "
+           "refinement are the classical scans instead, whose length does not depend on "
+           "plan.batches"),
       number("plan.edge_share", "", 0.0, 1.0, 0.65,
-             "that most, where plan.acquisition is auto and level.estimate edge"),
-      number("plan.gamma", "", 0.0, 1.0, 0.5, "of ucb and ils-ucb: 0 explores, 1 exploits"),
+             "share of a batch that goes to the boundary, where plan.acquisition is auto and "
+             "level.estimate edge"),
+      number("plan.gamma", "", 0.0, 1.0, 0.5, "for ucb and ils-ucb: 0 explores, 1 exploits"),
       word("plan.scaling", {"raw", "max"}, "raw",
-           "of ucb and ils-ucb: as the paper writes them, or both terms over their maxima"),
+           "for ucb and ils-ucb: as the paper writes them, or both terms divided by their maxima"),
       word("plan.initial.design", {"grid", "random", "low-discrepancy"}, "grid",
-           "the first touches"),
+           "the design of the initial samples"),
       integer("plan.initial.count", 0, 10000, 16,
-              "how many of them; no more than the tissue has vertices"),
+              "number of initial samples; no more than the tissue has vertices"),
       integer("plan.batch", 1, 10000, 10,
-              "touches planned together; no more than the tissue has vertices"),
-      integer("plan.batches", 0, 100000, 9, "how many batches after the first touches"),
+              "samples planned together; no more than the tissue has vertices"),
+      integer("plan.batches", 0, 100000, 9, "number of batches after the initial samples"),
       number("plan.least_spacing_mm", "mm", 0.0, kMostLength_mm, 0.5,
-             "between the stops of a batch"),
-      truth("plan.readings_along_path", false, "the probe also reads on its way, once per mm"),
+             "least distance between the stops of a batch"),
+      truth("plan.readings_along_path", false,
+            "in-transit readings: the probe also reads between stops, once per mm"),
       truth("plan.safe_start", true,
-            "conclude nothing and explore by variance alone until the readings show contrast "
-            "beyond their noise; of no effect where field "
-            "and "
-            "level are both given"),
+            "draw no conclusion and explore by variance alone until the readings show contrast "
+            "beyond their noise; no effect where field and level are both given"),
       number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, 0.0,
              "stop once the expected wrong area is no larger; 0: when the batches are done"),
       number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, 0.0,
              "stop once the band's mean half width is no larger; 0: when the batches are done"),
       number("plan.stop.least_gain", "", 0.0, 1.0, 0.0,
-             "stop once three batches lowered the expected wrong area by less than this part of "
-             "it, and the next would too; 0: when the "
-             "batches are done"),
-      number("plan.assumed_contrast", "reading", kLeastReading, kMostReading, nullptr,
-             "by which a tumour that must not be missed stands out, at least: for the answer that "
-             "there is none wider than so much; left out: "
-             "four times the readings' scatter"),
+             "stop once three batches reduced the expected wrong area by less than this fraction, "
+             "and the next would too; 0: when the batches are done"),
+      number("plan.min_contrast", "reading", kLeastReading, kMostReading, nullptr,
+             "least contrast of a tumour that must not be missed: the summary says how wide one "
+             "can be "
+             "and still be undetected; default: four times the readings' scatter"),
       or_zero(number("plan.explore_mm", "mm", 0.05, 3.0, 0.0,
-                     "plan on a coarser mesh with edges of this length, and conclude on the whole "
-                     "one when all is felt; 0: all on the whole one; "
-                     "without effect on palpate plan and boundary, and on scans")),
+                     "plan on a coarser mesh with edges of this length, and infer the boundary on "
+                     "the full one at the end; 0: all on the full one; without effect on palpate "
+                     "plan and boundary, and on scans")),
       number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0,
              "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
       word("probe.kind", {"simulated"}, "simulated",
@@ -276,22 +274,21 @@ std::vector<SceneKey> make_scene_keys() {
       numbers("probe.bias_axis", 3, "", -kMostDirection, kMostDirection, nullptr,
               "along which; not zero; left out: the longest side of the tissue"),
       number("probe.lag_mm", "mm", -100.0, 100.0, 0.0,
-             "how late a simulated reading comes: at x, travelling along t, it is of x - lag t"),
+             "lag of a simulated reading: at x, travelling along t, it is that of x - lag t"),
       tumours("probe.tumours", kMostTumours, "a list of shapes; several may overlap"),
       number("band.probability", "", 0.01, 1.0 - 1e-6, 0.95,
-             "with which the whole true outline lies between the band's two curves"),
+             "probability that the whole true outline lies between the band's two curves"),
       number("band.cut_risk", "", 1e-6, 0.5, 0.05,
-             "of the cut line: outside of it a place is tumour with this probability at most"),
+             "risk of the cut line: outside of it a place is tumour with at most this probability"),
       numbers("robot.from_tissue", 16, "", -kMostDirection, kMostDirection, identity,
               "rigid transform to the robot's frame, row by row, its translation in metres"),
       number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0,
-             "of the approach point, above the tissue"),
+             "height of the approach point above the tissue"),
       number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),
       numbers("robot.shaft_direction", 3, "", -kMostDirection, kMostDirection, nullptr,
               "from the tissue along the probe's shaft, in the robot's frame: only tissue whose "
               "normal is near it is touched; left out: all"),
-      number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0,
-             "how near: the greatest angle between the two"),
+      number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0, "the greatest angle between the two"),
       number("robot.clearance_mm", "mm", 0.0, 1000.0, 0.0,
              "tissue is touched only where a line of this length along its normal does not meet "
              "tissue again; 0: everywhere"),
@@ -301,7 +298,7 @@ std::vector<SceneKey> make_scene_keys() {
       word("error.arithmetic", {"exact", "plain"}, "exact",
            "of the error against a known truth: exact Booleans of polygons, with distances; or "
            "areas summed triangle by triangle, without"),
-      integer("seed", 0, kMostSeed, 1, "of all that is random"),
+      integer("seed", 0, kMostSeed, 1, "seed of all random numbers"),
   };
 }
 

@@ -42,6 +42,9 @@ const std::vector<SceneKey>& scene_keys();
 const std::vector<SceneKey>& tumour_keys(const std::string& shape);
 const std::vector<std::string>& tumour_shapes();
 
+/// Where a key's value stands in the JSON of a scene.
+nlohmann::json::json_pointer pointer_to(const std::string& path);
+
 /// What is wrong with a value: where in it (behind the key's path, such as "[0].radius_mm"), and
 /// words that follow "<key><place>: ".
 struct Fault {

@@ -229,10 +229,10 @@ void warn_of_hidden_tissue(const Scene& scene, Tissue& tissue) {
     hidden_m2 += clear[vertex] ? 0.0 : tissue.surface.vertex_areas()[vertex];
   const double percent = 100.0 * hidden_m2 / tissue.surface.area();
   if (percent > 0.05)
-    tissue.warnings.push_back(scene.name() + ": over " + fixed(percent, 1) +
-                              " % of the tissue the way down from robot.standoff_mm leads through "
-                              "another part of it. Give "
-                              "robot.clearance_mm to keep the probe away from there.");
+    tissue.warnings.push_back(
+        scene.name() + ": over " + fixed(percent, 1) +
+        " % of the tissue the approach from robot.standoff_mm passes through another part of it. "
+        "Set robot.clearance_mm to keep the probe away from there.");
 }
 
 void warn_of_reach(const Scene& scene, Tissue& tissue) {
@@ -243,23 +243,23 @@ void warn_of_reach(const Scene& scene, Tissue& tissue) {
   const double percent = 100.0 * (1.0 - reached_m2 / tissue.surface.area());
   if (percent > 0.05)
     tissue.warnings.push_back(scene.name() + ": " + fixed(percent, 1) +
-                              " % of the tissue cannot be reached: it is no candidate for a touch, "
-                              "and the boundary there is a guess.");
+                              " % of the tissue cannot be reached: it will not be touched, and the "
+                              "boundary there is a guess.");
 }
 
 /// The chart is what the boundary is drawn in; without one, say what is in the way and what to do.
 void check_chart(const Scene& scene, const Surface& surface) {
   if (gives_patch(scene) && surface.topology().is_closed())
-    scene.refuse("surface.patch", "takes all of a closed surface, " +
-                                      fixed(surface.diameter() * 1e3, 1) +
-                                      " mm across, which cannot be laid flat: take a smaller part, "
-                                      "and see whether surface.unit is right");
+    scene.refuse(
+        "surface.patch",
+        "takes all of a closed surface, " + fixed(surface.diameter() * 1e3, 1) +
+            " mm across, which cannot be flattened: take a smaller part, and check surface.unit");
   const std::string next = gives_patch(scene) ? ": take a smaller or another part by surface.patch"
                                               : ": choose a part to work on by surface.patch "
                                                 "(centre_mm and radius_mm, or box_mm, or facing)";
   if (surface.topology().is_closed())
     scene.refuse("surface",
-                 "the mesh is a closed surface, which cannot be laid flat as a whole" + next);
+                 "the mesh is a closed surface, which cannot be flattened as a whole" + next);
   try {
     surface.chart();
   } catch (const InvalidInput& error) {
@@ -284,7 +284,7 @@ std::string length_warning(const Scene& scene, const Surface& surface) {
 std::string stretch_warning(const Scene& scene, const Surface& surface) {
   const Distortion& distortion = surface.chart().distortion;
   if (scene.word("field.metric") != "chart" || !misleads(distortion)) return "";
-  return "Laid flat, the tissue is " + stretch_words(distortion) +
+  return "Flattened, the tissue is " + stretch_words(distortion) +
          ": with field.metric chart, the field's length is off by as much there. Take field.metric "
          "intrinsic or a smaller patch; areas and "
          "errors "

@@ -67,7 +67,7 @@ void check_place(const Scene& scene, const Surface& surface, const std::string& 
     check_place(scene, surface, path + ".centre_mm", shape["centre_mm"]);
   if (shape["shape"] == "polygon") {
     if (!surface.has_chart())
-      scene.refuse(path, "a polygon needs tissue that can be laid flat: a patch without holes");
+      scene.refuse(path, "a polygon needs tissue that can be flattened: a patch without holes");
     const json& points = shape["points_mm"];
     for (std::size_t i = 0; i < points.size(); ++i)
       check_place(scene, surface, path + ".points_mm[" + std::to_string(i) + "]", points[i]);

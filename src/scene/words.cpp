@@ -29,16 +29,15 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
   const double outer = superlevel_area(surface, certainty.score, -certainty.band_score) * 1e6;
   const double cut =
       superlevel_area(surface, certainty.score, Certainty::cut_score(cut_risk)) * 1e6;
-  return "With probability " + percent(certainty.probability) +
-         " the whole outline lies in a band around this line, " +
-         fixed(certainty.half_width_m * 1e3, 2) +
-         " mm to either side on average: " + fixed(inner, 1) + " mm2 lie inside of the band, " +
-         fixed(outer, 1) + " mm2 within its outer curve.\nExpected to be wrong: " +
+  return percent(certainty.probability) +
+         " confidence band: " + fixed(certainty.half_width_m * 1e3, 2) +
+         " mm to either side on average, " + fixed(inner, 1) + " mm2 within its inner curve, " +
+         fixed(outer, 1) + " mm2 within its outer curve.\nExpected error: " +
          fixed(certainty.expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
          fixed(certainty.expected.missed_m2 * 1e6, 1) + " missed and " +
-         fixed(certainty.expected.extra_m2 * 1e6, 1) +
-         " extra. To leave tumour at no place with more than " + percent(cut_risk) +
-         " risk, cut around " + fixed(cut, 1) + " mm2.\n";
+         fixed(certainty.expected.extra_m2 * 1e6, 1) + " extra. Cut line: " + fixed(cut, 1) +
+         " mm2; outside of it the risk of tumour is at most " + percent(cut_risk) +
+         " at any place.\n";
 }
 
 /// What is ruled out where nothing was found.
@@ -48,11 +47,12 @@ std::string nothing_words(const Episode& episode) {
   if (!episode.exploration.level() && noise_sd == 0.0) return "";
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
   const std::string contrast =
-      episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
+      episode.min_contrast ? "by " + reading_text(*episode.min_contrast) + " or more"
       : episode.exploration.level()
           ? "so that its edge is at that level"
           : "by four times the readings' scatter, " + reading_text(4.0 * noise_sd) + ", or more";
-  if (!diameter_m) return "So few readings rule out no tumour that stands out " + contrast + ".\n";
+  if (!diameter_m)
+    return "So few readings cannot rule out any tumour that stands out " + contrast + ".\n";
   return "No tumour that stands out " + contrast + " is wider than " + fixed(*diameter_m * 1e3, 1) +
          " mm, with probability " + percent(episode.band_probability) + " wherever it might be.\n";
 }
@@ -64,7 +64,7 @@ double area_found_m2(const Episode& episode) {
 std::string found_words(const Episode& episode) {
   if (episode.exploration.belief().site_count() == 0)
     return episode.exploration.palpations().empty()
-               ? "No reading yet, so nothing is known.\n"
+               ? "No readings yet, so nothing is known.\n"
                : "All readings are set aside, so nothing is known.\n";
   if (!episode.exploration.level())
     return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
@@ -72,21 +72,20 @@ std::string found_words(const Episode& episode) {
   const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
   if (parts.empty()) {
     if (episode.exploration.tip_hides_all())
-      return "Something stiff was felt, but it is nowhere wider than the probe's tip.\n";
+      return "Something stiff was found, but it is nowhere wider than the probe's tip.\n";
     return "Nothing found " + level + ": no tissue is that stiff.\n" + nothing_words(episode);
   }
   std::string words = "Found " + counted(parts.size(), "stiff region") + " " + level + ", " +
-                      fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in all:\n";
+                      fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in total:\n";
   for (const TumourPart& part : parts) words += part_words(part);
   words +=
       band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
   if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
-    words +=
-        "No other tumour that stands out " +
-        (episode.assumed_contrast ? "by " + reading_text(*episode.assumed_contrast) + " or more"
-                                  : std::string("as much")) +
-        " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
-        percent(episode.band_probability) + ".\n";
+    words += "No other tumour that stands out " +
+             (episode.min_contrast ? "by " + reading_text(*episode.min_contrast) + " or more"
+                                   : std::string("as much")) +
+             " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
+             percent(episode.band_probability) + ".\n";
   return words;
 }
 
@@ -106,9 +105,8 @@ std::string no_level_words(const Exploration& exploration) {
   if (exploration.trend_is_missing()) return kTooFewForTrend;
   const std::vector<double> readings = readings_that_count(exploration);
   if (readings.size() > 1 && all_equal(readings))
-    return "Nothing found: all " + std::to_string(readings.size()) + " readings are alike, " +
-           reading_text(readings.front()) +
-           ", to the last digit, as those of a sensor that is stuck.";
+    return "Nothing found: all " + std::to_string(readings.size()) + " readings are equal, " +
+           reading_text(readings.front()) + ", to the last digit, as if the sensor were stuck.";
   return kNoContrast;
 }
 

@@ -16,7 +16,7 @@ inline constexpr const char* kNoContrast =
 
 /// What is said where a trend is modelled and too few places are touched for one.
 inline constexpr const char* kTooFewForTrend =
-    "Nothing concluded: fewer than 15 places are touched, too few to tell a tumour from a tilt.";
+    "No conclusion: fewer than 15 places have been touched, too few to tell a tumour from a tilt.";
 
 /// What is said where no level could be found.
 std::string no_level_words(const Exploration& exploration);

@@ -89,7 +89,7 @@ World recorded_world(const Scene& scene, const Surface& surface,
     world.true_level =
         std::nextafter(world.truth.maxCoeff(), std::numeric_limits<double>::infinity());
     world.warnings.push_back(paths.front().string() +
-                             ": all its readings are alike, so it shows no tumour.");
+                             ": all its readings are equal, so it shows no tumour.");
   }
   const std::vector<bool> in_contact = recorded->in_contact();
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {

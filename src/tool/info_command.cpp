@@ -36,8 +36,8 @@ MeshFile read(const InfoArguments& arguments, const MeshRepair& repair = {}) {
     const std::string message = error.what();
     if (message.find(": cannot read: ") != std::string::npos) throw;
     throw IoError(message +
-                  "\n  Mend the file at that place, or export it again from the program that made "
-                  "it: PLY is the safest choice.");
+                  "\n  Repair the file at that place, or export it again from the program that "
+                  "made it: PLY is the safest choice.");
   }
 }
 
@@ -92,7 +92,7 @@ void print_file(const InfoArguments& arguments, const MeshFile& file) {
 
 void info_on_tissue(const InfoArguments& arguments) {
   if (!arguments.unit.empty())
-    throw WrongUsage("info: --unit is of a mesh; of a scene's, surface.unit says it");
+    throw WrongUsage("info: --unit is for a mesh; a scene has surface.unit");
   const Tissue tissue = tissue_of(Scene::read(arguments.file, arguments.overrides));
   print("The tissue of " + arguments.file.string() + ": " + counts_and_size(tissue.surface.mesh()) +
         "\n");
@@ -101,10 +101,10 @@ void info_on_tissue(const InfoArguments& arguments) {
 }
 
 void info_on_mesh(const InfoArguments& arguments) {
-  if (arguments.unit.empty()) throw WrongUsage("info: of a mesh, --unit is needed: mm, cm or m");
+  if (arguments.unit.empty()) throw WrongUsage("info: a mesh needs --unit: mm, cm or m");
   if (!arguments.overrides.empty())
-    throw WrongUsage("info: --set is of a scene (.json), and '" + arguments.file.string() +
-                     "' is none");
+    throw WrongUsage("info: --set is for a scene (.json), and '" + arguments.file.string() +
+                     "' is not one");
   const MeshFile file = read(arguments);
   print_file(arguments, file);
   const Attempt mesh = attempt(file.mesh);
@@ -115,7 +115,7 @@ void info_on_mesh(const InfoArguments& arguments) {
         is_plausible(extent)
             ? "Next: name it as surface.mesh of a scene (palpate help scene) and run palpate "
               "simulate or palpate plan.\n"
-            : "Next: run this again with the unit that makes it as large as it is.\n"));
+            : "Next: run this again with the right unit.\n"));
   } else if (extent > kLeastCountable_m && extent < kMostCountable_m) {
     print(fault_words(file.mesh, mesh.reason));
   } else {
@@ -123,7 +123,7 @@ void info_on_mesh(const InfoArguments& arguments) {
   }
   if (file.equal_vertices > 0) print(weld_words(arguments));
   if (!mesh.surface)
-    print("Next: mend it in a mesh editor at the places named, and run this again.\n");
+    print("Next: repair it in a mesh editor at these places, and run this again.\n");
 }
 
 }  // namespace

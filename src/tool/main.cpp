@@ -39,10 +39,10 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
   CLI::App* command = app.add_subcommand(name, what);
   command
       ->add_option("SCENE", arguments.scene.scene,
-                   "what to work on, a JSON file (see: palpate help scene)")
+                   "the scene, a JSON file (see: palpate help scene)")
       ->required();
   command->add_option("--out", arguments.scene.out,
-                      "folder for the results; without it they are only told");
+                      "folder for the results; without it they are only printed");
   command
       ->add_option(
           "--set", arguments.scene.overrides,
@@ -55,8 +55,7 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
       ->add_option("--threads", arguments.threads,
                    "how many threads to use; the results do not depend on it")
       ->check(whole(1, 1024));
-  command->add_flag("--quiet", arguments.scene.quiet,
-                    "no progress and no words but warnings and errors");
+  command->add_flag("--quiet", arguments.scene.quiet, "print only warnings and errors");
   return command;
 }
 
@@ -91,7 +90,8 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
       ->allow_extra_args(false);
   replaying->callback([&] { replay(arguments.scene, arguments.recordings); });
 
-  CLI::App* comparing = scene_command(app, arguments, "compare", "The area between two boundaries");
+  CLI::App* comparing =
+      scene_command(app, arguments, "compare", "Compare two boundaries: the area between them");
   comparing->add_option("A", arguments.a, "the estimate: a .wkt or .vtp file")->required();
   comparing->add_option("B", arguments.b, "the truth, or what is taken for it")->required();
   comparing->callback([&] { compare_boundaries(arguments.scene, arguments.a, arguments.b); });
@@ -99,7 +99,7 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
 
 void add_mesh_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* telling = app.add_subcommand(
-      "info", "What a mesh is, what it supports, and what to do next; or the tissue of a scene");
+      "info", "Check a mesh, or the tissue of a scene: what it supports, what to do next");
   telling
       ->add_option(
           "FILE", arguments.info.file,
@@ -107,7 +107,7 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
       ->required();
   telling
       ->add_option("--unit", arguments.info.unit,
-                   "of a mesh' coordinates, which must be given: mm, cm or m")
+                   "of a mesh's coordinates (required for a mesh): mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   telling
       ->add_option("--set", arguments.info.overrides,
@@ -143,7 +143,7 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
       ->check(number(0.0, 1e6));
   making
       ->add_option("--edge-mm", arguments.mesh.edge_mm,
-                   "length of the cells, but of a plane that is given by --vertices")
+                   "length of the cells, unless a plane is given by --vertices")
       ->check(number(1e-3, 1e6));
   const auto shape = [&](const char* name, std::optional<double>& length_mm, const char* meaning) {
     making->add_option(name, length_mm, meaning)->check(number(1e-3, 1e6));
@@ -174,11 +174,11 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
       ->check(CLI::IsMember(experiment_names()));
   command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
   command
-      ->add_option("--trials", arguments.experiment.trials, "per cell; left out: 5, of tradeoff 20")
+      ->add_option("--trials", arguments.experiment.trials, "per cell; default: 5, for tradeoff 20")
       ->check(whole(1, kMostTrials));
   command
       ->add_option("--first-seed", arguments.experiment.first_seed,
-                   "seeds of the trials are this and the following")
+                   "seed of the first trial; the others follow")
       ->check(whole(0, kMostSeed - kMostTrials));
   command
       ->add_option("--set", arguments.experiment.overrides,
@@ -186,11 +186,12 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command
-      ->add_option("--only", arguments.experiment.only,
-                   "of table1, table2 and curved: run the cells with this in their names")
+      ->add_option(
+          "--only", arguments.experiment.only,
+          "for table1, table2 and curved: run only the cells with this text in their names")
       ->allow_extra_args(false);
   command->add_option("--recordings", arguments.experiment.recordings,
-                      "of experiment recordings: the folder with the physical recordings");
+                      "for experiment recordings: the folder with the physical recordings");
   command->add_flag("--print-scene", arguments.experiment.print_scene,
                     "print the scene of every cell instead of running it");
   command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");

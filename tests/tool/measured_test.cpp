@@ -135,7 +135,7 @@ TEST(Measured, S12TheBoundaryDoesNotDependOnUnitAndOrigin) {
 TEST(Measured, S19NothingMeasuredIsTheInitialDesignAndNoBoundary) {
   const Episode episode = bounded("x,y,z,reading\n");
   EXPECT_TRUE(episode.estimate.empty());
-  EXPECT_EQ(episode_words(episode), "0 readings.\nNo reading yet, so nothing is known.\n");
+  EXPECT_EQ(episode_words(episode), "0 readings.\nNo readings yet, so nothing is known.\n");
   EXPECT_EQ(episode.exploration.next().size(), 5u);
 }
 

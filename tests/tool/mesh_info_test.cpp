@@ -57,7 +57,7 @@ TEST(MeshInfo, DescribesAllThatCanBeReadAndRefusesTheRest) {
       EXPECT_TRUE(contains(words, "Next:")) << words;
     } catch (const IoError& error) {
       EXPECT_TRUE(std::holds_alternative<catalogue::Refused>(example.expected)) << error.what();
-      expect_words(error.what(), {"Mend the file at that place, or export it again"});
+      expect_words(error.what(), {"Repair the file at that place, or export it again"});
     }
   }
 }
@@ -132,13 +132,12 @@ TEST(MeshInfo, ListsComponentsAndBorders) {
                 "120.000 mm, 12 vertices", "40.000 mm, 4 vertices"});
 }
 
-TEST(MeshInfo, SaysWhereASurfaceRunsThroughItself) {
+TEST(MeshInfo, SaysWhereASurfaceIntersectsItself) {
   const std::string crossing = kSquare + "v -0.4 0.3 -1\nv 0.8 0.3 -1\nv 0.5 0.3 1\nf 5 6 7\n";
-  expect_words(info_on_text("a.obj", crossing),
-               {"runs through itself: 2 pairs of triangles", "triangles 0 and 2",
-                "Cut away one of the sheets"});
+  expect_words(info_on_text("a.obj", crossing), {"self-intersects: 2 pairs of triangles",
+                                                 "triangles 0 and 2", "Delete one of the sheets"});
   EXPECT_FALSE(contains(info_on_text("a.off", catalogue::off_of(catalogue::tetrahedron())),
-                        "runs through itself"));
+                        "self-intersect"));
 }
 
 TEST(MeshInfo, AdvisesOnWarnings) {

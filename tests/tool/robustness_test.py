@@ -73,9 +73,9 @@ class Robustness(unittest.TestCase):
             (("replay", self.scene), "--recording is required"),
             (("compare", self.scene, self.square), "B is required"),
             (("info",), "FILE is required"),
-            (("info", self.square), "of a mesh, --unit is needed"),
-            (("info", self.square, "--unit", "mm", "--set", "seed=2"), "--set is of a scene"),
-            (("info", self.scene, "--unit", "mm"), "surface.unit says it"),
+            (("info", self.square), "a mesh needs --unit"),
+            (("info", self.square, "--unit", "mm", "--set", "seed=2"), "--set is for a scene"),
+            (("info", self.scene, "--unit", "mm"), "a scene has surface.unit"),
             (("info", self.square, "--unit", "km"), "km"),
             (("experiment", "table3"), "table3"),
             (("experiment", "table1", "--only", "disk", "--only", "cube"), "no cell has 'disk' and 'cube' in its name"),
@@ -175,7 +175,7 @@ class Robustness(unittest.TestCase):
         self.ends(0, "replay", self.scene, "--recording", good)
         alike = self.write("alike.csv", "x,y,reading\n" + "".join(row.rsplit(",", 1)[0] + ",7\n" for row in there.splitlines()))
         out = self.folder / "alike"
-        self.ends(0, "replay", self.scene, "--recording", alike, "--out", out, says="all its readings are alike")
+        self.ends(0, "replay", self.scene, "--recording", alike, "--out", out, says="all its readings are equal")
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual((summary["parts"], summary["error"]["dice"]), ([], 1.0))
 

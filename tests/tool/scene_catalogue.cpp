@@ -77,24 +77,24 @@ void add_syntax(Cases& cases) {
       {": probe.tumours[0].radius: is not a key of a disk; the nearest is radius_mm"});
   add("C02", "a key of the second tumour",
       tumour(
-          R"({"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 3}, {"shape": "disk", "center_mm": [10, 10, 0], "radius_mm": 3})"),
-      {": probe.tumours[1].center_mm: is not a key of a disk; the nearest is centre_mm"});
+          R"({"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 3}, {"shape": "disk", "centr_mm": [10, 10, 0], "radius_mm": 3})"),
+      {": probe.tumours[1].centr_mm: is not a key of a disk; the nearest is centre_mm"});
   add("C02", "a path in one word", with("plan.batch", "3"),
       {": plan.batch: is written in one word", "\"plan\": {"});
   add("C02", "an empty key", with("", "3"), {": : is not a key"});
   add("C02", "a key of a million letters", with(std::string(1000000, 'x'), "3"),
       {"xxx...: is not a key"});
 
-  add("C03", "a key twice", "{\"seed\": 1, \"seed\": 1}", {": seed: stands twice"});
+  add("C03", "a key twice", "{\"seed\": 1, \"seed\": 1}", {": seed: appears twice"});
   add("C03", "a key of a group twice", "{\"plan\": {\"batch\": 3, \"batch\": 4}}",
-      {": plan.batch: stands twice"});
+      {": plan.batch: appears twice"});
   add("C03", "a group twice", "{\"plan\": {\"batch\": 3}, \"plan\": {\"batches\": 4}}",
-      {": plan: stands twice"});
+      {": plan: appears twice"});
   add("C03", "a key of a tumour twice",
       "{\"probe\": {\"tumours\": [{}, {\"shape\": \"disk\", \"shape\": \"disk\"}]}}",
-      {": probe.tumours[1].shape: stands twice"});
+      {": probe.tumours[1].shape: appears twice"});
   add("C03", "a key twice, spelled differently", "{\"seed\": 1, \"s\\u0065ed\": 2}",
-      {": seed: stands twice"});
+      {": seed: appears twice"});
 
   add("C05", "NaN", field(R"("noise": NaN)"), {":2:22: not JSON", "invalid literal"});
   add("C05", "Infinity", field(R"("noise": Infinity)"), {":2:22: not JSON", "invalid literal"});

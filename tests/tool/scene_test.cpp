@@ -163,5 +163,51 @@ TEST(Setup, ReducesTheRankWhereThatIsAskedFor) {
   EXPECT_THROW(tolerance(0.1), Error);
 }
 
+TEST(Scene, TakesAmericanSpellingsAndAcquisitionsInCapitals) {
+  const Scene ours = Scene::parse(
+      R"({"surface": {"patch": {"centre_mm": [1, 2, 3], "radius_mm": 9}},
+          "plan": {"acquisition": "ils-ucb"},
+          "probe": {"tumours": [{"shape": "disk", "centre_mm": [1, 2, 3], "radius_mm": 4}]}})",
+      "test", ".");
+  const Scene theirs = Scene::parse(
+      R"({"surface": {"patch": {"center_mm": [1, 2, 3], "radius_mm": 9}},
+          "plan": {"acquisition": "ILS-UCB"},
+          "probe": {"tumors": [{"shape": "disk", "center_mm": [1, 2, 3], "radius_mm": 4}]}})",
+      "test", ".");
+  EXPECT_EQ(ours.complete(), theirs.complete());
+  EXPECT_TRUE(theirs.warnings().empty());
+}
+
+TEST(Scene, TakesAnOldNameOfAKeyAndSaysTheNewOne) {
+  const Scene scene = Scene::parse(R"({"plan": {"assumed_contrast": 2}})", "test", ".");
+  EXPECT_EQ(scene.number("plan.min_contrast"), 2.0);
+  ASSERT_EQ(scene.warnings().size(), 1u);
+  EXPECT_NE(scene.warnings()[0].find("plan.assumed_contrast: is now called plan.min_contrast"),
+            std::string::npos);
+  EXPECT_EQ(scene.with("seed", 3).warnings(), scene.warnings());
+}
+
+TEST(Scene, OverridesAKeyUnderAnyOfItsNames) {
+  const auto overridden = [](const std::string& given, const std::string& override) {
+    return Scene::parse(given, "test", ".", std::vector<std::string>{override});
+  };
+  const std::string old_name = R"({"plan": {"assumed_contrast": 2}})",
+                    new_name = R"({"plan": {"min_contrast": 2}})";
+  for (const std::string& given : {old_name, new_name}) {
+    for (const std::string key : {"plan.assumed_contrast", "plan.min_contrast"}) {
+      const Scene scene = overridden(given, key + "=3");
+      EXPECT_EQ(scene.number("plan.min_contrast"), 3.0) << given << key;
+      EXPECT_EQ(scene.warnings().size(), key == "plan.assumed_contrast" ? 1u : 0u) << given << key;
+      EXPECT_FALSE(overridden(given, key + "=null").gives("plan.min_contrast")) << given << key;
+    }
+  }
+  EXPECT_EQ(overridden("{}", "plan.acquisition=EVR").word("plan.acquisition"), "evr");
+}
+
+TEST(Scene, RefusesAKeyThatIsGivenUnderTwoNames) {
+  const std::string twice = R"({"plan": {"assumed_contrast": 2, "min_contrast": 3}})";
+  EXPECT_THROW(Scene::parse(twice, "test", "."), IoError);
+}
+
 }  // namespace
 }  // namespace palpation::tool

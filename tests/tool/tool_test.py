@@ -74,7 +74,7 @@ class Tool(unittest.TestCase):
         scene = self.write("flat.json", json.dumps({"version": 1, "surface": {"plane": {"size_mm": [20, 20], "vertices": [21, 21]}}}))
         tilted = [f"{x / 1000},{y / 1000},0,{7 + 0.1 * x + dice.gauss(0, 0.1)}" for x in range(2, 20, 2) for y in range(2, 20, 2)]
         for rows, words in ((healthy[:-1] + ["0.017,0.017,0,9"], "One reading, 9.000 at (17.0, 17.0, 0.0) mm"),
-                            ([row.rsplit(",", 1)[0] + ",7" for row in healthy], "all 36 readings are alike, 7.000, to the last digit"),
+                            ([row.rsplit(",", 1)[0] + ",7" for row in healthy], "all 36 readings are equal, 7.000, to the last digit"),
                             (tilted, "of how the readings differ: if that is a tilt or a drift, set field.trend to linear"),
                             (healthy + healthy[:5], "5 rows repeat earlier ones, place and reading alike to every digit, and are set aside: line 38 repeats line 2")):
             measured = self.write("odd.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
@@ -137,7 +137,7 @@ class Tool(unittest.TestCase):
     def test_the_band_lies_around_the_boundary(self):
         out = self.folder / "out"
         words = self.done("simulate", self.scene, "--out", out)
-        self.assertIn("With probability 95 % the whole outline lies in a band", words)
+        self.assertIn("95 % confidence band: ", words)
         summary = json.loads((out / "summary.json").read_text())
         band, cut = summary["band"], summary["cut"]
         self.assertEqual((band["probability"], cut["risk"]), (0.95, 0.05))
@@ -188,7 +188,7 @@ class Tool(unittest.TestCase):
             run = dict(zip(names, row.split(",")))
             self.assertTrue(50.0 <= float(run["area_mm2"]) <= 400.0 and 500.0 <= float(run["slope_per_m"]) <= 2000.0)
             self.assertGreater(float(run["bound_mm2"]), 0.0)
-        words = self.done("experiment", "detection", *coarse, "--set", "plan.assumed_contrast=2")
+        words = self.done("experiment", "detection", *coarse, "--set", "plan.min_contrast=2")
         self.assertIn("Healthy tissue: nothing found", words)
         kinds = [row.split(",")[0] for row in (self.folder / "detection.csv").read_text().splitlines()[1:]]
         self.assertEqual((kinds.count("healthy"), kinds.count("two")), (4, 3))
@@ -235,7 +235,7 @@ class Tool(unittest.TestCase):
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual(summary["parts"], [])
         self.assertIsNone(summary["band"])
-        stiffer = json.loads(self.summary_of("simulate", "--set", "probe.tumours=[]", "--set", "plan.assumed_contrast=2"))
+        stiffer = json.loads(self.summary_of("simulate", "--set", "probe.tumours=[]", "--set", "plan.min_contrast=2"))
         self.assertGreater(summary["nothing_wider_than_mm"], stiffer["nothing_wider_than_mm"])
         self.assertGreater(stiffer["nothing_wider_than_mm"], 2.0)
         self.assertIsNone(summary["level"])
@@ -413,7 +413,7 @@ class Tool(unittest.TestCase):
             a = i // (side - 1) * side + i % (side - 1)
             faces += [f"3 {a} {a + 1} {a + side + 1}", f"3 {a} {a + side + 1} {a + side}"]
         mesh = self.write("dome.off", f"OFF\n{len(rows)} {len(faces)} 0\n" + "\n".join(rows + faces) + "\n")
-        self.assertIn("Curved: laid flat, it is stretched to between", self.done("info", mesh, "--unit", "mm"))
+        self.assertIn("Curved: flattened, it is stretched to between", self.done("info", mesh, "--unit", "mm"))
         scene = self.write("dome.json", json.dumps({"version": 1,
             "surface": {"mesh": str(mesh), "unit": "mm"}, "field": {"metric": "chart"}, "plan": {"batches": 5},
             "probe": {"low": 7, "high": 9, "slope_per_m": 1400, "noise": 0.01,
