@@ -8,9 +8,9 @@
 #include <span>
 
 #include "base/tile.h"
+#include "belief/sites.h"
 #include "geometry/spectrum.h"
 #include "palpation/belief/prior.h"
-#include "palpation/belief/sites.h"
 
 namespace palpation {
 

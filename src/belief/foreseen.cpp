@@ -1,44 +1,36 @@
-#include "belief/foreseen.h"
-
 #include <algorithm>
 #include <utility>
 
-#include "belief/reduced.h"
-#include "belief/vertex_tiles.h"
+#include "belief/exact_engine.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
 
-Belief Belief::foresee(std::span<const SurfacePoint> places) const {
-  Belief next = *this;
-  next.foreseen_.reset();
-  // The signal of standardized readings changes with every one: rows for it would be those of
-  // another noise.
-  const bool keeps_noise = !options_.standardize || options_.noise_is_relative;
-  if (places.empty() || reduced_ || !keeps_noise) return next;
-  // One value is like another here; the origin is that of the readings, if there are any.
-  std::vector<Palpation> supposed(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    supposed[i] = {.where = places[i], .reading = centre_};
-  const Belief touched = next.condition_on(supposed);
-  const bool only_grew = !touched.reduced_ &&
-                         touched.site_count() == site_count() + static_cast<int>(places.size()) &&
+/// Rows of touches that are planned but not yet made.
+struct ExactEngine::Foreseen {
+  std::vector<Place> places;
+  std::vector<double> diagonal;
+  std::shared_ptr<const FactorRows> rows;
+  std::shared_ptr<const VertexSums> sums;  // of readings without meaning: all but these count
+};
+
+void ExactEngine::foresee(const ExactEngine& touched, int more) {
+  const bool only_grew = touched.site_count() == site_count() + more &&
                          touched.rows_.size() == rows_.size() + 1 &&
                          std::equal(rows_.begin(), rows_.end(), touched.rows_.begin());
-  if (!only_grew) return next;
+  if (!only_grew) return;
   Foreseen foreseen{
       .places = {}, .diagonal = {}, .rows = touched.rows_.back(), .sums = touched.sums_};
   for (int site = site_count(); site < touched.site_count(); ++site) {
     foreseen.places.push_back(touched.sites_[site].place);
     foreseen.diagonal.push_back(touched.diagonal_[site]);
   }
-  next.foreseen_ = std::make_shared<const Foreseen>(std::move(foreseen));
-  return next;
+  foreseen_ = std::make_shared<const Foreseen>(std::move(foreseen));
 }
 
 /// If the first sites without rows are those foreseen, takes their rows; what is left is what their
 /// readings add to the mean.
-void Belief::append_foreseen() {
+void ExactEngine::append_foreseen(const Prior& prior) {
   const std::shared_ptr<const Foreseen> foreseen = std::exchange(foreseen_, nullptr);
   if (!foreseen) return;
   const int first = foreseen->rows->first, count = foreseen->rows->count;
@@ -48,24 +40,24 @@ void Belief::append_foreseen() {
         diagonal_[first + i] != foreseen->diagonal[i])
       return;
   }
-  append_to_solutions(*foreseen->rows);
-  const Eigen::VectorXd minus_whitened = -whitened_.segment(first, count);
-  const int tile_count = prior_.tiles().count();
-  auto sums = std::make_shared<Sums>(tile_count, sum_rows());
+  append_to_whitened(prior, *foreseen->rows);
+  const Eigen::VectorXd minus_readings = -whitened_.readings.segment(first, count);
+  const int tile_count = prior.tiles().count();
+  auto sums = std::make_shared<VertexSums>(tile_count, prior.has_slope());
   for_ranges(tile_count, 512, [&](int begin, int end) {
     const AlignedDoubles widened =
         aligned_doubles(static_cast<std::size_t>(foreseen->rows->per_tile()));
     for (int tile = begin; tile < end; ++tile) {
       double* sum = sums->tile(tile);
       std::copy_n(foreseen->sums->tile(tile), sums->width * kLanes, sum);
-      double* whitened = sum + Sums::kWhitened * kLanes;
+      double* readings = sum + VertexSums::kReadings * kLanes;
       if (sums_) {
-        std::copy_n(sums_->tile(tile) + Sums::kWhitened * kLanes, kLanes, whitened);
+        std::copy_n(sums_->tile(tile) + VertexSums::kReadings * kLanes, kLanes, readings);
       } else {
-        std::fill_n(whitened, kLanes, 0.0);
+        std::fill_n(readings, kLanes, 0.0);
       }
-      subtract_product(minus_whitened.data(), count, foreseen->rows->tile(tile, widened.get()),
-                       count, whitened, 1);
+      subtract_product(minus_readings.data(), count, foreseen->rows->tile(tile, widened.get()),
+                       count, readings, 1);
     }
   });
   sums_ = std::move(sums);

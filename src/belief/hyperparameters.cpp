@@ -12,6 +12,7 @@
 #include <string>
 
 #include "belief/likelihood.h"
+#include "belief/sites.h"
 #include "belief/tilts.h"
 #include "palpation/base/error.h"
 #include "readings/readings.h"

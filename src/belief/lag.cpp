@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "belief/likelihood.h"
+#include "belief/sites.h"
 #include "palpation/base/error.h"
 
 namespace palpation {

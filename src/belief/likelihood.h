@@ -7,9 +7,17 @@
 
 #include "base/positive_definite.h"
 #include "belief/pair_correlations.h"
+#include "belief/sites.h"
 #include "palpation/belief/hyperparameters.h"
 
 namespace palpation {
+
+/// Log likelihood as Belief::log_marginal_likelihood has it, and its gradient by the logarithms of
+/// length, signal and noise: what `learn` climbs.
+struct LikelihoodGradient {
+  double value = 0.0;
+  Vec3 gradient = Vec3::Zero();
+};
 
 class Likelihood {
  public:
@@ -31,5 +39,11 @@ class Likelihood {
   Eigen::MatrixXd p_;  // the lower half
   Eigen::VectorXd readings_, variances_, variance_slopes_, mean_slopes_;
 };
+
+LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site> sites,
+                                       const Hyperparameters& at);
+
+/// Its value alone, at a fifth of the cost.
+double log_likelihood(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at);
 
 }  // namespace palpation

@@ -1,12 +1,11 @@
-#include "palpation/belief/look_ahead.h"
+#include "belief/look_ahead.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "belief/belief_state.h"
 #include "belief/correlations.h"
-#include "belief/rows.h"
-#include "belief/vertex_tiles.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -14,15 +13,15 @@ namespace palpation {
 struct LookAhead::Touch {
   int vertex;
   TileCorrelations correlations;
-  double constant_share;        // of c, for a residual of one at the other vertex
-  Vec3 tilt_weights;            // of the slope's residual there
-  std::vector<double> earlier;  // e_j at the touch, j before it
-  double scale;                 // 1 / sqrt(variance + noise)
+  double constant_share;             // of c, for a residual of one at the other vertex
+  Vec3 tilt_weights = Vec3::Zero();  // of the slope's residual there
+  std::vector<double> earlier{};     // e_j at the touch, j before it
+  double scale;                      // 1 / sqrt(variance + noise)
 };
 
 LookAhead::LookAhead(const Belief& belief, const Field& variance)
-    : belief_(belief),
-      tiles_(belief.prior_.tiles()),
+    : state_(belief.state()),
+      tiles_(belief.prior().tiles()),
       signal_variance_(belief.signal_sd() * belief.signal_sd()) {
   require(variance.size() == tiles_.vertex_count(), "LookAhead",
           std::to_string(variance.size()) + " variances", "must be one for each vertex");
@@ -53,7 +52,7 @@ const double* LookAhead::variances(int tile) const {
 
 /// c between the tile's vertices and `count` touches from `first` on, one a row.
 void LookAhead::add_covariances(int tile, int first, int count, double* rows) const {
-  const std::vector<TileRows> strips = belief_.rows_of_v();
+  const std::vector<TileRows> strips = state_.engine().rows();
   long depth = 0;
   for (const TileRows& strip : strips) {
     depth += strip.depth;
@@ -72,11 +71,11 @@ void LookAhead::add_covariances(int tile, int first, int count, double* rows) co
     const Touch& touch = touches_[first + k];
     for (std::size_t lane = 0; lane < around.size(); ++lane) {
       double& value = rows[k * kLanes + static_cast<int>(lane)];
-      value = belief_.held(value, touch.vertex, around[lane]);
+      value = state_.engine().held(value, touch.vertex, around[lane]);
       if (touch.constant_share != 0.0)
-        value += touch.constant_share * belief_.residual_ones(around[lane]);
-      if (belief_.prior_.has_slope())
-        value += belief_.tilt_residual_at(around[lane], Part::Whole).dot(touch.tilt_weights);
+        value += touch.constant_share * state_.residual_ones(around[lane]);
+      if (state_.field.prior.has_slope())
+        value += state_.tilt_residual(around[lane]).dot(touch.tilt_weights);
       value *= signal_variance_;
     }
   }
@@ -104,19 +103,20 @@ void LookAhead::bring_up_to_date(int tile) {
 }
 
 void LookAhead::touch(int vertex, double noise_variance) {
-  require(vertex >= 0 && vertex < belief_.prior_.surface().vertex_count(), "LookAhead",
+  require(vertex >= 0 && vertex < state_.field.prior.surface().vertex_count(), "LookAhead",
           "vertex " + std::to_string(vertex), "is not on the surface");
   const int place = tiles_.place(vertex), tile = place / kLanes, lane = place % kLanes;
   bring_up_to_date(tile);
   const double total = variance_[place] + noise_variance;
-  Touch next{vertex, TileCorrelations(belief_.prior_, vertex),  0.0, Vec3::Zero(),
-             {},     total > 0.0 ? 1.0 / std::sqrt(total) : 0.0};
-  if (belief_.constant_is_unsure())
-    next.constant_share = belief_.residual_ones(vertex) / belief_.constant_precision_;
-  if (belief_.prior_.has_slope())
-    next.tilt_weights = belief_.tilt_covariance_ * belief_.tilt_residual_at(vertex, Part::Whole);
+  const Prior& prior = state_.field.prior;
+  const Regression& regression = state_.regression;
+  Touch next{.vertex = vertex,
+             .correlations = TileCorrelations(prior, vertex),
+             .constant_share = regression.times_constant_variance(state_.residual_ones(vertex)),
+             .scale = total > 0.0 ? 1.0 / std::sqrt(total) : 0.0};
+  if (prior.has_slope()) next.tilt_weights = regression.tilt_weights(state_.tilt_residual(vertex));
   for (int k = 0; k < touch_count(); ++k) next.earlier.push_back(e_[tile][k * kLanes + lane]);
-  const std::vector<double> column = belief_.column_of_v(vertex);
+  const std::vector<double> column = state_.engine().column(tiles_, vertex);
   columns_.insert(columns_.end(), column.begin(), column.end());
   touches_.push_back(std::move(next));
 }

@@ -13,10 +13,7 @@
 #include <cmath>
 
 #include "belief/correlations.h"
-#include "belief/reduced.h"
-#include "belief/rows.h"
-#include "belief/seen.h"
-#include "belief/vertex_tiles.h"
+#include "belief/exact_engine.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
@@ -37,24 +34,18 @@ double at_site(double d, bool is_small, double square, double plain) {
 
 }  // namespace
 
-/// Of any place. Where the belief is exact, with all the digits that its coordinates have.
-Belief::Seen Belief::look_at(const Place& place) const {
-  if (reduced_) {
-    const Eigen::VectorXd f = reduced_->features->at(prior_, place);
-    const auto& weights = reduced_->weights.weights();
-    const Eigen::Matrix<double, 5, 1> sums = weights.transpose() * f;
-    return {1.0 - f.dot(reduced_->weights.explained(f)), sums[0], sums[1], sums.tail<3>()};
-  }
-  const Eigen::VectorXd k = correlations_with(prior_, place, sites_);
+/// With all the digits that the place's coordinates have.
+Seen ExactEngine::look_at(const Prior& prior, const Place& place) const {
+  const Eigen::VectorXd k = correlations_with(prior, place, sites_);
   const Eigen::VectorXd v = solve_lower(k);
-  Seen seen{1.0 - v.squaredNorm(), v.dot(ones_), v.dot(whitened_), Vec3::Zero()};
-  if (prior_.has_slope()) seen.tilts = tilts_.transpose() * v;
+  Seen seen{1.0 - v.squaredNorm(), v.dot(whitened_.ones), v.dot(whitened_.readings), Vec3::Zero()};
+  if (prior.has_slope()) seen.tilts = whitened_.tilts.transpose() * v;
   if (sites_.empty()) return seen;
   Eigen::Index site = 0;
   if (k.maxCoeff(&site) < kBeside) return seen;
   const double d = diagonal_[site];
   const bool same = place == sites_[site].place;
-  if (!same && (prior_.metric() == Metric::Intrinsic || seen.unexplained > 0.01)) return seen;
+  if (!same && (prior.metric() == Metric::Intrinsic || seen.unexplained > 0.01)) return seen;
   const Eigen::VectorXd g = solve_lower(Eigen::VectorXd::Unit(k.size(), site));
   const double there = at_site(d, d < kSmallNoise, g.squaredNorm(), seen.unexplained);
   if (same) {
@@ -66,24 +57,23 @@ Belief::Seen Belief::look_at(const Place& place) const {
   Eigen::VectorXd change(k.size());
   for (Eigen::Index i = 0; i < k.size(); ++i)
     change[i] =
-        correlation_change(prior_.kernel(), p - sites_[i].place.coordinates, place.coordinates - p);
+        correlation_change(prior.kernel(), p - sites_[i].place.coordinates, place.coordinates - p);
   const Eigen::VectorXd w = solve_lower(std::move(change));
   seen.unexplained = there + 2.0 * d * g.dot(w) +
-                     2.0 * decorrelation(prior_.kernel(), place.coordinates - p) - w.squaredNorm();
+                     2.0 * decorrelation(prior.kernel(), place.coordinates - p) - w.squaredNorm();
   return seen;
 }
 
 /// 1 - sum V^2 at the vertices, restated where too few of its digits are left; empty where all have
 /// enough.
-void Belief::sharpen() {
+void ExactEngine::sharpen(const Prior& prior) {
   sharp_.resize(0);
-  if (sites_.empty() || *std::min_element(diagonal_.begin(), diagonal_.end()) >= kSmallNoise)
-    return;
-  const VertexTiles& tiles = prior_.tiles();
+  if (sites_.empty() || least_noise_ >= kSmallNoise) return;
+  const VertexTiles& tiles = prior.tiles();
   sharp_.resize(tiles.vertex_count());
   Field covered(tiles.vertex_count());
   for (int vertex = 0; vertex < tiles.vertex_count(); ++vertex) {
-    sharp_[vertex] = 1.0 - sums_->at(tiles.place(vertex), Sums::kExplained);
+    sharp_[vertex] = 1.0 - sums_->at(tiles.place(vertex), VertexSums::kExplained);
     covered[vertex] = sums_->at(tiles.place(vertex), sums_->covered());
   }
   std::vector<Eigen::VectorXd> g(sites_.size()), v(sites_.size());
@@ -92,21 +82,36 @@ void Belief::sharpen() {
     for (int site = first; site < last; ++site) {
       if (diagonal_[site] >= kSmallNoise) continue;
       g[site] = solve_lower(Eigen::VectorXd::Unit(row_count(), site));
-      v[site] = solve_lower(correlations_with(prior_, sites_[site].place, sites_));
+      v[site] = solve_lower(correlations_with(prior, sites_[site].place, sites_));
       there[site] = at_site(diagonal_[site], true, g[site].squaredNorm(), 0.0);
     }
   });
+  if (prior.metric() != Metric::Intrinsic) sharpen_beside(prior, g, v, there);
+  for (std::size_t site = 0; site < sites_.size(); ++site) {
+    const int vertex = prior.surface().vertex_at(sites_[site].where);
+    if (vertex >= 0 && diagonal_[site] < kSmallNoise) sharp_[vertex] = there[site];
+  }
+  if (least_noise_ > 0.0)
+    sharp_ = sharp_.array().max(least_noise_ / (least_noise_ + covered.array()));
+  sharp_ = sharp_.array().max(0.0).min(1.0);
+}
+
+/// The vertices beside sites, `g` and `v` of each, from the variance at them.
+void ExactEngine::sharpen_beside(const Prior& prior, std::span<const Eigen::VectorXd> g,
+                                 std::span<const Eigen::VectorXd> v,
+                                 std::span<const double> there) {
+  const VertexTiles& tiles = prior.tiles();
   for_ranges(static_cast<int>(sharp_.size()), 512, [&](int first, int last) {
-    for (int vertex = first; vertex < last && prior_.metric() != Metric::Intrinsic; ++vertex) {
+    for (int vertex = first; vertex < last; ++vertex) {
       if (sharp_[vertex] > kSmallVariance) continue;
-      const Vec3 x = prior_.coordinates(vertex);
+      const Vec3 x = prior.coordinates(vertex);
       std::size_t site = 0;
       for (std::size_t i = 1; i < sites_.size(); ++i) {
         if ((sites_[i].place.coordinates - x).squaredNorm() <
             (sites_[site].place.coordinates - x).squaredNorm())
           site = i;
       }
-      const double apart = decorrelation(prior_.kernel(), x - sites_[site].place.coordinates);
+      const double apart = decorrelation(prior.kernel(), x - sites_[site].place.coordinates);
       if (diagonal_[site] >= kSmallNoise || apart > 1.0 - kBeside) continue;
       double along = 0.0, square = 0.0;
       for (const auto& rows : rows_) {
@@ -119,13 +124,6 @@ void Belief::sharpen() {
       sharp_[vertex] = there[site] + 2.0 * diagonal_[site] * along + 2.0 * apart - square;
     }
   });
-  for (std::size_t site = 0; site < sites_.size(); ++site) {
-    const int vertex = prior_.surface().vertex_at(sites_[site].where);
-    if (vertex >= 0 && diagonal_[site] < kSmallNoise) sharp_[vertex] = there[site];
-  }
-  const double least = *std::min_element(diagonal_.begin(), diagonal_.end());
-  if (least > 0.0) sharp_ = sharp_.array().max(least / (least + covered.array()));
-  sharp_ = sharp_.array().max(0.0).min(1.0);
 }
 
 }  // namespace palpation

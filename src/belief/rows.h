@@ -9,11 +9,10 @@
 
 #include "base/tile.h"
 #include "belief/aligned.h"
-#include "palpation/belief/belief.h"
 
 namespace palpation {
 
-struct Belief::Rows {
+struct FactorRows {
   int first = 0;
   int count = 0;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
@@ -37,16 +36,16 @@ struct Belief::Rows {
 };
 
 /// At each vertex, over all rows: for each tile `width` rows of kLanes.
-struct Belief::Sums {
-  enum Row { kExplained = 0, kOnes = 1, kWhitened = 2, kTilts = 3 };
+struct VertexSums {
+  enum Row { kExplained = 0, kOnes = 1, kReadings = 2, kTilts = 3 };
 
-  Sums(int tile_count, int row_count)
-      : width(row_count),
-        values(aligned_doubles(static_cast<std::size_t>(tile_count) * row_count * kLanes)) {}
+  VertexSums(int tile_count, bool has_slope)
+      : width(has_slope ? kTilts + 4 : kTilts + 1),
+        values(aligned_doubles(static_cast<std::size_t>(tile_count) * width * kLanes)) {}
 
   int width;  // the rows above, three tilts if the prior has a slope, and last |k|^2: squared
               // correlations with the sites
-  AlignedDoubles values;  // explained: sum V^2, ones: V' L^-1 1, whitened: V' L^-1 (y - origin),
+  AlignedDoubles values;  // explained: sum V^2, ones: V' L^-1 1, readings: V' L^-1 (y - origin),
                           // tilts: V' L^-1 of Prior::tilt
 
   int covered() const { return width - 1; }

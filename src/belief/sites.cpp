@@ -1,4 +1,4 @@
-#include "palpation/belief/sites.h"
+#include "belief/sites.h"
 
 #include <algorithm>
 #include <cmath>

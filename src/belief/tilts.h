@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "belief/sites.h"
 #include "palpation/belief/prior.h"
-#include "palpation/belief/sites.h"
 
 namespace palpation {
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "belief/sites.h"
 #include "certainty/boundary_nodes.h"
 #include "certainty/depth.h"
 #include "certainty/edge_belief_fit.h"

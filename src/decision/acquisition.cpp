@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/owens_t.h"
+#include "belief/covariance_with.h"
 #include "decision/scoring.h"
 #include "palpation/base/error.h"
 #include "palpation/base/random.h"

@@ -5,9 +5,9 @@
 #include <limits>
 #include <string>
 
+#include "belief/look_ahead.h"
 #include "decision/scoring.h"
 #include "palpation/base/error.h"
-#include "palpation/belief/look_ahead.h"
 #include "palpation/geometry/distance.h"
 #include "palpation/geometry/path.h"
 

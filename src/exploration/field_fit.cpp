@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "belief/sites.h"
 #include "palpation/base/error.h"
 #include "readings/readings.h"
 #include "readings/way.h"

@@ -6,11 +6,11 @@
 #include <numeric>
 
 #include "belief/dense.h"
+#include "belief/look_ahead.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "palpation/belief/belief.h"
-#include "palpation/belief/look_ahead.h"
 
 namespace palpation {
 namespace {

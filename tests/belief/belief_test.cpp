@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "belief/covariance_with.h"
 #include "belief/dense.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "belief/likelihood.h"
+#include "belief/sites.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 

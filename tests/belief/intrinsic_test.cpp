@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "belief/covariance_with.h"
+#include "belief/likelihood.h"
+#include "belief/sites.h"
 #include "belief/tissue.h"
 #include "geometry/zoo.h"
 #include "palpation/base/error.h"

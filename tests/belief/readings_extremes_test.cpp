@@ -6,12 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "belief/covariance_with.h"
+#include "belief/likelihood.h"
+#include "belief/look_ahead.h"
 #include "belief/oracle.h"
+#include "belief/sites.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "palpation/belief/hyperparameters.h"
-#include "palpation/belief/look_ahead.h"
 
 namespace palpation {
 namespace {

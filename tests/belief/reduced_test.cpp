@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "belief/covariance_with.h"
 #include "belief/dense.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "belief/covariance_with.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/belief/belief.h"

@@ -13,6 +13,8 @@
 #include <string>
 
 #include "base/tile.h"
+#include "belief/likelihood.h"
+#include "belief/sites.h"
 #include "bench/tissue.h"
 #include "palpation/base/parallel.h"
 #include "palpation/belief/hyperparameters.h"

@@ -51,16 +51,4 @@ struct Learned {
 Learned learn(const Prior& prior, std::span<const Palpation> palpations,
               const Hyperparameters& start, const LearnOptions& options);
 
-/// Log likelihood as Belief::log_marginal_likelihood has it, and its gradient by the logarithms of
-/// length, signal and noise: what `learn` climbs.
-struct LikelihoodGradient {
-  double value = 0.0;
-  Vec3 gradient = Vec3::Zero();
-};
-LikelihoodGradient likelihood_gradient(const Prior& prior, std::span<const Site> sites,
-                                       const Hyperparameters& at);
-
-/// Its value alone, at a fifth of the cost.
-double log_likelihood(const Prior& prior, std::span<const Site> sites, const Hyperparameters& at);
-
 }  // namespace palpation

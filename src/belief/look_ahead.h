@@ -14,6 +14,8 @@
 
 namespace palpation {
 
+class VertexTiles;
+
 class LookAhead {
  public:
   /// Keeps a reference: the belief must outlive it. `variance`: at the vertices, before any touch.
@@ -42,7 +44,7 @@ class LookAhead {
 
   struct Touch;
 
-  const Belief& belief_;
+  const BeliefState& state_;
   const VertexTiles& tiles_;
   double signal_variance_;
   std::vector<Touch> touches_;

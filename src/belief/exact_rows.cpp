@@ -1,5 +1,5 @@
-// How a belief grows: rows of L for new sites, what they say of the readings, and rows of V with
-// their share of the sums at the vertices, in one pass over these.
+// How the exact engine grows: rows of L for new sites, what they say of the readings, and rows of V
+// with their share of the sums at the vertices, in one pass over these.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,7 @@
 
 #include "base/cholesky.h"
 #include "belief/correlations.h"
-#include "belief/foreseen.h"
-#include "belief/rows.h"
-#include "belief/vertex_tiles.h"
+#include "belief/exact_engine.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 
@@ -92,32 +90,30 @@ double append_row(Factor& factor, int row, int first) {
 
 }  // namespace
 
-int Belief::sum_rows() const { return prior_.has_slope() ? Sums::kTilts + 4 : Sums::kTilts + 1; }
-
 /// L^-1 of 1, the readings and the tilts at `count` sites from `first` on, a row each.
-Eigen::MatrixXd Belief::solution_rows(int first, int count) const {
-  const Eigen::Index tilts = prior_.has_slope() ? 3 : 0;
-  Eigen::MatrixXd solutions(count, 2 + tilts);
-  solutions.col(0) = ones_.segment(first, count);
-  solutions.col(1) = whitened_.segment(first, count);
-  if (tilts > 0) solutions.rightCols(tilts) = tilts_.middleRows(first, count);
-  return solutions;
+Eigen::MatrixXd ExactEngine::whitened_rows(int first, int count) const {
+  const Eigen::Index tilts = whitened_.tilts.rows() > 0 ? 3 : 0;
+  Eigen::MatrixXd right_sides(count, 2 + tilts);
+  right_sides.col(0) = whitened_.ones.segment(first, count);
+  right_sides.col(1) = whitened_.readings.segment(first, count);
+  if (tilts > 0) right_sides.rightCols(tilts) = whitened_.tilts.middleRows(first, count);
+  return right_sides;
 }
 
 /// Forgets the rows from the first one that does not lie in a block before `count`, and restates
 /// the sums over the rest.
-void Belief::keep_rows(int count) {
+void ExactEngine::keep_rows(const Prior& prior, int count) {
   while (!rows_.empty() && row_count() > count) rows_.pop_back();
-  if (prior_.has_slope()) tilts_.conservativeResize(row_count(), 3);
-  ones_.conservativeResize(row_count());
-  whitened_.conservativeResize(row_count());
+  if (prior.has_slope()) whitened_.tilts.conservativeResize(row_count(), 3);
+  whitened_.ones.conservativeResize(row_count());
+  whitened_.readings.conservativeResize(row_count());
   sums_.reset();
   if (rows_.empty()) return;
-  const VertexTiles& tiles = prior_.tiles();
+  const VertexTiles& tiles = prior.tiles();
   const TileCorrelations correlations(
-      prior_, std::span(sites_).first(static_cast<std::size_t>(row_count())));
-  auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
-  const Eigen::MatrixXd solutions = solution_rows(0, row_count());
+      prior, std::span(sites_).first(static_cast<std::size_t>(row_count())));
+  auto sums = std::make_shared<VertexSums>(tiles.count(), prior.has_slope());
+  const Eigen::MatrixXd solutions = whitened_rows(0, row_count());
   for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int first_tile, int last_tile) {
     const AlignedDoubles k = aligned_doubles(static_cast<std::size_t>(row_count()) * kLanes);
     const AlignedDoubles widened = aligned_doubles(static_cast<std::size_t>(row_count()) * kLanes);
@@ -137,9 +133,9 @@ void Belief::keep_rows(int count) {
 
 /// The rows of L for the sites from `fresh.first` on: row-append Cholesky, which is as accurate as
 /// factoring anew.
-void Belief::append_to_factor(Rows& fresh) {
+void ExactEngine::append_to_factor(const Prior& prior, FactorRows& fresh) const {
   const int first = fresh.first, count = fresh.count;
-  Eigen::MatrixXd correlations = palpation::correlations(prior_, prior_.kernel(), sites_, first);
+  Eigen::MatrixXd correlations = palpation::correlations(prior, prior.kernel(), sites_, first);
   for (int j = 0; j < count; ++j) correlations(first + j, j) += diagonal_[first + j];
   for (const auto& rows : rows_) {
     auto right_side = correlations.middleRows(rows->first, rows->count);
@@ -175,34 +171,35 @@ void Belief::append_to_factor(Rows& fresh) {
 }
 
 /// L^-1 of 1, the readings and the tilts.
-void Belief::append_to_solutions(const Rows& fresh) {
+void ExactEngine::append_to_whitened(const Prior& prior, const FactorRows& fresh) {
   const auto& factor = fresh.factor;
   const int first = fresh.first, total = first + fresh.count;
-  ones_.conservativeResize(total);
-  whitened_.conservativeResize(total);
-  if (prior_.has_slope()) tilts_.conservativeResize(total, 3);
+  auto& [ones, readings, tilts, origin] = whitened_;
+  ones.conservativeResize(total);
+  readings.conservativeResize(total);
+  if (prior.has_slope()) tilts.conservativeResize(total, 3);
   for (int row = first; row < total; ++row) {
     const auto before = factor.row(row - first).head(row);
     const double pivot = factor(row - first, row);
-    ones_[row] = (1.0 - before.dot(ones_.head(row))) / pivot;
-    whitened_[row] = (readings_[row] - origin_ - before.dot(whitened_.head(row))) / pivot;
-    if (!prior_.has_slope()) continue;
-    const Vec3 tilt = prior_.tilt(sites_[row].place.coordinates);
-    tilts_.row(row) = (tilt.transpose() - before * tilts_.topRows(row)) / pivot;
+    ones[row] = (1.0 - before.dot(ones.head(row))) / pivot;
+    readings[row] = (readings_[row] - origin - before.dot(readings.head(row))) / pivot;
+    if (!prior.has_slope()) continue;
+    const Vec3 tilt = prior.tilt(sites_[row].place.coordinates);
+    tilts.row(row) = (tilt.transpose() - before * tilts.topRows(row)) / pivot;
   }
 }
 
-void Belief::append_to_vertices(Rows& fresh, Keep keep) {
-  const VertexTiles& tiles = prior_.tiles();
+void ExactEngine::append_to_vertices(const ScaledPrior& field, FactorRows& fresh, Keep keep) {
+  const VertexTiles& tiles = field.prior.tiles();
   const long per_tile = fresh.per_tile();
-  const bool keeps = keep == Keep::Rows, narrows = keeps && options_.single_precision;
+  const bool keeps = keep == Keep::Rows, narrows = keeps && field.options.single_precision;
   if (narrows) fresh.singles = aligned<float>(static_cast<std::size_t>(tiles.count() * per_tile));
   if (keeps && !narrows)
     fresh.v = aligned_doubles(static_cast<std::size_t>(tiles.count() * per_tile));
-  auto sums = std::make_shared<Sums>(tiles.count(), sum_rows());
+  auto sums = std::make_shared<VertexSums>(tiles.count(), field.prior.has_slope());
   const TileCorrelations correlations(
-      prior_, std::span(sites_).subspan(static_cast<std::size_t>(fresh.first), fresh.count));
-  const Eigen::MatrixXd solutions = solution_rows(fresh.first, fresh.count);
+      field.prior, std::span(sites_).subspan(static_cast<std::size_t>(fresh.first), fresh.count));
+  const Eigen::MatrixXd solutions = whitened_rows(fresh.first, fresh.count);
   std::vector<TileRows> known;
   for (const auto& rows : rows_) known.push_back(rows->strip());
   const Substitution substitute(fresh.factor, known);
@@ -237,14 +234,14 @@ void Belief::append_to_vertices(Rows& fresh, Keep keep) {
 }
 
 /// Rows of L and V for all sites that have none yet, and their share of the sums.
-void Belief::append_rows(Keep keep) {
+void ExactEngine::append_rows(const ScaledPrior& field, Keep keep) {
   if (row_count() == site_count()) return;
-  auto fresh = std::make_shared<Rows>();
+  auto fresh = std::make_shared<FactorRows>();
   fresh->first = row_count();
   fresh->count = site_count() - fresh->first;
-  append_to_factor(*fresh);
-  append_to_solutions(*fresh);
-  append_to_vertices(*fresh, keep);
+  append_to_factor(field.prior, *fresh);
+  append_to_whitened(field.prior, *fresh);
+  append_to_vertices(field, *fresh, keep);
   rows_.push_back(std::move(fresh));
 }
 
