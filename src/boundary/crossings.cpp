@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/cross.h"
+
 namespace palpation {
 
 namespace {
@@ -67,8 +69,6 @@ long crowded_pairs(const std::vector<Edge>& edges) {
   }
   return pairs;
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Clips the edge by the four sides in turn (Liang and Barsky 1984).
 bool passes(const Edge& edge, const Box& box) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/careful_sum.h"
+#include "base/cross.h"
 #include "boundary/convex.h"
 #include "palpation/base/parallel.h"
 
@@ -12,8 +13,6 @@ namespace palpation {
 namespace {
 
 constexpr int kMostColumns = 4096;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// An edge of a ring from left to right: what is below it counts as the edge's sign says. Summed
 /// over all edges, that leaves the inside.

@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include "base/cross.h"
+
 namespace palpation {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The triangle's edges from its first corner in a plane of its own.
 Eigen::Matrix2d edges_on_tissue(const Vec3& a, const Vec3& b, const Vec3& c) {

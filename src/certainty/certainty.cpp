@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/normal.h"
 #include "boundary/erosion.h"
 #include "certainty/layout.h"
-#include "certainty/normal.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
 #include "readings/contact.h"

@@ -8,7 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "certainty/normal.h"
+#include "base/normal.h"
+#include "base/sigmoid.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -23,7 +24,7 @@ constexpr double kLikeness = 0.95;
 constexpr double kSlope_per_m = 1200.0;  // as Sought's
 
 double rise(double depth_m, double slope_per_m) {
-  return depth_m < 0.0 ? 0.0 : 1.0 / (1.0 + std::exp(-slope_per_m * depth_m));
+  return depth_m < 0.0 ? 0.0 : sigmoid(slope_per_m * depth_m);
 }
 
 /// Of a correlation: how rare it is among readings without any, as a normal deviate.

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <utility>
 
+#include "base/normal.h"
 #include "belief/sites.h"
 #include "certainty/boundary_nodes.h"
 #include "certainty/depth.h"
 #include "certainty/edge_belief_fit.h"
-#include "certainty/normal.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
 #include "readings/rounding.h"
@@ -65,8 +65,8 @@ EdgeData gathered(const Belief& belief) {
   data.variance.resize(count);
   data.depth_m.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const MergedReading merged = merge(sites[static_cast<std::size_t>(i)], belief.noise_variance());
-    data.places.push_back(sites[static_cast<std::size_t>(i)].where);
+    const MergedReading merged = merge(sites[i], belief.noise_variance());
+    data.places.push_back(sites[i].where);
     data.reading[i] = merged.mean;
     data.variance[i] = merged.variance;
   }
@@ -77,13 +77,6 @@ bool all_have_the_field_noise(std::span<const Palpation> palpations) {
   return std::ranges::all_of(palpations, [](const Palpation& one) {
     return std::isnan(one.noise_variance) || !one.set_aside.empty();
   });
-}
-
-double value_at(const Surface& surface, const Field& field, const SurfacePoint& point) {
-  const Eigen::Vector3i corners = surface.triangle(point.face);
-  double value = 0.0;
-  for (int i = 0; i < 3; ++i) value += point.barycentric[i] * field[corners[i]];
-  return value;
 }
 
 std::vector<Vec3> places_of(const Layout& layout, std::span<const SurfacePoint> points) {
@@ -104,14 +97,12 @@ bool measure_depths(const Layout& layout, const Field& field, double level,
   if (of_vertices.empty() || of_readings.empty()) return false;
   vertices.resize(surface.vertex_count());
   for (Eigen::Index vertex = 0; vertex < vertices.size(); ++vertex) {
-    const double distance = of_vertices[static_cast<std::size_t>(vertex)];
+    const double distance = of_vertices[vertex];
     vertices[vertex] = field[vertex] >= level ? distance : -distance;
   }
   for (Eigen::Index i = 0; i < data.depth_m.size(); ++i) {
-    const double distance = of_readings[static_cast<std::size_t>(i)];
-    data.depth_m[i] = value_at(surface, field, data.places[static_cast<std::size_t>(i)]) >= level
-                          ? distance
-                          : -distance;
+    const double distance = of_readings[i];
+    data.depth_m[i] = surface.interpolate(field, data.places[i]) >= level ? distance : -distance;
   }
   return true;
 }
@@ -128,7 +119,7 @@ EdgeData with_plateaus_merged(const EdgeData& data) {
   EdgeData merged;
   std::vector<double> reading, variance, depth_m;
   for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
-    const SurfacePoint& place = data.places[static_cast<std::size_t>(i)];
+    const SurfacePoint& place = data.places[i];
     if (std::abs(data.depth_m[i]) < kDeep_m) {
       merged.places.push_back(place);
       reading.push_back(data.reading[i]);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/sigmoid.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -27,7 +28,7 @@ double misfit(const EdgeData& data, const ProfilePrior& prior, const ProfilePara
 }  // namespace
 
 double profile_share(const ProfileParameters& profile, double depth_m) {
-  return 0.5 + 0.5 * std::tanh(0.5 * std::exp(profile[2]) * depth_m);
+  return sigmoid(std::exp(profile[2]) * depth_m);
 }
 
 double profile_reading(const ProfileParameters& profile, double depth_m) {

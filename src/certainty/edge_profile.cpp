@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/sigmoid.h"
 #include "certainty/depth.h"
 #include "palpation/base/error.h"
 #include "palpation/certainty/level_estimate.h"
@@ -36,7 +37,7 @@ Residuals residuals(std::span<const EdgeReading> readings, const EdgePrior& prio
   for (Eigen::Index i = 0; i < count; ++i) {
     const EdgeReading& reading = readings[static_cast<std::size_t>(i)];
     const double depth = slope * (reading.depth_m + at[3]);
-    const double share = 0.5 + 0.5 * std::tanh(0.5 * depth);
+    const double share = sigmoid(depth);
     const double rise = share * (1.0 - share) * (at[1] - at[0]);
     const double sd = std::sqrt(reading.variance);
     made.value[i] = (at[0] + share * (at[1] - at[0]) - reading.reading) / sd;

@@ -1,7 +1,6 @@
 #include "palpation/certainty/expected_error.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace palpation {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "certainty/normal.h"
+#include "base/normal.h"
 #include "palpation/base/error.h"
 
 namespace palpation {

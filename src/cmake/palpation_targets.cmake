@@ -19,9 +19,9 @@ if(PALPATION_SANITIZE)
 endif()
 
 # palpation_folder(NAME PUBLIC targets... PRIVATE third parties...): the library palpation_NAME made of src/NAME/*.cpp.
-# Two third parties are more than a target: VTK means the components in palpation_vtk_components; CGAL also keeps CGAL's own checks on in
+# Three third parties are more than a target: VTK means the components in palpation_vtk_components; CGAL also keeps CGAL's own checks on in
 # a release build, and is headers only, so that who uses the installed library needs no CGAL, only the number libraries below it.
-# CGAL's -frounding-math stays in the folders that use CGAL.
+# Boost is headers only. CGAL's -frounding-math stays in the folders that use CGAL.
 function(palpation_folder name)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
@@ -45,6 +45,8 @@ function(palpation_folder name)
     elseif(party STREQUAL "CGAL")
       target_link_libraries(palpation_${name} PRIVATE $<BUILD_INTERFACE:CGAL::CGAL> $<INSTALL_INTERFACE:mpfr> $<INSTALL_INTERFACE:gmp>)
       target_compile_definitions(palpation_${name} PRIVATE CGAL_DEBUG)
+    elseif(party STREQUAL "Boost")
+      target_link_libraries(palpation_${name} PRIVATE $<BUILD_INTERFACE:Boost::headers>)
     else()
       target_link_libraries(palpation_${name} PRIVATE ${party})
     endif()

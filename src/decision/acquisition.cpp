@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "base/owens_t.h"
+#include "base/normal.h"
 #include "belief/covariance_with.h"
 #include "decision/scoring.h"
 #include "palpation/base/error.h"

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cross.h"
+
 namespace palpation {
 namespace {
 
 constexpr double kForgiven = 1e-9;  // of a barycentric weight
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& place) {
   const double area = cross(b - a, c - a);

@@ -39,10 +39,10 @@ std::vector<Corner> triangles_of(vtkPolyData& mesh) {
   return triangles;
 }
 
-// Twice the area of a triangle times its outward normal.
+// The area of a triangle times its outward normal.
 Vec3 area_vector(vtkPolyData& mesh, const Corner& corner) {
   const Vec3 a = point_of(mesh, corner.a);
-  return (point_of(mesh, corner.b) - a).cross(point_of(mesh, corner.c) - a);
+  return 0.5 * (point_of(mesh, corner.b) - a).cross(point_of(mesh, corner.c) - a);
 }
 
 struct Facing {

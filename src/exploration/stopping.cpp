@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "base/owens_t.h"
+#include "base/normal.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -15,8 +15,6 @@ namespace {
 /// Batches over which the expected error must have stood still: one alone may have gone to the
 /// plateaus.
 constexpr std::size_t kStill = 3;
-
-double upper_tail(double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); }
 
 }  // namespace
 
@@ -57,7 +55,7 @@ bool gains_too_little(const StopRule& rule, std::span<const double> errors_m2, c
   if (here < least * errors_m2[errors_m2.size() - 1 - kStill]) return false;
   double unchanged = 0.0;
   for (Eigen::Index vertex = 0; vertex < now.score.size(); ++vertex)
-    unchanged += surface.vertex_areas()[vertex] * upper_tail(std::abs(now.score[vertex]));
+    unchanged += surface.vertex_areas()[vertex] * normal_probability(-std::abs(now.score[vertex]));
   return expected_error_after(surface, belief, now, level, next) >= least * unchanged;
 }
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <numbers>
 
+#include "base/cross.h"
+
 namespace palpation {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// A loop that never turns right (but by rounding), and turns around once: it bounds a convex part
 /// of the plane, once.

@@ -10,14 +10,6 @@ namespace {
 constexpr double kFlatness =
     1e-6;  // of the diameter: what single precision, as in STL, keeps of a tilted plane
 
-/// Twice the area times the normal.
-Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {
-  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)),
-             b = mesh.vertices.row(mesh.triangles(face, 1)),
-             c = mesh.vertices.row(mesh.triangles(face, 2));
-  return (b - a).cross(c - a);
-}
-
 Eigen::Index nearest_row(const Points& points, const Vec3& place) {
   Eigen::Index nearest = 0;
   (points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
@@ -31,17 +23,24 @@ bool lies_level(const TriangleMesh& mesh, const Plane& plane, double diameter) {
 
 }  // namespace
 
+Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {
+  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)),
+             b = mesh.vertices.row(mesh.triangles(face, 1)),
+             c = mesh.vertices.row(mesh.triangles(face, 2));
+  return 0.5 * (b - a).cross(c - a);
+}
+
 Vec3 centroid(const TriangleMesh& mesh) {
   const Vec3 origin = mesh.vertices.row(0);
   Vec3 moment = Vec3::Zero();
   double weight = 0.0;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-    const double twice_area = area_vector(mesh, f).norm();
+    const double area = area_vector(mesh, f).norm();
     Vec3 corners = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
       corners += mesh.vertices.row(mesh.triangles(f, i)).transpose() - origin;
-    moment += twice_area * (corners / 3.0);
-    weight += twice_area;
+    moment += area * (corners / 3.0);
+    weight += area;
   }
   return origin + moment / weight;
 }

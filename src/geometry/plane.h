@@ -9,6 +9,9 @@ namespace palpation {
 /// Whether all vertices are in one plane to 1e-6 of the diameter and all faces look the same way.
 Plane find_plane(const TriangleMesh& mesh, double diameter);
 
+/// The area of a face times its outward normal.
+Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face);
+
 /// Of the surface, each triangle weighing as much as its area.
 Vec3 centroid(const TriangleMesh& mesh);
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cross.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -66,8 +67,6 @@ Delaunay triangulate(const std::vector<Reading>& readings) {
 }
 
 Vec2 place_of(Delaunay::Vertex_handle vertex) { return {vertex->point().x(), vertex->point().y()}; }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double interpolate(Delaunay::Face_handle face, const Vec2& place) {
   const Vec2 a = place_of(face->vertex(0)), b = place_of(face->vertex(1)),

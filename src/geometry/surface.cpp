@@ -18,13 +18,6 @@
 namespace palpation {
 namespace {
 
-Vec3 area_vector(const TriangleMesh& mesh, Eigen::Index face) {
-  const Vec3 a = mesh.vertices.row(mesh.triangles(face, 0)),
-             b = mesh.vertices.row(mesh.triangles(face, 1)),
-             c = mesh.vertices.row(mesh.triangles(face, 2));
-  return 0.5 * (b - a).cross(c - a);
-}
-
 Field face_areas_of(const TriangleMesh& mesh) {
   Field areas(mesh.triangles.rows());
   for (Eigen::Index f = 0; f < areas.size(); ++f) areas[f] = area_vector(mesh, f).norm();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/normal.h"
 #include "palpation/boundary/level_set.h"
 
 namespace palpation::tool {
@@ -77,7 +78,7 @@ void look_inside(TumourPart& part, const Surface& surface, const Field& score) {
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     if (score[vertex] > deepest && is_inside(vertex)) deepest = score[vertex];
   }
-  part.probability = 0.5 * std::erfc(-deepest / std::numbers::sqrt2);
+  part.probability = normal_probability(deepest);
 }
 
 /// Where the outline follows the border it has corners there.

@@ -5,10 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "base/cross.h"
+
 namespace palpation {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Whether a ray from the place along u crosses a side; half open, so that a corner on the ray
 /// counts once.

@@ -42,17 +42,6 @@ Field fraction_along(const Points& vertices, const Vec3& axis) {
   return (along.array() - along.minCoeff()) / extent;
 }
 
-/// As Surface::interpolate, but a corner without weight does not count, though its value be
-/// infinite; a vertex has its own value exactly.
-double interpolate(const Surface& surface, const Field& field, const SurfacePoint& point) {
-  const Eigen::Vector3i corners = surface.triangle(point.face);
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    if (point.barycentric[i] != 0.0) sum += point.barycentric[i] * field[corners[i]];
-  }
-  return sum;
-}
-
 }  // namespace
 
 Phantom::Phantom(Surface surface, std::vector<Tumour> tumours, const StiffnessModel& model)
@@ -79,12 +68,12 @@ double Phantom::stiffness(double signed_distance_m) const {
 
 Palpation Phantom::touch(const SurfacePoint& where, Random& random) const {
   const double range = model_.high - model_.low;
-  const double bias = model_.bias * interpolate(surface_, bias_, where) * range;
+  const double bias = model_.bias * surface_.interpolate(bias_, where) * range;
   // Drawn even where there is no noise: the same stream then serves every noise level.
   const double noise = random.normal() * model_.noise * range;
   Palpation palpation;
   palpation.where = where;
-  palpation.reading = stiffness(interpolate(surface_, distance_, where)) + bias + noise;
+  palpation.reading = stiffness(surface_.interpolate(distance_, where)) + bias + noise;
   return palpation;
 }
 

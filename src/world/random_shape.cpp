@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/cross.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -21,8 +22,6 @@ using Curve = std::vector<Vec2>;
 double uniform(Random& random, double least, double most) {
   return least + (most - least) * random.uniform();
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double signed_area(const Curve& curve) {
   double twice = 0.0;

@@ -5,7 +5,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include "base/owens_t.h"
+#include "base/normal.h"
 #include "palpation/certainty/certainty.h"
 #include "palpation/certainty/expected_error.h"
 

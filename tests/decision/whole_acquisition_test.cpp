@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/owens_t.h"
+#include "base/normal.h"
 #include "palpation/base/random.h"
 #include "palpation/decision/acquisition.h"
 #include "palpation/geometry/make_plane.h"

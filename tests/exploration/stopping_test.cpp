@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/owens_t.h"
+#include "base/normal.h"
 #include "palpation/base/error.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/geometry/make_plane.h"

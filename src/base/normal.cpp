@@ -1,5 +1,6 @@
-#include "certainty/normal.h"
+#include "base/normal.h"
 
+#include <boost/math/special_functions/owens_t.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,13 @@ double normal_quantile(double probability) {
     (normal_probability(middle) < probability ? below : above) = middle;
   }
   return above;
+}
+
+/// Boost's, but for what it takes for infinity times nothing.
+double owens_t(double h, double a) {
+  if (std::isinf(a)) return std::copysign(0.5 * normal_probability(-std::abs(h)), a);
+  using namespace boost::math::policies;
+  return boost::math::owens_t(h, a, policy<promote_double<false>>());
 }
 
 }  // namespace palpation

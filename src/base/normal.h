@@ -1,0 +1,16 @@
+/// The standard normal distribution, of one variable and of two.
+#pragma once
+
+namespace palpation {
+
+/// Probability of a value below x.
+double normal_probability(double x);
+
+/// Its inverse, for 0 < probability < 1.
+double normal_quantile(double probability);
+
+/// T(h, a), the probability that one normal exceeds h while another, independent one lies between 0
+/// and a times it (Owen 1956).
+double owens_t(double h, double a);
+
+}  // namespace palpation
