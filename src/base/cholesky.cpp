@@ -37,16 +37,14 @@ long factorize(double* lower, long stride, long size) {
               depth = static_cast<int>(first);
     double* rows = lower + first * stride;
     for (int lane = 0; lane < count; ++lane) {
-      for (long i = 0; i < first; ++i)
-        tile[static_cast<std::size_t>(i * kLanes + lane)] = rows[lane * stride + i];
+      for (long i = 0; i < first; ++i) tile[i * kLanes + lane] = rows[lane * stride + i];
       for (int i = 0; i < count; ++i)
-        tile[static_cast<std::size_t>((first + i) * kLanes + lane)] =
+        tile[(first + i) * kLanes + lane] =
             rows[std::max(i, lane) * stride + first + std::min(i, lane)];
     }
     solve_triangle(lower, static_cast<int>(stride), tile.data(), depth);
     for (int lane = 0; lane < count; ++lane) {
-      for (long i = 0; i < first; ++i)
-        rows[lane * stride + i] = tile[static_cast<std::size_t>(i * kLanes + lane)];
+      for (long i = 0; i < first; ++i) rows[lane * stride + i] = tile[i * kLanes + lane];
     }
     double* own = tile.data() + first * kLanes;
     subtract_product(rows, static_cast<int>(stride), tile.data(), depth, own, count);

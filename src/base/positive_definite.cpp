@@ -38,28 +38,26 @@ std::optional<double> PositiveDefiniteInverse::operator()(Eigen::MatrixXd& matri
   resize(size);
   if (!factorize(matrix)) return std::nullopt;
   double log_determinant = 0.0;
-  for (long i = 0; i < size; ++i)
-    log_determinant += 2.0 * std::log(factor_[static_cast<std::size_t>(i * (stride_ + 1))]);
+  for (long i = 0; i < size; ++i) log_determinant += 2.0 * std::log(factor_[i * (stride_ + 1)]);
 
   // Of X = L^-1 eight columns at a time; X'X has the columns' products with those before and
   // themselves.
   const int stride = static_cast<int>(stride_);
   for (long first = 0; first < stride_; first += kLanes) {
     std::fill(tile_.begin(), tile_.end(), 0.0);
-    for (int lane = 0; lane < kLanes; ++lane)
-      tile_[static_cast<std::size_t>(lane * kLanes + lane)] = 1.0;
+    for (int lane = 0; lane < kLanes; ++lane) tile_[lane * kLanes + lane] = 1.0;
     const int rest = static_cast<int>(stride_ - first);
     solve_triangle(factor_.data() + first * (stride_ + 1), stride, tile_.data(), rest);
     for (int lane = 0; lane < kLanes; ++lane) {
       double* row = transposed_.data() + (first + lane) * stride_ + first;
-      for (long i = 0; i < rest; ++i) row[i] = tile_[static_cast<std::size_t>(i * kLanes + lane)];
+      for (long i = 0; i < rest; ++i) row[i] = tile_[i * kLanes + lane];
     }
     std::fill(products_.begin(), products_.end(), 0.0);
     subtract_product(transposed_.data() + first, stride, tile_.data(), rest, products_.data(),
                      static_cast<int>(first) + kLanes);
     for (long i = 0; i < std::min(first + kLanes, size); ++i) {
       for (long lane = std::max(0L, i - first); lane < std::min<long>(kLanes, size - first); ++lane)
-        matrix(first + lane, i) = -products_[static_cast<std::size_t>(i * kLanes + lane)];
+        matrix(first + lane, i) = -products_[i * kLanes + lane];
     }
   }
   return log_determinant;

@@ -90,7 +90,7 @@ PackedFactor::PackedFactor(const double* factor, long row_stride, int rows, long
     : rows_(rows), columns_(columns) {
   const int panels = (rows + kernels().panel_rows - 1) / kernels().panel_rows;
   height_ = panels > 0 ? (rows + panels - 1) / panels : 0;
-  values_.reserve(static_cast<std::size_t>(rows * columns));
+  values_.reserve(rows * columns);
   for (int row = 0; row < rows; row += height_) {
     const int count = std::min(height_, rows - row);
     for (long column = 0; column < columns; ++column) {

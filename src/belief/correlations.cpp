@@ -27,8 +27,7 @@ Eigen::MatrixXd unit_rows(Eigen::MatrixXd modes, const Eigen::VectorXd& weights)
 
 Eigen::MatrixXd modes_of(const Spectrum& spectrum, std::span<const Site> sites) {
   Eigen::MatrixXd modes(sites.size(), spectrum.rank());
-  for (std::size_t i = 0; i < sites.size(); ++i)
-    modes.row(static_cast<Eigen::Index>(i)) = sites[i].place.modes;
+  for (std::size_t i = 0; i < sites.size(); ++i) modes.row(i) = sites[i].place.modes;
   return modes;
 }
 
@@ -106,8 +105,7 @@ Eigen::VectorXd inverse_norms(const Spectrum& spectrum, const Eigen::VectorXd& w
 Eigen::MatrixXd unit_features(const Prior& prior, std::span<const SurfacePoint> points) {
   const Spectrum& spectrum = prior.spectrum();
   Eigen::MatrixXd modes(points.size(), spectrum.rank());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    modes.row(static_cast<Eigen::Index>(i)) = prior.place(points[i]).modes;
+  for (std::size_t i = 0; i < points.size(); ++i) modes.row(i) = prior.place(points[i]).modes;
   return unit_rows(std::move(modes), spectral_weights(prior.kernel(), spectrum.values()));
 }
 
@@ -141,15 +139,13 @@ Eigen::VectorXd correlations_with(const Prior& prior, const Place& place,
     const double scale = inverse_root(place.modes.dot(weighted));
     for (std::size_t site = 0; site < sites.size(); ++site) {
       const Eigen::VectorXd& modes = sites[site].place.modes;
-      k[static_cast<Eigen::Index>(site)] =
-          scale * modes.dot(weighted) *
-          inverse_root((modes.cwiseAbs2().cwiseProduct(weights)).sum());
+      k[site] = scale * modes.dot(weighted) *
+                inverse_root((modes.cwiseAbs2().cwiseProduct(weights)).sum());
     }
     return k;
   }
   for (std::size_t site = 0; site < sites.size(); ++site) {
-    k[static_cast<Eigen::Index>(site)] =
-        correlation(prior.kernel(), place.coordinates - sites[site].place.coordinates);
+    k[site] = correlation(prior.kernel(), place.coordinates - sites[site].place.coordinates);
   }
   return k;
 }

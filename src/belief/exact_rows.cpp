@@ -110,8 +110,7 @@ void ExactEngine::keep_rows(const Prior& prior, int count) {
   sums_.reset();
   if (rows_.empty()) return;
   const VertexTiles& tiles = prior.tiles();
-  const TileCorrelations correlations(
-      prior, std::span(sites_).first(static_cast<std::size_t>(row_count())));
+  const TileCorrelations correlations(prior, std::span(sites_).first(row_count()));
   auto sums = std::make_shared<VertexSums>(tiles.count(), prior.has_slope());
   const Eigen::MatrixXd solutions = whitened_rows(0, row_count());
   for_ranges(tiles.count(), kTilesTogether * kGroupsAtOnce, [&](int first_tile, int last_tile) {

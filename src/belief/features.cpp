@@ -207,11 +207,9 @@ Eigen::MatrixXd Features::at(const Prior& prior, std::span<const Site> sites) co
   }
   Eigen::MatrixXd solved(rank(), static_cast<Eigen::Index>(inside_faces.size()));
   for (std::size_t i = 0; i < inside_faces.size(); ++i)
-    solved.col(static_cast<Eigen::Index>(i)) =
-        correlations_with(prior, sites[inside_faces[i]].place, pivots_);
+    solved.col(i) = correlations_with(prior, sites[inside_faces[i]].place, pivots_);
   solve(solved);
-  for (std::size_t i = 0; i < inside_faces.size(); ++i)
-    result.col(inside_faces[i]) = solved.col(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < inside_faces.size(); ++i) result.col(inside_faces[i]) = solved.col(i);
   return result;
 }
 

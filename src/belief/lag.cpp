@@ -92,7 +92,7 @@ std::vector<Palpation> at_edges(const Prior& prior, const std::vector<Palpation>
     places.push_back(readings[i].where);
     ahead.push_back(surface.project(here + step));
     behind.push_back(surface.project(here - step));
-    values[static_cast<Eigen::Index>(i)] = readings[i].reading;
+    values[i] = readings[i].reading;
   }
   Eigen::MatrixXd covariance = field.covariance(places, places);
   const double least_noise = kEdgeNoise * at.signal_sd;
@@ -103,8 +103,7 @@ std::vector<Palpation> at_edges(const Prior& prior, const std::vector<Palpation>
       ((field.covariance(ahead, places) - field.covariance(behind, places)) * weights).cwiseAbs();
   std::vector<Palpation> kept;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    if (change[static_cast<Eigen::Index>(i)] >= kEdgeShare * change.maxCoeff())
-      kept.push_back(readings[i]);
+    if (change[i] >= kEdgeShare * change.maxCoeff()) kept.push_back(readings[i]);
   }
   return kept.size() < kLeastAtEdges ? readings : kept;
 }

@@ -28,8 +28,8 @@ LookAhead::LookAhead(const Belief& belief, const Field& variance)
   variance_.resize(static_cast<std::size_t>(tiles_.count()) * kLanes);
   for (std::size_t place = 0; place < variance_.size(); ++place)
     variance_[place] = variance[tiles_.vertices(0)[place]];
-  known_.resize(static_cast<std::size_t>(tiles_.count()));
-  e_.resize(static_cast<std::size_t>(tiles_.count()));
+  known_.resize(tiles_.count());
+  e_.resize(tiles_.count());
 }
 
 LookAhead::~LookAhead() = default;

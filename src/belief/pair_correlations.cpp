@@ -43,13 +43,11 @@ PairCorrelations::PairCorrelations(const Prior& prior, std::span<const Site> sit
   value_ = slope_ = squares_;
   if (prior.metric() == Metric::Intrinsic) {
     modes_.resize(count_, prior.spectrum().rank());
-    for (Eigen::Index i = 0; i < count_; ++i)
-      modes_.row(i) = sites[static_cast<std::size_t>(i)].place.modes;
+    for (Eigen::Index i = 0; i < count_; ++i) modes_.row(i) = sites[i].place.modes;
     return;
   }
   coordinates_.resize(3, count_);
-  for (Eigen::Index i = 0; i < count_; ++i)
-    coordinates_.col(i) = sites[static_cast<std::size_t>(i)].place.coordinates;
+  for (Eigen::Index i = 0; i < count_; ++i) coordinates_.col(i) = sites[i].place.coordinates;
   for (Eigen::Index j = 0; j < count_; ++j) {
     squares_.segment(j * stride_, count_) =
         (coordinates_.colwise() - coordinates_.col(j)).colwise().squaredNorm();

@@ -14,7 +14,7 @@ using Tilts = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 inline Tilts tilts_of(const Prior& prior, std::span<const Site> sites) {
   Tilts tilts(sites.size(), 3);
   for (std::size_t i = 0; i < sites.size(); ++i)
-    tilts.row(static_cast<Eigen::Index>(i)) = prior.tilt(sites[i].place.coordinates);
+    tilts.row(i) = prior.tilt(sites[i].place.coordinates);
   return tilts;
 }
 

@@ -10,12 +10,12 @@ VertexTiles::VertexTiles(const Prior& prior) {
   const int count = surface.vertex_count(), tiles = (count + kLanes - 1) / kLanes;
   const bool is_intrinsic = prior.metric() == Metric::Intrinsic;
   if (is_intrinsic) {
-    vertex_.resize(static_cast<std::size_t>(count));
+    vertex_.resize(count);
     std::iota(vertex_.begin(), vertex_.end(), 0);
   } else {
     vertex_ = surface.locality_order();
   }
-  place_.resize(static_cast<std::size_t>(count));
+  place_.resize(count);
   for (int place = 0; place < count; ++place) place_[vertex_[place]] = place;
   vertex_.resize(static_cast<std::size_t>(tiles) * kLanes, vertex_.back());
   if (is_intrinsic) return;

@@ -19,8 +19,8 @@ std::vector<std::vector<int>> neighbours(const Surface& surface) {
       const int a = corners[i], b = corners[(i + 1) % 3];
       // Each edge once: from the face on its one side, or the lower of two.
       if (const int other = surface.neighbour(face, i); other >= 0 && other < face) continue;
-      around[static_cast<std::size_t>(a)].push_back(b);
-      around[static_cast<std::size_t>(b)].push_back(a);
+      around[a].push_back(b);
+      around[b].push_back(a);
     }
   }
   return around;
@@ -43,8 +43,7 @@ Eroded eroded(const Surface& surface, const Field& field, double radius_m) {
   require(field.size() == surface.vertex_count(), "eroded",
           "a field of " + std::to_string(field.size()) + " values", "must have one per vertex");
   Eroded result{field, std::vector<int>(static_cast<std::size_t>(surface.vertex_count()))};
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
-    result.from[static_cast<std::size_t>(vertex)] = vertex;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) result.from[vertex] = vertex;
   if (radius_m == 0.0) return result;
   const std::vector<std::vector<int>> around = neighbours(surface);
   for_ranges(surface.vertex_count(), 256, [&](int first, int last) {
@@ -55,22 +54,22 @@ Eroded eroded(const Surface& surface, const Field& field, double radius_m) {
       const auto take = [&](double value, int vertex) {
         if (!(value < result.field[centre])) return;
         result.field[centre] = value;
-        result.from[static_cast<std::size_t>(centre)] = vertex;
+        result.from[centre] = vertex;
       };
       reached.assign(1, centre);
-      seen[static_cast<std::size_t>(centre)] = centre;
+      seen[centre] = centre;
       for (std::size_t i = 0; i < reached.size(); ++i) {
         const int inside = reached[i];
         take(field[inside], inside);
-        for (int next : around[static_cast<std::size_t>(inside)]) {
-          if (seen[static_cast<std::size_t>(next)] == centre) continue;
+        for (int next : around[inside]) {
+          if (seen[next] == centre) continue;
           if ((surface.vertex(next) - middle).norm() > radius_m) {
             const double share =
                 crossing(middle, surface.vertex(inside), surface.vertex(next), radius_m);
             take(std::lerp(field[inside], field[next], share), share < 0.5 ? inside : next);
             continue;
           }
-          seen[static_cast<std::size_t>(next)] = centre;
+          seen[next] = centre;
           reached.push_back(next);
         }
       }

@@ -50,7 +50,7 @@ TissueRuler::TissueRuler(const Surface& surface) {
                     extent.maxCoeff() / 4096.0);
   columns_ = static_cast<int>(extent.x() / bin_m_) + 1;
   rows_ = static_cast<int>(extent.y() / bin_m_) + 1;
-  faces_.reserve(static_cast<std::size_t>(surface.face_count()));
+  faces_.reserve(surface.face_count());
   for (int face = 0; face < surface.face_count(); ++face) {
     const Eigen::Vector3i t = surface.triangle(face);
     const std::array<Vec2, 3> at = {uv.row(t[0]), uv.row(t[1]), uv.row(t[2])};
@@ -63,7 +63,7 @@ TissueRuler::TissueRuler(const Surface& surface) {
   first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   for_each_bin([&](int bin, int) { ++first_[bin + 1]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  numbers_.resize(static_cast<std::size_t>(first_.back()));
+  numbers_.resize(first_.back());
   std::vector<int> next(first_.begin(), first_.end() - 1);
   for_each_bin([&](int bin, int face) { numbers_[next[bin]++] = face; });
 }

@@ -42,7 +42,7 @@ Field spread_from_nodes(const Layout& layout, const BoundaryNodes& nodes,
   if (count == 0) return Field::Zero(surface.vertex_count());
   Eigen::Matrix3Xd places(3, count);
   for (Eigen::Index node = 0; node < count; ++node)
-    places.col(node) = layout.at(nodes.points[static_cast<std::size_t>(node)]);
+    places.col(node) = layout.at(nodes.points[node]);
   Field spread(surface.vertex_count());
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     const Eigen::ArrayXd squared =

@@ -30,9 +30,7 @@ std::vector<double> distances_from(const Layout& layout, std::span<const LevelLo
   std::vector<double> distances(places.size());
   for_ranges(static_cast<int>(places.size()), kPlacesAtOnce, [&](int first, int last) {
     int hint = 0;
-    for (int i = first; i < last; ++i)
-      distances[static_cast<std::size_t>(i)] =
-          nearest.distance(places[static_cast<std::size_t>(i)], hint);
+    for (int i = first; i < last; ++i) distances[i] = nearest.distance(places[i], hint);
   });
   return distances;
 }

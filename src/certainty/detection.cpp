@@ -93,8 +93,7 @@ double greatest_excess(const Layout& layout, std::span<const Vec3> places,
   Eigen::VectorXd distances(count), rises(count);
   const int step = 1 + (layout.surface().vertex_count() - 1) / kMostCentres;
   for (int vertex = 0; vertex < layout.surface().vertex_count(); vertex += step) {
-    for (Eigen::Index i = 0; i < count; ++i)
-      distances[i] = (places[static_cast<std::size_t>(i)] - layout.at(vertex)).norm();
+    for (Eigen::Index i = 0; i < count; ++i) distances[i] = (places[i] - layout.at(vertex)).norm();
     for (const double width_m : kWidths_m) {
       for (Eigen::Index i = 0; i < count; ++i)
         rises[i] = rise(0.5 * width_m - distances[i], kSlope_per_m);

@@ -64,8 +64,7 @@ Field EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const 
   // Corrections alone move it: the shift is that of the most probable slope already.
   const Eigen::VectorXd moved =
       correction.covariance(near, places) * edge.by_depth.cwiseProduct(edge.pull);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    depth[vertices[i]] += moved[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < vertices.size(); ++i) depth[vertices[i]] += moved[i];
   return depth;
 }
 

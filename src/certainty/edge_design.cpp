@@ -42,9 +42,8 @@ class Design {
     for (Eigen::Index node = 0; node < depth_variance.size(); ++node) {
       const double told = depth_reading(node, candidate) * depth_reading(node, candidate) /
                           reading_variance[candidate];
-      sum +=
-          length_m[static_cast<std::size_t>(node)] *
-          (std::sqrt(depth_variance[node]) - std::sqrt(std::max(depth_variance[node] - told, 0.0)));
+      sum += length_m[node] * (std::sqrt(depth_variance[node]) -
+                               std::sqrt(std::max(depth_variance[node] - told, 0.0)));
     }
     return sum;
   }
@@ -87,7 +86,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   Eigen::VectorXd by_depth(size);
   ProfileSlopes by_profile(size, 3);
   for (Eigen::Index i = 0; i < size; ++i) {
-    const int vertex = candidates[static_cast<std::size_t>(i)];
+    const int vertex = candidates[i];
     points.push_back(surface_.at_vertex(vertex));
     const ReadingSlopes slopes = profile_slopes(fit.edge.profile, depth_[vertex] + fit.shift_m());
     by_depth[i] = slopes.by_depth;
@@ -130,11 +129,10 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
     int picked = -1;
     for (std::size_t i = 0; i < gains.size(); ++i) {
       if (!allowed[i] || gains[i] < kAsGood * best) continue;
-      if (picked < 0 || field_variance[candidates[i]] >
-                            field_variance[candidates[static_cast<std::size_t>(picked)]])
+      if (picked < 0 || field_variance[candidates[i]] > field_variance[candidates[picked]])
         picked = static_cast<int>(i);
     }
-    const int vertex = candidates[static_cast<std::size_t>(picked)];
+    const int vertex = candidates[picked];
     picks.push_back(vertex);
     const SurfacePoint place = surface_.at_vertex(vertex);
     Eigen::VectorXd with_picked =
@@ -147,7 +145,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
     for (std::size_t i = 0; i < allowed.size(); ++i) {
       if (std::binary_search(near.begin(), near.end(), candidates[i])) allowed[i] = false;
     }
-    allowed[static_cast<std::size_t>(picked)] = false;
+    allowed[picked] = false;
   }
   return picks;
 }

@@ -140,7 +140,7 @@ struct Bound {
 
 void choose_lazily(Search& search, int size, Batch& batch) {
   std::vector<Bound> bounds;
-  bounds.reserve(static_cast<std::size_t>(search.ahead.tile_count()));
+  bounds.reserve(search.ahead.tile_count());
   for (int tile = 0; tile < search.ahead.tile_count(); ++tile) {
     const Best best = search.best_of(tile);
     if (!best.is_none()) bounds.push_back({best, tile});

@@ -90,15 +90,13 @@ std::optional<Points2> boundary_first_map(const TriangleMesh& mesh,
   const auto count = static_cast<Eigen::Index>(border.size());
   Eigen::VectorXd lengths(count), turns(count), defects(operators.inner_count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const int vertex = border[static_cast<std::size_t>(k)],
-              next = border[static_cast<std::size_t>((k + 1) % count)];
+    const int vertex = border[k], next = border[(k + 1) % count];
     lengths[k] = (mesh.vertices.row(next) - mesh.vertices.row(vertex)).norm();
     turns[k] = kPi - operators.angles[vertex];
   }
   for (std::size_t vertex = 0; vertex < operators.row.size(); ++vertex) {
     if (!operators.is_border[vertex])
-      defects[operators.row[vertex]] =
-          2.0 * kPi - operators.angles[static_cast<Eigen::Index>(vertex)];
+      defects[operators.row[vertex]] = 2.0 * kPi - operators.angles[vertex];
   }
   Eigen::SimplicialLDLT<SparseMatrix> factor;
   if (operators.inner_count > 0) {
@@ -113,8 +111,8 @@ std::optional<Points2> boundary_first_map(const TriangleMesh& mesh,
   if (operators.inner_count > 0) inner = -factor.solve(operators.inner_border * *curve);
   Points2 uv(mesh.vertices.rows(), 2);
   for (Eigen::Index vertex = 0; vertex < uv.rows(); ++vertex) {
-    const int row = operators.row[static_cast<std::size_t>(vertex)];
-    const Points2& part = operators.is_border[static_cast<std::size_t>(vertex)] ? *curve : inner;
+    const int row = operators.row[vertex];
+    const Points2& part = operators.is_border[vertex] ? *curve : inner;
     uv.row(vertex) = part.row(row);
   }
   return uv.allFinite() ? std::optional(uv) : std::nullopt;

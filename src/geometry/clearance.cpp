@@ -65,16 +65,14 @@ std::vector<bool> clear_vertices(const Surface& surface, double length_m, double
     const Kernel::Segment_3 line(cgal_point(start), cgal_point(end));
     met.clear();
     if (!line.is_degenerate()) tree.all_intersected_primitives(line, std::back_inserter(met));
-    clear[static_cast<std::size_t>(vertex)] =
-        std::all_of(met.begin(), met.end(), [&](Faces::const_iterator face) {
-          return (surface.triangle(static_cast<int>(face - faces.cbegin())).array() == vertex)
-              .any();
-        });
+    clear[vertex] = std::all_of(met.begin(), met.end(), [&](Faces::const_iterator face) {
+      return (surface.triangle(static_cast<int>(face - faces.cbegin())).array() == vertex).any();
+    });
   }
   if (radius_m == 0.0) return clear;
   for_ranges(surface.vertex_count(), 256, [&](int first, int last) {
     for (int vertex = first; vertex < last; ++vertex)
-      room[static_cast<std::size_t>(vertex)] = has_room(surface, vertex, length_m, radius_m);
+      room[vertex] = has_room(surface, vertex, length_m, radius_m);
   });
   for (std::size_t vertex = 0; vertex < clear.size(); ++vertex)
     clear[vertex] = clear[vertex] && room[vertex];

@@ -74,7 +74,7 @@ class Collapses {
     std::vector<int> number(static_cast<std::size_t>(surface_.vertex_count()), -1);
     for (int vertex = 0; vertex < surface_.vertex_count(); ++vertex) {
       if (mesh_.status(Vertex(vertex)).deleted()) continue;
-      number[static_cast<std::size_t>(vertex)] = static_cast<int>(coarse.vertices.size());
+      number[vertex] = static_cast<int>(coarse.vertices.size());
       coarse.vertices.push_back(vertex);
     }
     std::vector<Eigen::Vector3i> triangles;
@@ -82,16 +82,14 @@ class Collapses {
       if (mesh_.status(face).deleted()) continue;
       Eigen::Vector3i corners;
       int corner = 0;
-      for (const Vertex vertex : mesh_.fv_range(face))
-        corners[corner++] = number[static_cast<std::size_t>(vertex.idx())];
+      for (const Vertex vertex : mesh_.fv_range(face)) corners[corner++] = number[vertex.idx()];
       triangles.push_back(corners);
     }
     coarse.mesh.vertices.resize(static_cast<Eigen::Index>(coarse.vertices.size()), 3);
     for (std::size_t i = 0; i < coarse.vertices.size(); ++i)
-      coarse.mesh.vertices.row(static_cast<Eigen::Index>(i)) = surface_.vertex(coarse.vertices[i]);
+      coarse.mesh.vertices.row(i) = surface_.vertex(coarse.vertices[i]);
     coarse.mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      coarse.mesh.triangles.row(static_cast<Eigen::Index>(i)) = triangles[i];
+    for (std::size_t i = 0; i < triangles.size(); ++i) coarse.mesh.triangles.row(i) = triangles[i];
     return coarse;
   }
 

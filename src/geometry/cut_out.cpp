@@ -94,7 +94,7 @@ CutOut cut_out(const Surface& surface, const std::vector<bool>& keep, int seed) 
   }
   part.mesh.vertices.resize(static_cast<Eigen::Index>(part.vertices.size()), 3);
   for (std::size_t v = 0; v < part.vertices.size(); ++v)
-    part.mesh.vertices.row(static_cast<Eigen::Index>(v)) = surface.vertex(part.vertices[v]);
+    part.mesh.vertices.row(v) = surface.vertex(part.vertices[v]);
   part.mesh.triangles.resize(static_cast<Eigen::Index>(part.faces.size()), 3);
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
     for (int i = 0; i < 3; ++i)

@@ -70,19 +70,16 @@ Eigen::MatrixXd distances_between(const Surface& surface, std::span<const Surfac
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < count; ++j)
-      distances(i, j) = (surface.position(places[static_cast<std::size_t>(i)]) -
-                         surface.position(places[static_cast<std::size_t>(j)]))
-                            .norm();
+      distances(i, j) = (surface.position(places[i]) - surface.position(places[j])).norm();
   }
   if (surface.is_planar()) return distances;
   surface.note_computed("surface distances");
   const Marching marching(surface);
   for_ranges(static_cast<int>(count), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
-      const std::vector<double> marched =
-          marching.distances(places[static_cast<std::size_t>(i)], places.subspan(i + 1));
+      const std::vector<double> marched = marching.distances(places[i], places.subspan(i + 1));
       for (Eigen::Index j = i + 1; j < count; ++j)
-        distances(i, j) = std::max(distances(i, j), marched[static_cast<std::size_t>(j - i - 1)]);
+        distances(i, j) = std::max(distances(i, j), marched[j - i - 1]);
     }
   });
   distances.triangularView<Eigen::StrictlyLower>() = distances.transpose();

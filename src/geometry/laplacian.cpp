@@ -166,8 +166,8 @@ void flip_to_delaunay(MetricMesh& mesh,
 Laplacian laplacian_of(const MetricMesh& mesh) {
   using Triplet = Eigen::Triplet<double>;
   std::vector<Triplet> stiffness, mass;
-  stiffness.reserve(static_cast<std::size_t>(12 * mesh.triangles.rows()));
-  mass.reserve(static_cast<std::size_t>(9 * mesh.triangles.rows()));
+  stiffness.reserve(12 * mesh.triangles.rows());
+  mass.reserve(9 * mesh.triangles.rows());
   for (int face = 0; face < mesh.triangles.rows(); ++face) {
     const double area = area_of(mesh, face);
     for (int corner = 0; corner < 3; ++corner) {

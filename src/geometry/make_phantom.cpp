@@ -142,12 +142,12 @@ class Mesher {
     result.mesh.vertices.resize(count, 3);
     result.parameters.resize(count, 2);
     for (Eigen::Index v = 0; v < count; ++v) {
-      result.mesh.vertices.row(v) = vertices_[static_cast<std::size_t>(v)];
-      result.parameters.row(v) = parameters_[static_cast<std::size_t>(v)];
+      result.mesh.vertices.row(v) = vertices_[v];
+      result.parameters.row(v) = parameters_[v];
     }
     result.mesh.triangles.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
     for (Eigen::Index f = 0; f < result.mesh.triangles.rows(); ++f)
-      result.mesh.triangles.row(f) = triangles_[static_cast<std::size_t>(f)].transpose();
+      result.mesh.triangles.row(f) = triangles_[f].transpose();
     return result;
   }
 

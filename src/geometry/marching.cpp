@@ -64,7 +64,7 @@ class Front {
   }
 
   double distance(int vertex) const {
-    const Known& known = known_[static_cast<std::size_t>(vertex)];
+    const Known& known = known_[vertex];
     return known.is_reached ? known.distance : kInfinite;
   }
 
@@ -76,11 +76,10 @@ class Front {
       queue_.pop();
       if (key > last) return;
       if (key > distance(vertex)) continue;
-      known_[static_cast<std::size_t>(vertex)].is_settled = true;
+      known_[vertex].is_settled = true;
       spread_from(vertex);
       if (last < kInfinite) continue;
-      while (!awaited.empty() && known_[static_cast<std::size_t>(awaited.back())].is_settled)
-        awaited.pop_back();
+      while (!awaited.empty() && known_[awaited.back()].is_settled) awaited.pop_back();
       if (awaited.empty()) last = kSettle * key;
     }
   }
@@ -94,7 +93,7 @@ class Front {
       least = std::min(least, distance(corners[i]) + (here - surface_.vertex(corners[i])).norm());
     for (int i = 0; i < 3; ++i) {
       if (target.barycentric[(i + 2) % 3] == 0.0) continue;  // on this edge
-      Marching::Shape shape = marching_.shapes_[static_cast<std::size_t>(3 * target.face + i)];
+      Marching::Shape shape = marching_.shapes_[3 * target.face + i];
       shape.apex_x = target.barycentric[(i + 1) % 3] * shape.length +
                      target.barycentric[(i + 2) % 3] * shape.apex_x;
       shape.apex_y *= target.barycentric[(i + 2) % 3];
@@ -116,7 +115,7 @@ class Front {
   }
 
   void reach(int vertex, double distance) {
-    Known& known = known_[static_cast<std::size_t>(vertex)];
+    Known& known = known_[vertex];
     if (known.is_reached && distance >= known.distance * (1.0 - kNews)) return;
     known.is_reached = true;
     known.distance = distance;
@@ -127,14 +126,12 @@ class Front {
   /// settled one and the third.
   void spread_from(int a) {
     const double from_a = distance(a);
-    for (int i = marching_.first_[static_cast<std::size_t>(a)];
-         i < marching_.first_[static_cast<std::size_t>(a) + 1]; ++i) {
-      const int leaving = marching_.leaving_[static_cast<std::size_t>(i)], face = leaving / 3,
-                corner = leaving % 3;
+    for (int i = marching_.first_[a]; i < marching_.first_[static_cast<std::size_t>(a) + 1]; ++i) {
+      const int leaving = marching_.leaving_[i], face = leaving / 3, corner = leaving % 3;
       const int arriving = 3 * face + (corner + 2) % 3;
       const int b = triangles_(face, (corner + 1) % 3), c = triangles_(face, (corner + 2) % 3);
-      const Marching::Shape &to_b = marching_.shapes_[static_cast<std::size_t>(leaving)],
-                            &from_c = marching_.shapes_[static_cast<std::size_t>(arriving)];
+      const Marching::Shape &to_b = marching_.shapes_[leaving],
+                            &from_c = marching_.shapes_[arriving];
       reach(b, from_a + to_b.length);
       reach(c, from_a + from_c.length);
       reach(c, straight_across(to_b, from_a, distance(b), distance(c)));
@@ -164,8 +161,8 @@ Marching::Marching(const Surface& surface)
       const Vec3 along = vertices.row(triangles(face, (corner + 1) % 3)).transpose() - a,
                  up = vertices.row(triangles(face, (corner + 2) % 3)).transpose() - a;
       const double length = along.norm();
-      shapes_[static_cast<std::size_t>(half_edge)] = {
-          length, along.dot(up) / length, along.cross(up).norm() / length, 0.5 / length};
+      shapes_[half_edge] = {length, along.dot(up) / length, along.cross(up).norm() / length,
+                            0.5 / length};
     }
   });
   for (const int vertex : triangles.reshaped<Eigen::RowMajor>())
@@ -173,8 +170,7 @@ Marching::Marching(const Surface& surface)
   for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
   std::vector<int> next(first_.begin(), first_.end() - 1);
   for (int half_edge = 0; half_edge < 3 * surface.face_count(); ++half_edge) {
-    leaving_[static_cast<std::size_t>(
-        next[static_cast<std::size_t>(triangles(half_edge / 3, half_edge % 3))]++)] = half_edge;
+    leaving_[next[triangles(half_edge / 3, half_edge % 3)]++] = half_edge;
   }
 }
 

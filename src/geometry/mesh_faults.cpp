@@ -21,12 +21,12 @@ class Fans {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
-  void join(int a, int b) { parent_[static_cast<std::size_t>(first_of(a))] = first_of(b); }
+  void join(int a, int b) { parent_[first_of(a)] = first_of(b); }
 
   int first_of(int corner) {
-    while (parent_[static_cast<std::size_t>(corner)] != corner) {
-      int& parent = parent_[static_cast<std::size_t>(corner)];
-      parent = parent_[static_cast<std::size_t>(parent)];
+    while (parent_[corner] != corner) {
+      int& parent = parent_[corner];
+      parent = parent_[parent];
       corner = parent;
     }
     return corner;

@@ -111,9 +111,9 @@ MetricMesh MetricBuilder::done() const {
   MetricMesh mesh{vertex_count_, Triangles(count, 3), MetricMesh::Lengths(count, 3),
                   Triangles(count, 3)};
   for (Eigen::Index face = 0; face < count; ++face) {
-    mesh.triangles.row(face) = faces_[static_cast<std::size_t>(face)].vertices;
-    mesh.lengths.row(face) = faces_[static_cast<std::size_t>(face)].lengths;
-    mesh.across.row(face) = faces_[static_cast<std::size_t>(face)].across;
+    mesh.triangles.row(face) = faces_[face].vertices;
+    mesh.lengths.row(face) = faces_[face].lengths;
+    mesh.across.row(face) = faces_[face].across;
   }
   return mesh;
 }

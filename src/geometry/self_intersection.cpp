@@ -29,7 +29,7 @@ Corners corners_of(const Surface& surface, int face) {
   Corners corners;
   for (int i = 0; i < 3; ++i) {
     const Vec3 place = surface.vertex(surface.triangle(face)[i]);
-    corners[static_cast<std::size_t>(i)] = {place.x(), place.y(), place.z()};
+    corners[i] = {place.x(), place.y(), place.z()};
   }
   return corners;
 }
@@ -87,7 +87,7 @@ bool intersect(Corners a, Corners b) {
 
 SelfIntersections self_intersections(const Surface& surface) {
   std::vector<Corners> triangles;
-  triangles.reserve(static_cast<std::size_t>(surface.face_count()));
+  triangles.reserve(surface.face_count());
   for (int face = 0; face < surface.face_count(); ++face)
     triangles.push_back(corners_of(surface, face));
   std::vector<NumberedBox> boxes = boxes_of(triangles);
@@ -95,9 +95,7 @@ SelfIntersections self_intersections(const Surface& surface) {
   std::int64_t looked_at = 0;
   const auto look_at = [&](const NumberedBox& a, const NumberedBox& b) {
     if (++looked_at > kMostPairsPerTriangle * surface.face_count()) throw TooManyPairs{};
-    if (!intersect(triangles[static_cast<std::size_t>(a.number)],
-                   triangles[static_cast<std::size_t>(b.number)]))
-      return;
+    if (!intersect(triangles[a.number], triangles[b.number])) return;
     const std::array<int, 2> pair = {std::min(a.number, b.number), std::max(a.number, b.number)};
     ++found.pairs;
     if (!found.first || pair < *found.first) found.first = pair;

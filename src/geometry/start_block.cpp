@@ -46,7 +46,7 @@ Strip features(const ShiftedLaplacian& laplacian) {
     const Vec3 traits(std::log(std::max(weights[row], 1e-9)),
                       std::log(std::max(areas[row] / mean, 1e-9)), 1.0);
     for (int lane = 0; lane < kStrip; ++lane)
-      made[static_cast<std::size_t>(row * kStrip + lane)] = std::cos(waves[lane].dot(traits));
+      made[row * kStrip + lane] = std::cos(waves[lane].dot(traits));
   }
   return made;
 }
@@ -116,8 +116,7 @@ Strip waves_of(const Strip& traits, const Eigen::VectorXd& scale, Random& random
       for (int lane = 0; lane < kStrip; ++lane) turns[lane] += here[trait] * slopes[trait][lane];
     }
     for (int lane = 0; lane < kStrip; ++lane)
-      strip[static_cast<std::size_t>(row * kStrip + lane)] =
-          scale[row] * triangle_wave(turns[lane]);
+      strip[row * kStrip + lane] = scale[row] * triangle_wave(turns[lane]);
   }
   return strip;
 }
@@ -127,7 +126,7 @@ Strip signs(const Eigen::VectorXd& scale, Random& random) {
   for (Eigen::Index row = 0; row < scale.size(); ++row) {
     std::uint64_t bits = random.bits();
     for (int lane = 0; lane < kStrip; ++lane, bits >>= 1)
-      strip[static_cast<std::size_t>(row * kStrip + lane)] = (bits & 1) ? scale[row] : -scale[row];
+      strip[row * kStrip + lane] = (bits & 1) ? scale[row] : -scale[row];
   }
   return strip;
 }
@@ -146,9 +145,7 @@ std::vector<Strip> start_block(const ShiftedLaplacian& laplacian, int strips) {
   std::vector<Random> streams;
   for (int i = 0; i < strips; ++i) streams.emplace_back(random.bits());
   for_ranges(strips, 1, [&](int first, int last) {
-    for (int i = first; i < last; ++i)
-      block[static_cast<std::size_t>(i)] =
-          waves_of(*traits, scale, streams[static_cast<std::size_t>(i)]);
+    for (int i = first; i < last; ++i) block[i] = waves_of(*traits, scale, streams[i]);
   });
   return block;
 }

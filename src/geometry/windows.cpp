@@ -95,7 +95,7 @@ int Windows::opposite(int half_edge) const {
 }
 
 double Windows::known_distance(int vertex) const {
-  const Reached& reached = reached_[static_cast<std::size_t>(vertex)];
+  const Reached& reached = reached_[vertex];
   return reached.is_known ? reached.distance : kInfinite;
 }
 
@@ -150,7 +150,7 @@ void Windows::reach_target(double distance, int window, int origin, int face) {
 }
 
 void Windows::reach(int vertex, const Reached& now) {
-  Reached& reached = reached_[static_cast<std::size_t>(vertex)];
+  Reached& reached = reached_[vertex];
   if (reached.is_known && now.distance >= reached.distance) return;
   const bool is_news = !reached.is_known || now.distance < reached.distance * (1.0 - kEqual);
   reached = now;
@@ -178,9 +178,9 @@ void Windows::reach_straight(int face, int corner, double distance, int origin, 
 /// light has passed (Mitchell, Mount and Papadimitriou 1987 keep windows whole). True if nothing is
 /// left to be added.
 bool Windows::joins(Window& window, double distance) {
-  const int number = waiting_[static_cast<std::size_t>(window.half_edge)] - 1;
+  const int number = waiting_[window.half_edge] - 1;
   if (number < 0) return false;
-  Window& other = windows_[static_cast<std::size_t>(number)];
+  Window& other = windows_[number];
   if (other.origin != window.origin || other.sigma != window.sigma) return false;
   const double size = other.image.norm() + std::max(other.to, window.to),
                slack = kVisible * std::max(other.to, window.to);
@@ -204,7 +204,7 @@ bool Windows::joins(Window& window, double distance) {
     window.part = other.part;
     windows_.push_back(window);
   }
-  Window& grown = windows_[static_cast<std::size_t>(number)];
+  Window& grown = windows_[number];
   grown.from = from;
   grown.to = to;
   if (keeps_paths_) grown.part = static_cast<int>(windows_.size()) - 1;
@@ -229,9 +229,9 @@ void Windows::add(Window window) {
   } else {
     number = free_.back();
     free_.pop_back();
-    windows_[static_cast<std::size_t>(number)] = window;
+    windows_[number] = window;
   }
-  waiting_[static_cast<std::size_t>(window.half_edge)] = number + 1;
+  waiting_[window.half_edge] = number + 1;
   events_.push({distance, number, -1});
 }
 
@@ -252,14 +252,14 @@ void Windows::light_face_from(int number, int face, const Vec3& barycentric) {
 }
 
 void Windows::light_from(int number) {
-  SurfacePoint& source = sources_[static_cast<std::size_t>(number)];
+  SurfacePoint& source = sources_[number];
   Vec3& weights = source.barycentric;
   weights = (weights.array() < kOnEdge).select(0.0, weights);
   weights /= weights.sum();
   for (int corner = 0; corner < 3; ++corner) {
     if (weights[(corner + 1) % 3] != 0.0 || weights[(corner + 2) % 3] != 0.0) continue;
     const int vertex = triangles_(source.face, corner);
-    reached_[static_cast<std::size_t>(vertex)] = {true, 0.0, -1, -1 - number, source.face, 0.0};
+    reached_[vertex] = {true, 0.0, -1, -1 - number, source.face, 0.0};
     if (is_aimed_) {
       for (int k = 0; k < 3; ++k) {
         if (triangles_(aim_.face, k) == vertex)
@@ -308,7 +308,7 @@ void Windows::light_blade(const Blade& blade, int vertex, double distance, doubl
 /// Light that comes to a vertex goes on where no shorter way leads past it: at least half a turn
 /// from where it came on either side. From a source it goes everywhere.
 void Windows::bend_at(int vertex) {
-  const Reached reached = reached_[static_cast<std::size_t>(vertex)];
+  const Reached reached = reached_[vertex];
   const bool closes = fan_around(vertex);
   const double whole = fan_.back().start + fan_.back().angle, half = std::numbers::pi - kFlat;
   double arrival = 0.0;
@@ -332,7 +332,7 @@ void Windows::bend_at(int vertex) {
 }
 
 void Windows::look_at_target(int number, const EdgeFrame& frame) {
-  const Window window = windows_[static_cast<std::size_t>(number)];
+  const Window window = windows_[number];
   const Vec2 target = in_frame(window.half_edge, frame, aim_.barycentric);
   const double crossing = crossing_of(window.image, target), slack = kVisible * frame.length;
   if (crossing < window.from - slack || crossing > window.to + slack) return;
@@ -341,7 +341,7 @@ void Windows::look_at_target(int number, const EdgeFrame& frame) {
 
 /// Light goes on through the face to the edge on the left or the right of its apex.
 void Windows::cross_to(int number, bool to_the_right, const EdgeFrame& frame, double crossing) {
-  const Window window = windows_[static_cast<std::size_t>(number)];
+  const Window window = windows_[number];
   const int face = window.half_edge / 3, corner = window.half_edge % 3;
   const int across = opposite(3 * face + (corner + (to_the_right ? 1 : 2)) % 3);
   if (across < 0) return;
@@ -380,7 +380,7 @@ bool Windows::is_shadowed(int half_edge, double from, double to, double to_from,
 }
 
 void Windows::cross(int number) {
-  const Window window = windows_[static_cast<std::size_t>(number)];
+  const Window window = windows_[number];
   const EdgeFrame here = frame(window.half_edge);
   // More is known now than when the window was added.
   const double to_from = window.sigma + (window.image - Vec2(window.from, 0.0)).norm(),
@@ -396,7 +396,7 @@ void Windows::cross(int number) {
   if (crossing >= window.to - slack) return cross_to(number, false, here, crossing);
   // Of all windows on this edge that see the apex, only the one that sees it nearest lights both
   // sides (Chen and Han 1990).
-  Best& best = best_[static_cast<std::size_t>(window.half_edge)];
+  Best& best = best_[window.half_edge];
   if (best.is_known && distance >= best.distance)
     return cross_to(number, crossing >= best.crossing, here, crossing);
   best = {true, distance, crossing};
@@ -415,9 +415,9 @@ void Windows::spread() {
       if (event.distance <= known_distance(event.vertex) * (1.0 + kNews))
         bend_at(event.vertex);  // else a shorter way was found
     } else {
-      const int half_edge = windows_[static_cast<std::size_t>(event.window)].half_edge;
+      const int half_edge = windows_[event.window].half_edge;
       if (half_edge >= 0) {
-        int& waiting = waiting_[static_cast<std::size_t>(half_edge)];
+        int& waiting = waiting_[half_edge];
         if (waiting == event.window + 1) waiting = 0;
         cross(event.window);
       }

@@ -53,14 +53,12 @@ class Windows {
   void aim_at(const SurfacePoint& target, double at_most_m);
   void spread();
 
-  const Reached& vertex(int vertex) const { return reached_[static_cast<std::size_t>(vertex)]; }
+  const Reached& vertex(int vertex) const { return reached_[vertex]; }
   const Reached& target() const { return target_; }
-  const Window& window(int number) const { return windows_[static_cast<std::size_t>(number)]; }
+  const Window& window(int number) const { return windows_[number]; }
   /// The window that the light at this place of a window's half-edge came through before.
   int parent_at(int number, double along) const;
-  const SurfacePoint& source(int number) const {
-    return sources_[static_cast<std::size_t>(number)];
-  }
+  const SurfacePoint& source(int number) const { return sources_[number]; }
 
   EdgeFrame frame(int half_edge) const;
   /// A point of the half-edge's face in its frame.

@@ -34,7 +34,7 @@ class Joiner {
  private:
   /// Adding 0 turns -0 into 0.
   Place place_of(int point) const {
-    const Vec3& p = points_[static_cast<std::size_t>(point)];
+    const Vec3& p = points_[point];
     return {p.x() + 0.0, p.y() + 0.0, p.z() + 0.0};
   }
 

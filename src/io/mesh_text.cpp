@@ -95,8 +95,7 @@ Vec3 CoordinateReader::point(std::span<const std::string_view, 3> words, std::in
                              std::int64_t line) {
   Vec3 point;
   for (int component = 0; component < 3; ++component) {
-    point[component] =
-        coordinate(words[static_cast<std::size_t>(component)], component, vertex, line);
+    point[component] = coordinate(words[component], component, vertex, line);
   }
   return point;
 }

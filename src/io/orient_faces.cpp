@@ -63,8 +63,8 @@ Adjacency adjacency_of(const std::vector<SoupTriangle>& triangles, std::size_t p
                       std::vector<bool>(triangles.size(), false)};
   const auto connect = [&](int from, int to) {
     const std::size_t t = Sides::triangle(from);
-    adjacency.neighbours[t][static_cast<std::size_t>(adjacency.counts[t]++)] = {
-        static_cast<int>(Sides::triangle(to)), sides.upward(from) != sides.upward(to)};
+    adjacency.neighbours[t][adjacency.counts[t]++] = {static_cast<int>(Sides::triangle(to)),
+                                                      sides.upward(from) != sides.upward(to)};
   };
   for (std::size_t first = 0, last = 0; first < sorted.size(); first = last) {
     while (last < sorted.size() && sides.share_edge(sorted[first], sorted[last])) ++last;
@@ -92,15 +92,15 @@ struct Component {
 Component spread(int seed, const Adjacency& adjacency, std::vector<Turn>& turns) {
   Component component;
   component.triangles.push_back(seed);
-  turns[static_cast<std::size_t>(seed)] = Turn::Keep;
+  turns[seed] = Turn::Keep;
   for (std::size_t next = 0; next < component.triangles.size(); ++next) {
     const auto t = static_cast<std::size_t>(component.triangles[next]);
     if (adjacency.has_open_or_crowded_edge[t]) component.closed = false;
     for (int i = 0; i < adjacency.counts[t]; ++i) {
-      const Neighbour& neighbour = adjacency.neighbours[t][static_cast<std::size_t>(i)];
+      const Neighbour& neighbour = adjacency.neighbours[t][i];
       const Turn wanted =
           (turns[t] == Turn::Keep) == neighbour.agrees ? Turn::Keep : Turn::TurnRound;
-      Turn& turn = turns[static_cast<std::size_t>(neighbour.triangle)];
+      Turn& turn = turns[neighbour.triangle];
       if (turn == Turn::Unknown) {
         turn = wanted;
         component.triangles.push_back(neighbour.triangle);
@@ -115,15 +115,12 @@ Component spread(int seed, const Adjacency& adjacency, std::vector<Turn>& turns)
 /// Turns the smaller part of a component; returns how many triangles were turned.
 std::int64_t turn_fewest(const Component& component, const std::vector<Turn>& turns,
                          std::vector<SoupTriangle>& triangles) {
-  const auto turned =
-      std::count_if(component.triangles.begin(), component.triangles.end(),
-                    [&](int t) { return turns[static_cast<std::size_t>(t)] == Turn::TurnRound; });
+  const auto turned = std::count_if(component.triangles.begin(), component.triangles.end(),
+                                    [&](int t) { return turns[t] == Turn::TurnRound; });
   const auto kept = static_cast<std::int64_t>(component.triangles.size()) - turned;
   const Turn minority = turned <= kept ? Turn::TurnRound : Turn::Keep;
   for (const int t : component.triangles) {
-    if (turns[static_cast<std::size_t>(t)] == minority)
-      std::swap(triangles[static_cast<std::size_t>(t)].corners[1],
-                triangles[static_cast<std::size_t>(t)].corners[2]);
+    if (turns[t] == minority) std::swap(triangles[t].corners[1], triangles[t].corners[2]);
   }
   return std::min<std::int64_t>(turned, kept);
 }
@@ -132,7 +129,7 @@ std::int64_t turn_fewest(const Component& component, const std::vector<Turn>& tu
 double volume_of(const Component& component, const std::vector<SoupTriangle>& triangles,
                  const PolygonSoup& soup) {
   const auto point = [&](int t, std::size_t i) -> const Vec3& {
-    return soup.points[static_cast<std::size_t>(triangles[static_cast<std::size_t>(t)].corners[i])];
+    return soup.points[triangles[t].corners[i]];
   };
   const Vec3 origin = point(component.triangles.front(), 0);
   double volume = 0.0;

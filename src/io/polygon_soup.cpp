@@ -35,11 +35,11 @@ void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_
 
 /// Twice the vector area of a polygon (Newell), relative to its first corner.
 Vec3 vector_area(const PolygonSoup& soup, std::span<const int> corners) {
-  const Vec3& origin = soup.points[static_cast<std::size_t>(corners[0])];
+  const Vec3& origin = soup.points[corners[0]];
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Vec3 a = soup.points[static_cast<std::size_t>(corners[i])] - origin;
-    const Vec3 b = soup.points[static_cast<std::size_t>(corners[i + 1])] - origin;
+    const Vec3 a = soup.points[corners[i]] - origin;
+    const Vec3 b = soup.points[corners[i + 1]] - origin;
     sum += a.cross(b);
   }
   return sum;
@@ -49,7 +49,7 @@ bool sees_all(const PolygonSoup& soup, std::span<const int> corners, std::size_t
               const Vec3& area) {
   const std::size_t count = corners.size();
   const auto point = [&](std::size_t i) -> const Vec3& {
-    return soup.points[static_cast<std::size_t>(corners[(apex + i) % count])];
+    return soup.points[corners[(apex + i) % count]];
   };
   for (std::size_t i = 1; i + 1 < count; ++i) {
     const Vec3 normal = (point(i) - point(0)).cross(point(i + 1) - point(0));
@@ -130,8 +130,7 @@ void refuse_crowds(const MeshSource& source, const PolygonSoup& soup) {
   if (triangles <= kFew) return;
   std::vector<bool> used(soup.points.size(), false);
   for (const int corner : soup.corners) {
-    if (corner >= 0 && static_cast<std::size_t>(corner) < used.size())
-      used[static_cast<std::size_t>(corner)] = true;
+    if (corner >= 0 && static_cast<std::size_t>(corner) < used.size()) used[corner] = true;
   }
   const auto vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
   if (triangles <= 3 * vertices) return;
@@ -183,19 +182,19 @@ void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup,
 std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& triangles) {
   std::vector<int> number(soup.points.size(), -1);
   for (const SoupTriangle& triangle : triangles) {
-    for (const int corner : triangle.corners) number[static_cast<std::size_t>(corner)] = 0;
+    for (const int corner : triangle.corners) number[corner] = 0;
   }
   int used = 0;
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] < 0) continue;
-    soup.points[static_cast<std::size_t>(used)] = soup.points[i];
+    soup.points[used] = soup.points[i];
     number[i] = used++;
   }
   const auto dropped = static_cast<std::int64_t>(soup.points.size()) - used;
-  soup.points.resize(static_cast<std::size_t>(used));
+  soup.points.resize(used);
   if (dropped == 0) return 0;
   for (SoupTriangle& triangle : triangles) {
-    for (int& corner : triangle.corners) corner = number[static_cast<std::size_t>(corner)];
+    for (int& corner : triangle.corners) corner = number[corner];
   }
   return dropped;
 }

@@ -80,8 +80,7 @@ BoundaryFile read_boundary_vtp(const std::filesystem::path& path, const Surface&
     Ring& ring = rings.emplace_back();
     for (const int point : line) {
       std::string fault;
-      const std::optional<SurfacePoint> place =
-          landing.place(found.points[static_cast<std::size_t>(point)], fault);
+      const std::optional<SurfacePoint> place = landing.place(found.points[point], fault);
       if (!place) source.fail("point " + std::to_string(point) + " of the boundary: " + fault);
       ring.push_back(chart_place(surface, *place));
     }

@@ -73,7 +73,7 @@ class OffReader {
     face_count_ = count_of(words_[1], "faces", bytes / 2, line);
     if (words_.size() == 3)
       count_of(words_[2], "edges", std::numeric_limits<std::int64_t>::max(), line);
-    soup_.points.reserve(static_cast<std::size_t>(vertex_count_));
+    soup_.points.reserve(vertex_count_);
   }
 
   std::int64_t count_of(std::string_view word, const std::string& what, std::int64_t most,
@@ -134,7 +134,7 @@ class OffReader {
     }
     soup_.begin_face(lines_.line());
     for (std::int64_t i = 1; i <= *count; ++i) {
-      const std::string_view word = words_[static_cast<std::size_t>(i)];
+      const std::string_view word = words_[i];
       const std::optional<std::int64_t> index = parse_integer(word);
       if (!index || *index < 0 || *index >= vertex_count_) {
         source_.fail_at_line(lines_.line(), name + "vertex index " + in_quotes(word) +

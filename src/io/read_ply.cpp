@@ -59,9 +59,9 @@ class BodyReader {
       if (found == element.properties.end() || found->count_type) {
         source_.fail_at_line(element.line, "element \"vertex\" has no number \"" + name + "\"");
       }
-      component[static_cast<std::size_t>(found - element.properties.begin())] = axis;
+      component[found - element.properties.begin()] = axis;
     }
-    soup_.points.reserve(static_cast<std::size_t>(element.count));
+    soup_.points.reserve(element.count);
     for (std::int64_t vertex = 0; vertex < element.count; ++vertex)
       read_vertex(element, component, vertex);
   }

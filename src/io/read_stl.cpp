@@ -162,8 +162,7 @@ std::uint32_t facet_count(std::string_view bytes) {
 Vec3 binary_vector(const MeshSource& source, std::size_t byte) {
   Vec3 vector;
   for (std::size_t i = 0; i < 3; ++i)
-    vector[static_cast<Eigen::Index>(i)] =
-        double{number_from<float>(source.bytes.substr(byte + 4 * i), ByteOrder::Little)};
+    vector[i] = double{number_from<float>(source.bytes.substr(byte + 4 * i), ByteOrder::Little)};
   return vector;
 }
 

@@ -37,8 +37,7 @@ void warn_of_slivers(PolygonSoup& soup, const std::vector<SoupTriangle>& triangl
   const double scale = scale_of(soup);
   if (!std::isfinite(scale)) return;
   const auto side = [&](int from, int to) -> Vec3 {
-    return scale * (soup.points[static_cast<std::size_t>(to)] -
-                    soup.points[static_cast<std::size_t>(from)]);
+    return scale * (soup.points[to] - soup.points[from]);
   };
   std::int64_t count = 0;
   double worst = 1.0;

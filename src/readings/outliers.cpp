@@ -87,9 +87,9 @@ class Neighbourhoods {
     Eigen::MatrixXd k(n, n);
     Eigen::MatrixXd right_sides(n, 3);  // correlations with the place, ones, readings
     for (Eigen::Index a = 0; a < n; ++a) {
-      const std::size_t here = around[static_cast<std::size_t>(a)];
+      const std::size_t here = around[a];
       for (Eigen::Index b = 0; b < n; ++b) {
-        k(a, b) = correlation(places_[here] - places_[around[static_cast<std::size_t>(b)]]);
+        k(a, b) = correlation(places_[here] - places_[around[b]]);
       }
       k(a, a) += noise_ratio;
       right_sides.row(a) << correlation(places_[i] - places_[here]), 1.0,
