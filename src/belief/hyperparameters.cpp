@@ -2,18 +2,16 @@
 
 #include <nlopt.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include "belief/likelihood.h"
+#include "belief/noise_alone.h"
 #include "belief/sites.h"
-#include "belief/tilts.h"
 #include "palpation/base/error.h"
 #include "readings/readings.h"
 #include "readings/rounding.h"
@@ -21,11 +19,9 @@
 namespace palpation {
 namespace {
 
-constexpr double kRatioMedian = 0.02;   // of (noise / signal)^2
-constexpr double kRatioSpread = 2.0;    // of its logarithm
-constexpr double kLeastNoise = 1e-6;    // of the readings' range, where it is learned
-constexpr double kNoiseFreeLog = 30.0;  // how far below the readings' own variance that of noise is
-                                        // looked for: 1e-6 in standard deviation
+constexpr double kRatioMedian = 0.02;  // of (noise / signal)^2
+constexpr double kRatioSpread = 2.0;   // of its logarithm
+constexpr double kLeastNoise = 1e-6;   // of the readings' range, where it is learned
 constexpr int kMostEvaluations = 100;
 constexpr double kReachAlone = 1000.0;  // of length and signal about their medians, without priors
 
@@ -137,53 +133,88 @@ void check_fixed(const char* name, const std::optional<double>& value, bool zero
           zero_allowed ? "must be finite and not negative" : "must be positive and finite");
 }
 
-/// The readings as independent draws around a plane: what a field must explain better.
-struct Plane {
-  double log_likelihood = -std::numeric_limits<double>::infinity();
-  std::vector<double> residuals;  ///< up to a constant
-};
-
-/// Around one unknown constant, their variance the best one.
-Plane noise_around_constant(const std::vector<double>& readings) {
-  const double n = static_cast<double>(readings.size());
-  double mean = 0.0, square = 0.0;
-  for (double reading : readings) mean += reading / n;
-  for (double reading : readings) square += (reading - mean) * (reading - mean);
-  const double variance = square / (n - 1.0);
-  if (variance <= 0.0) return {std::numeric_limits<double>::infinity(), readings};
-  return {-0.5 * ((n - 1.0) * (std::log(2.0 * std::numbers::pi * variance) + 1.0) + std::log(n)),
-          readings};
+/// What a field must explain of the readings; never nothing.
+double range_of(const NoiseAlone& alone, const Prior& prior, const std::vector<double>& readings) {
+  const auto [least, greatest] = std::ranges::minmax(alone.residuals);
+  const double range =
+      greatest > least ? greatest - least : std::max(1e-12, std::abs(greatest) * 1e-12);
+  // Around a plane, what is left of readings that lie on one is rounding.
+  return prior.has_slope() ? std::max(range, kLeastNoise * std::abs(readings.front())) : range;
 }
 
-/// Around an unknown constant and a slope of the prior's, the variance the best of a row of values
-/// a tenth apart in logarithm.
-Plane noise_around_plane(const Prior& prior, std::span<const Site> sites,
-                         const std::vector<double>& readings) {
-  const double n = static_cast<double>(readings.size());
-  Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(readings.data(),
-                                                        static_cast<Eigen::Index>(readings.size()));
-  y.array() -= y.mean();
-  Tilts tilts = tilts_of(prior, sites);
-  tilts.rowwise() -= tilts.colwise().mean().eval();
-  const Eigen::Matrix3d gram = tilts.transpose() * tilts;
-  const Vec3 along = tilts.transpose() * y;
-  const double square = y.squaredNorm();
-  if (square <= 0.0) return noise_around_constant(readings);
-  Plane best;
-  for (double log_variance = std::log(square / n);
-       log_variance > std::log(square / n) - kNoiseFreeLog; log_variance -= 0.1) {
-    const double variance = std::exp(log_variance);
-    const Eigen::LLT<Eigen::Matrix3d> precision(Eigen::Matrix3d::Identity() + gram / variance);
-    const Vec3 tilt = precision.solve(along / variance);
-    const double log_likelihood =
-        -0.5 * ((n - 1.0) * (std::log(2.0 * std::numbers::pi) + log_variance) + std::log(n) +
-                (square - along.dot(tilt)) / variance) -
-        precision.matrixLLT().diagonal().array().log().sum();
-    if (!(log_likelihood > best.log_likelihood)) continue;
-    const Eigen::VectorXd residuals = y - tilts * tilt;
-    best = {log_likelihood, {residuals.begin(), residuals.end()}};
+/// Logarithms that the optimizer may choose, where they must lie and where it starts.
+struct Search {
+  std::vector<double> lower, upper, from_start, from_prior;
+
+  /// Its number; -1 of what is fixed.
+  int add(const std::optional<double>& fixed, double least, double most, double first,
+          double median) {
+    if (fixed) return -1;
+    lower.push_back(std::log(least));
+    upper.push_back(std::log(most));
+    from_start.push_back(std::log(first > 0.0 ? first : median));
+    from_prior.push_back(std::log(median));
+    return static_cast<int>(lower.size()) - 1;
   }
-  return best;
+};
+
+LengthRange lengths_to_search(const Prior& prior, const LearnOptions& options) {
+  const double reach = options.likelihood_alone ? kReachAlone : 10.0;
+  LengthRange searched{options.length_median_m / reach, options.length_median_m * reach};
+  if (prior.metric() != Metric::Intrinsic || options.length_m) return searched;
+  const LengthRange lengths = prior.lengths();
+  require(lengths.least_m < lengths.most_m, "learn",
+          "an intrinsic prior of one length, " + text_of(lengths.least_m) + " m,",
+          "has no other to learn: give Prior the range, as lengths_to_learn has it");
+  searched = {std::max(searched.least_m, lengths.least_m),
+              std::min(searched.most_m, lengths.most_m)};
+  require(searched.least_m < searched.most_m, "learn",
+          "length_median_m = " + text_of(options.length_median_m),
+          "must suit the lengths of the intrinsic prior, " + text_of(lengths.least_m) + " to " +
+              text_of(lengths.most_m));
+  return searched;
+}
+
+Search search_of(Objective& objective, const Prior& prior, const Hyperparameters& start,
+                 double range) {
+  const LearnOptions& options = objective.options;
+  Search search;
+  const LengthRange lengths = lengths_to_search(prior, options);
+  objective.slot[0] = search.add(options.length_m, lengths.least_m, lengths.most_m, start.length_m,
+                                 options.length_median_m);
+  const double least_signal = options.likelihood_alone ? range / kReachAlone : 0.25 * range;
+  const double most_signal = options.likelihood_alone ? range * kReachAlone : 10.0 * range;
+  objective.slot[1] =
+      search.add(options.signal_sd, least_signal, most_signal, start.signal_sd, 0.5 * range);
+  const double signal = options.signal_sd.value_or(0.5 * range),
+               start_signal = options.signal_sd.value_or(start.signal_sd);
+  // Noise as a ratio to the signal; at() keeps it above the least noise where the signal is below
+  // this one.
+  objective.slot[2] =
+      search.add(options.noise_sd, objective.least_noise / signal, 2.0 * range / signal,
+                 start_signal > 0.0 ? start.noise_sd / start_signal : 0.0,
+                 std::sqrt(kRatioMedian) * 0.5 * range / signal);
+  return search;
+}
+
+/// From both starts. Returns the value at the given one; minus infinite where that is out of
+/// bounds.
+double climb_from_both(Objective& objective, Search search) {
+  const double nowhere = -std::numeric_limits<double>::infinity();
+  const auto& [lower, upper, from_start, from_prior] = search;
+  if (lower.empty()) {
+    nlopt_objective(0, nullptr, nullptr, &objective);
+    return nowhere;
+  }
+  const std::vector<double> asked = from_start;
+  for (std::vector<double>* x : {&search.from_prior, &search.from_start}) {
+    for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] = std::clamp((*x)[i], lower[i], upper[i]);
+  }
+  climb(objective, from_start, lower, upper);
+  const double at_start = from_start == asked ? *objective.first : nowhere;
+  if (!objective.options.likelihood_alone && from_prior != from_start)
+    climb(objective, from_prior, lower, upper);
+  return at_start;
 }
 
 }  // namespace
@@ -199,15 +230,8 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations,
 
   std::vector<double> readings;
   for (const Site& site : sites) readings.push_back(merge(site, 1.0).mean);
-  const Plane plane = prior.has_slope() ? noise_around_plane(prior, sites, readings)
-                                        : noise_around_constant(readings);
-  const auto [least, greatest] =
-      std::minmax_element(plane.residuals.begin(), plane.residuals.end());
-  double range =
-      *greatest > *least ? *greatest - *least : std::max(1e-12, std::abs(*greatest) * 1e-12);
-  // Around a plane, what is left of readings that lie on one is rounding.
-  if (prior.has_slope()) range = std::max(range, kLeastNoise * std::abs(readings.front()));
-
+  const NoiseAlone alone = noise_alone(prior, sites, readings);
+  const double range = range_of(alone, prior, readings);
   Objective objective{Likelihood(prior, sites),
                       options,
                       {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0),
@@ -215,64 +239,13 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations,
                       static_cast<double>(used_readings(palpations).size()),
                       std::max(kLeastNoise * range, std::sqrt(rounding_variance(palpations))),
                       {}};
-  std::vector<double> lower, upper, from_start, from_prior;
-  const auto free_variable = [&](int parameter, const std::optional<double>& fixed_value,
-                                 double least_value, double most, double first, double median) {
-    objective.slot[parameter] = -1;
-    if (fixed_value) return;
-    objective.slot[parameter] = static_cast<int>(lower.size());
-    lower.push_back(std::log(least_value));
-    upper.push_back(std::log(most));
-    from_start.push_back(std::log(first > 0.0 ? first : median));
-    from_prior.push_back(std::log(median));
-  };
-  const double length_reach = options.likelihood_alone ? kReachAlone : 10.0;
-  double least_length_m = options.length_median_m / length_reach,
-         most_length_m = options.length_median_m * length_reach;
-  if (prior.metric() == Metric::Intrinsic && !options.length_m) {
-    const LengthRange lengths = prior.lengths();
-    require(lengths.least_m < lengths.most_m, "learn",
-            "an intrinsic prior of one length, " + text_of(lengths.least_m) + " m,",
-            "has no other to learn: give Prior the range, as lengths_to_learn has it");
-    least_length_m = std::max(least_length_m, lengths.least_m);
-    most_length_m = std::min(most_length_m, lengths.most_m);
-    require(least_length_m < most_length_m, "learn",
-            "length_median_m = " + text_of(options.length_median_m),
-            "must suit the lengths of the intrinsic prior, " + text_of(lengths.least_m) + " to " +
-                text_of(lengths.most_m));
-  }
-  free_variable(0, options.length_m, least_length_m, most_length_m, start.length_m,
-                options.length_median_m);
-  const double least_signal = options.likelihood_alone ? range / kReachAlone : 0.25 * range;
-  const double most_signal = options.likelihood_alone ? range * kReachAlone : 10.0 * range;
-  free_variable(1, options.signal_sd, least_signal, most_signal, start.signal_sd, 0.5 * range);
-  const double signal = options.signal_sd.value_or(0.5 * range),
-               start_signal = options.signal_sd.value_or(start.signal_sd);
-  // Noise as a ratio to the signal; at() keeps it above the least noise where the signal is below
-  // this one.
-  free_variable(2, options.noise_sd, objective.least_noise / signal, 2.0 * range / signal,
-                start_signal > 0.0 ? start.noise_sd / start_signal : 0.0,
-                std::sqrt(kRatioMedian) * 0.5 * range / signal);
-
-  double at_start = -std::numeric_limits<double>::infinity();
-  if (lower.empty()) {
-    nlopt_objective(0, nullptr, nullptr, &objective);
-  } else {
-    const std::vector<double> asked = from_start;
-    for (std::vector<double>* x : {&from_prior, &from_start}) {
-      for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] = std::clamp((*x)[i], lower[i], upper[i]);
-    }
-    climb(objective, from_start, lower, upper);
-    if (from_start == asked) at_start = *objective.first;
-    if (!options.likelihood_alone && from_prior != from_start)
-      climb(objective, from_prior, lower, upper);
-  }
+  const double at_start = climb_from_both(objective, search_of(objective, prior, start, range));
   const Optimum& best = objective.best;
   if (!std::isfinite(best.value)) {
     throw NumericalError("learn: no starting point gives a finite likelihood over " +
                          std::to_string(sites.size()) + " places");
   }
-  return {objective.at(best.x.data()), best.value, best.log_likelihood - plane.log_likelihood,
+  return {objective.at(best.x.data()), best.value, best.log_likelihood - alone.log_likelihood,
           best.value - at_start};
 }
 
