@@ -26,6 +26,7 @@ function(palpation_folder name)
   cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   add_library(palpation_${name} STATIC ${sources})
+  palpation_unite(palpation_${name} ${sources})
   add_library(palpation::${name} ALIAS palpation_${name})
   target_include_directories(palpation_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
