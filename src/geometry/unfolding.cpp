@@ -71,8 +71,8 @@ class Trace {
     while (true) {
       const Window& window = windows_.window(number);
       const int face = window.half_edge / 3, corner = window.half_edge % 3;
-      const EdgeFrame frame = windows_.frame(window.half_edge);
-      const Vec2 place = windows_.in_frame(window.half_edge, frame, weights);
+      const EdgeFrame frame = windows_.frames().frame(window.half_edge);
+      const Vec2 place = windows_.frames().in_frame(window.half_edge, frame, weights);
       const double rise = place.y() - window.image.y();
       double along = place.x();
       if (rise > 0.0)
@@ -84,7 +84,7 @@ class Trace {
       entry[corner] = 1.0 - share;
       entry[(corner + 1) % 3] = share;
       add(face, entry, weights);
-      const int across = windows_.opposite(window.half_edge);
+      const int across = windows_.frames().opposite(window.half_edge);
       weights = Vec3::Zero();
       weights[across % 3] = share;
       weights[(across % 3 + 1) % 3] = 1.0 - share;

@@ -7,33 +7,14 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "io/mesh_source.h"
 #include "io/vtp_array.h"
+#include "io/vtp_structure.h"
 #include "palpation/base/types.h"
 
 namespace palpation {
-
-/// Cells of one kind: cell i has the corners [ends[i-1], ends[i]) of the connectivity.
-struct VtpCells {
-  std::string kind;  ///< "Verts", "Lines", "Strips" or "Polys"
-  std::int64_t count = 0;
-  std::optional<VtpArray> connectivity, offsets;
-  std::size_t place = 0;  ///< byte of the tag that tells the count
-};
-
-struct VtpPiece {
-  std::int64_t points = 0;
-  std::optional<VtpArray> positions;
-  VtpCells verts, lines, strips, polys;
-  std::vector<VtpArray> point_arrays, cell_arrays;
-  std::size_t place = 0;
-
-  std::int64_t cells() const { return verts.count + lines.count + strips.count + polys.count; }
-};
 
 class VtpFile {
  public:
