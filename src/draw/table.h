@@ -1,23 +1,22 @@
-/// A table from a CSV file: a line of names, then rows of cells, any of which may be empty.
+/// A table from a CSV file whose columns may be missing, and whose cells may be empty.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "palpation/io/csv.h"
 
 namespace palpation::draw {
 
 class Table {
  public:
-  /// Cells are separated by commas; one that holds commas stands in double quotes, "" within it
-  /// means ". Empty lines are skipped. Throws IoError with path and line if the file cannot be
-  /// read, has no header, or a row has another number of cells than the header.
-  explicit Table(const std::filesystem::path& path);
+  /// As read_csv. Throws IoError.
+  explicit Table(const std::filesystem::path& path) : table_(read_csv(path)) {}
 
-  const std::vector<std::string>& names() const { return names_; }
-  int row_count() const { return static_cast<int>(rows_.size()); }
-  bool has(const std::string& name) const { return index_of(name).has_value(); }
+  const std::vector<std::string>& names() const { return table_.columns(); }
+  int row_count() const { return static_cast<int>(table_.row_count()); }
+  bool has(const std::string& name) const { return find_column(table_, name).has_value(); }
 
   /// Cells as they are; all empty if there is no such column.
   std::vector<std::string> texts(const std::string& name) const;
@@ -26,12 +25,7 @@ class Table {
   std::vector<double> numbers(const std::string& name) const;
 
  private:
-  std::optional<std::size_t> index_of(const std::string& name) const;
-
-  std::filesystem::path path_;
-  std::vector<std::string> names_;
-  std::vector<std::vector<std::string>> rows_;
-  std::vector<int> lines_;  // of each row, in the file
+  CsvTable table_;
 };
 
 }  // namespace palpation::draw

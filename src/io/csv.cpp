@@ -120,6 +120,13 @@ std::string row_fault(std::size_t cells, std::size_t columns) {
          (cells > columns ? " columns (decimals take a point, not a comma)" : " columns");
 }
 
+/// Half a number is a number too: 806.0 that was cut to 8 would be believed.
+[[noreturn]] void refuse_open_end(const std::string& name, std::int64_t line) {
+  fail_at_line(name, line,
+               "the last line has no line end, so it may have been cut short: if it is whole, end "
+               "it with a newline (echo >> FILE), else take it away");
+}
+
 std::string_view without_mark(std::string_view text, const std::string& name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   const std::size_t nul = text.find('\0');
@@ -165,6 +172,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name,
       fail_at_line(name, lines.line(),
                    "a line of more than " + std::to_string(kLongestLine) + " bytes");
     if (trimmed(*line).empty()) continue;
+    if (lines.ended_without_line_end()) refuse_open_end(name, lines.line());
     const std::vector<std::string> cells = LineCutter(*line, name, lines.line()).cells();
     const int number = static_cast<int>(lines.line());
     if (table.columns_.empty()) {

@@ -11,11 +11,12 @@ namespace {
 /// Statements that carry no geometry of their own: names, materials (whose files are never opened),
 /// texture, what free-form geometry needs.
 constexpr std::array kIgnored = {
-    "vt",        "vn",       "vp",       "g",     "o",      "s",     "mg",
-    "usemtl",    "mtllib",   "usemap",   "lod",   "maplib", "bevel", "shadow_obj",
-    "trace_obj", "c_interp", "d_interp", "deg",   "bmat",   "step",  "cstype",
-    "parm",      "trim",     "hole",     "scrv",  "sp",     "end",   "con",
-    "call",      "csh",      "ctech",    "stech", "res"};
+    "vt",       "vn",     "vp",   "g",      "o",      "s",          "mg",        "usemtl",
+    "mtllib",   "usemap", "lod",  "maplib", "bevel",  "shadow_obj", "trace_obj", "c_interp",
+    "d_interp", "deg",    "bmat", "step",   "cstype", "parm",       "trim",      "hole",
+    "scrv",     "sp",     "end",  "con",    "ctech",  "stech",      "res"};
+/// What names another file whose statements were to stand here: the mesh would lack them.
+constexpr std::array kCalling = {"call", "csh"};
 /// Geometry that is not made of faces.
 constexpr std::array kLeftOut = {"p", "l", "curv", "curv2", "surf", "bzp", "bsp", "cdc", "cdp"};
 /// x, y, z; a weight, or a colour of up to four numbers.
@@ -106,6 +107,10 @@ class ObjReader {
       take_face();
     } else if (is_among(kLeftOut, words_[0])) {
       ++left_out_;
+    } else if (is_among(kCalling, words_[0])) {
+      source_.fail_at_line(line_, in_quotes(words_[0]) +
+                                      " runs another file, which is not read: export the mesh as "
+                                      "one file, without it");
     } else if (!is_among(kIgnored, words_[0])) {
       source_.fail_at_line(line_, in_quotes(words_[0]) + " is no statement of an OBJ file");
     }

@@ -37,7 +37,7 @@ TEST(ParseCsv, ReadsTheSameWithAnyLineEndsMarksAndQuotes) {
   const CsvTable plain = parse_csv("a,b\n1,2\n3,\n", "t.csv");
   for (const char* text : {"\xEF\xBB\xBF"
                            "a,b\n1,2\n3,\n",
-                           "a,b\r\n1,2\r\n3,\r\n", "a,b\r1,2\r3,", "a,b\n1,2\n3,",
+                           "a,b\r\n1,2\r\n3,\r\n", "a,b\r1,2\r3,\r", "a,b\n1,2\n3,\n  ",
                            "\n a ,\tb\n\n \n1 , 2\n3,\n\n", "\"a\",\"b\"\n\"1\",2\n3,\"\"\n"}) {
     const CsvTable other = parse_csv(text, "t.csv");
     EXPECT_EQ(plain.columns(), other.columns()) << text;
@@ -49,6 +49,10 @@ TEST(ParseCsv, RefusesWhatCouldBeMisread) {
   EXPECT_TRUE(contains(error_of(""), "empty"));
   EXPECT_TRUE(contains(error_of("a,b\n1\n"), "t.csv:2: 1 cell, but"));
   EXPECT_TRUE(contains(error_of("a,b\n1,2,3\n"), "t.csv:2: 3 cells"));
+  // 806.0 that was cut to 8, or to a cell too few: what is said is that it was cut.
+  for (const char* torn : {"a,b\n1,806.0\n2,8", "a,b\n1,806.0\n2", "a,b\r\n1,2\r\n2,\"8"})
+    EXPECT_TRUE(contains(error_of(torn), "t.csv:3: the last line has no line end")) << torn;
+  EXPECT_TRUE(contains(error_of("a,b"), "t.csv:1: the last line has no line end"));
   EXPECT_TRUE(contains(error_of("a,a\n"), "\"a\" appears twice"));
   EXPECT_TRUE(contains(error_of("a,,b\n"), "no name"));
   EXPECT_TRUE(contains(error_of("a\n\"open\n"), "t.csv:2: a quoted cell does not end"));

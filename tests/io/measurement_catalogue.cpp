@@ -38,7 +38,6 @@ void add_tables(Cases& cases) {
   read("a byte order mark", "\xEF\xBB\xBF" + table(kGood), 1);
   read("line ends of Windows", "x,y,z,reading\r\n0.01,0.012,0,7\r\n", 1);
   read("line ends of old Macs", "x,y,z,reading\r0.01,0.012,0,7\r", 1);
-  read("no last line end", "x,y,z,reading\n0.01,0.012,0,7", 1);
   read("quotes and blanks", "\"x\", y ,z,reading\n\"0.01\", 0.012 ,0, \"7\" \n\n", 1);
   read("columns in another order", "reading,z,y,x\n7,0,0.012,0.01\n", 1);
   read("columns that are not known", "x,y,z,who,reading\n0.01,0.012,0,\"Anna, M\xfcller\",7\n", 1);
@@ -51,6 +50,9 @@ void add_tables(Cases& cases) {
   refused("an empty file", "",
           {": the file is empty; a header line that names the columns is expected"});
   refused("blank lines", "\n\n", {": the file is empty"});
+  refused("a last line without its end", "x,y,z,reading\n0.01,0.012,0,8",
+          {":2: the last line has no line end, so it may have been cut short: if it is whole, end "
+           "it with a newline"});
   refused("no header", "0.01,0.012,0,7\n",
           {":1: the header line, which names the columns, is missing"});
   refused("a column that is missing", "x,y,reading\n0,0,1\n",

@@ -331,11 +331,24 @@ TEST(MeshCatalogue, M44OpensNoOtherFile) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder.path() / "library").c_str(), 0600), 0);
   const std::string text =
-      "mtllib library\nmtllib ../../../etc/passwd\nmaplib library\nusemtl skin\ncall library\n" +
+      "mtllib library\nmtllib ../../../etc/passwd\nmaplib library\nusemtl skin\n" +
       catalogue::obj_of(catalogue::square());
   EXPECT_EQ(
       read_mesh_of_any_size(folder.file("a.obj", text), LengthUnit::Metre).mesh.triangles.rows(),
       2);
+}
+
+// What a called file would have added would be missing from the mesh without a word.
+TEST(MeshCatalogue, M44RefusesAMeshThatCallsAnotherFile) {
+  const TemporaryFolder folder;
+  for (const char* call : {"call more.obj", "csh make_more"}) {
+    const std::string text = catalogue::obj_of(catalogue::square()) + call + "\n";
+    const std::string message =
+        io_error_of([&] { read_mesh_of_any_size(folder.file("a.obj", text), LengthUnit::Metre); });
+    const auto line = std::to_string(std::count(text.begin(), text.end(), '\n'));
+    EXPECT_TRUE(contains(message, "a.obj:" + line + ": ")) << message;
+    EXPECT_TRUE(contains(message, "runs another file, which is not read")) << message;
+  }
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 /// cells.
 ///
 /// Strict, so that nothing is misread in silence: every row has as many cells as the header, a name
-/// appears once, a cell is a number as a whole or not at all. Cells may be quoted ("" is a quote
-/// inside) but hold no line end. LF, CRLF or CR, a byte order mark, blanks around cells and empty
-/// lines are welcome; the locale plays no part. Caps: 65,536 bytes a line, 1,024 columns, 1 GiB a
-/// file.
+/// appears once, a cell is a number as a whole or not at all, and the last line has its end:
+/// without it 806.0 may have been cut to 8. Cells may be quoted ("" is a quote inside) but hold no
+/// line end. LF, CRLF or CR, a byte order mark, blanks around cells and empty lines are welcome;
+/// the locale plays no part. Caps: 65,536 bytes a line, 1,024 columns, 1 GiB a file.
 ///
 /// Every error is an IoError "path:line: column ...: value rule".
 #pragma once
