@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/files_read.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -57,15 +58,14 @@ class TemporaryFile {
   throw WriteError(path.string() + ": cannot write: " + why);
 }
 
-/// The file that a path means: renaming must not replace a symbolic link, nor a device.
-fs::path file_behind(const fs::path& path) {
+/// Renaming must replace neither a folder nor a device; and what lies behind a link is another's.
+void refuse_what_is_no_file(const fs::path& path) {
   std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::exists(status) && !fs::is_regular_file(status))
-    fail_to_write(path, fs::is_directory(status) ? "is a folder" : "is no regular file");
-  if (!fs::is_symlink(fs::symlink_status(path, ignored))) return path;
-  const fs::path target = fs::weakly_canonical(path, ignored);
-  return ignored || target.empty() ? path : target;
+  const fs::file_status status = fs::symlink_status(path, ignored);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return;
+  fail_to_write(path, fs::is_directory(status) ? "is a folder"
+                      : fs::is_symlink(status) ? "is a link, and nothing is written through one"
+                                               : "is no regular file");
 }
 
 /// Beside the file, so that renaming stays within one file system; unique in this process and among
@@ -88,35 +88,47 @@ void write_all(const Descriptor& file, const std::string& content, const fs::pat
   }
 }
 
-/// To the disk, then under its name: a crash in between leaves the old file. File systems without
-/// fsync say EINVAL.
-void finish(Descriptor& file, TemporaryFile& temporary, const fs::path& path) {
+/// File systems without fsync say EINVAL.
+void to_disk(const Descriptor& file, const fs::path& path) {
   if (::fsync(file.number()) != 0 && errno != EINVAL && errno != EROFS)
     fail_to_write(path, reason(errno));
+}
+
+/// To the disk, then under its name: a crash in between leaves the old file.
+void finish(Descriptor& file, TemporaryFile& temporary, const fs::path& path) {
+  to_disk(file, path);
   if (!file.close()) fail_to_write(path, reason(errno));
   if (::rename(temporary.path().c_str(), path.c_str()) != 0) fail_to_write(path, reason(errno));
   temporary.keep();
+  sync_folder(path.parent_path());
 }
 
 }  // namespace
 
+void sync_folder(const fs::path& folder) {
+  const fs::path named = folder.empty() ? fs::path(".") : folder;
+  const Descriptor open(::open(named.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (open.is_open()) return to_disk(open, named);
+  if (errno != EACCES) fail_to_write(named, reason(errno));  // a folder that may not be listed
+}
+
 void write_atomically(const fs::path& path, const std::string& content) {
-  const fs::path target = file_behind(path);
-  const fs::path name = temporary_name(target);
+  refuse_what_is_no_file(path);
+  const fs::path name = temporary_name(path);
   Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.is_open()) fail_to_write(path, reason(errno));
   TemporaryFile temporary(name);
   write_all(file, content, path);
-  finish(file, temporary, target);
+  finish(file, temporary, path);
 }
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  const fs::path target = file_behind(path);
-  TemporaryFile temporary(temporary_name(target));
+  refuse_what_is_no_file(path);
+  TemporaryFile temporary(temporary_name(path));
   write(temporary.path());
   Descriptor file(::open(temporary.path().c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.is_open()) fail_to_write(path, "the writer left no file: " + reason(errno));
-  finish(file, temporary, target);
+  finish(file, temporary, path);
 }
 
 std::string read_file(const fs::path& path, std::uintmax_t limit_bytes) {
@@ -129,6 +141,7 @@ std::string read_file(const fs::path& path, std::uintmax_t limit_bytes) {
   if (::fstat(file.number(), &status) != 0) fail(reason(errno));
   if (S_ISDIR(status.st_mode)) fail("is a folder");
   if (!S_ISREG(status.st_mode)) fail("is no regular file");
+  note_file_read(path, status);
   const auto size = static_cast<std::uintmax_t>(status.st_size);
   if (size > limit_bytes)
     fail(std::to_string(size) + " bytes are more than the limit of " + std::to_string(limit_bytes));

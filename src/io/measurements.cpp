@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/landing.h"
+#include "io/measurement_columns.h"
 #include "io/number_text.h"
 #include "io/places.h"
 #include "palpation/base/error.h"
@@ -44,6 +45,23 @@ struct Columns {
   std::array<std::optional<std::size_t>, 3> travel;
   std::optional<std::size_t> set_aside;
 };
+
+ForeignColumns foreign_columns(const CsvTable& table) {
+  std::vector<std::size_t> numbers;
+  ForeignColumns foreign;
+  for (std::size_t column = 0; column < table.columns().size(); ++column) {
+    const std::string& name = table.columns()[column];
+    if (std::ranges::find(kMeasurementColumns, name) != kMeasurementColumns.end()) continue;
+    numbers.push_back(column);
+    foreign.names.push_back(name);
+  }
+  if (numbers.empty()) return foreign;
+  foreign.rows.resize(table.row_count());
+  for (std::size_t row = 0; row < table.row_count(); ++row)
+    for (const std::size_t column : numbers)
+      foreign.rows[row].emplace_back(table.cell(row, column));
+  return foreign;
+}
 
 /// A cell of a column that may be missing: then all its cells are empty.
 std::string_view word_at(const CsvTable& table, std::size_t row,
@@ -228,10 +246,6 @@ void set_aside_copies(const CsvTable& table, const Surface& surface,
                      std::to_string(table.line(first)) + ".");
 }
 
-std::string noise_text(double variance) {
-  return std::isnan(variance) ? std::string() : text_of(variance);
-}
-
 }  // namespace
 
 MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
@@ -267,6 +281,7 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   check_range(table, file.palpations);
   set_aside_copies(table, surface, file.palpations, file.warnings);
   file.places = static_cast<int>(repeats.places());
+  file.foreign = foreign_columns(table);
   if (landing.moved() > 0) {
     file.warnings.push_back(
         table.name() + ": " + std::to_string(landing.moved()) + " of " +
@@ -277,29 +292,6 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   repeats.tell(table.name(), file.warnings);
   tell_outliers(table, file.palpations, file.warnings);
   return file;
-}
-
-std::string measurements_csv(const Surface& surface, std::span<const Palpation> palpations) {
-  std::string text = "x,y,z,reading,noise_variance,batch,kind,tx,ty,tz,set_aside\n";
-  for (const Palpation& palpation : palpations) {
-    const Vec3 position = surface.position(palpation.where);
-    const auto travel = [&](int i) {
-      return palpation.travel.isZero(0.0) ? std::string() : text_of(palpation.travel[i]);
-    };
-    const std::array<std::string, 11> cells = {text_of(position.x()),
-                                               text_of(position.y()),
-                                               text_of(position.z()),
-                                               text_of(palpation.reading),
-                                               noise_text(palpation.noise_variance),
-                                               std::to_string(palpation.batch),
-                                               palpation.kind == TouchKind::Stop ? "stop" : "way",
-                                               travel(0),
-                                               travel(1),
-                                               travel(2),
-                                               palpation.set_aside};
-    text += csv_line(cells);
-  }
-  return text;
 }
 
 }  // namespace palpation

@@ -1,9 +1,11 @@
 #include "palpation/io/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
+#include "io/files_read.h"
 #include "io/temporary_folder.h"
 
 namespace palpation {
@@ -69,13 +71,31 @@ TEST(WriteAtomically, NeverReplacesAFolderOrADevice) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(WriteAtomically, WritesTheFileBehindASymbolicLink) {
+TEST(WriteAtomically, WritesNothingThroughASymbolicLink) {
   const TemporaryFolder folder;
-  const fs::path target = folder.file("target.txt", "old");
-  fs::create_symlink(target, folder.path() / "link.txt");
-  write_atomically(folder.path() / "link.txt", "new");
-  EXPECT_EQ(read_file(target), "new");
-  EXPECT_TRUE(fs::is_symlink(folder.path() / "link.txt"));
+  const fs::path target = folder.file("target.txt", "old"), link = folder.path() / "link.txt";
+  fs::create_symlink(target, link);
+  const std::string message = io_error_of([&] { write_atomically(link, "new"); });
+  EXPECT_TRUE(contains(message, "link.txt: cannot write: is a link")) << message;
+  EXPECT_EQ(read_file(target), "old");
+  EXPECT_TRUE(fs::is_symlink(link));
+  fs::remove(target);
+  EXPECT_THROW(write_atomically(link, "new"), WriteError) << "nor is its target made";
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(ReadFile, IsRememberedByWhateverNameTheFileHas) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("a.txt", "12345");
+  fs::create_hard_link(path, folder.path() / "twin.txt");
+  read_file(path);
+  struct ::stat twin {
+  }, stranger{};
+  ASSERT_EQ(::stat((folder.path() / "twin.txt").c_str(), &twin), 0);
+  ASSERT_EQ(::stat("/dev/null", &stranger), 0);
+  EXPECT_TRUE(was_read(twin));
+  EXPECT_FALSE(was_read(stranger));
+  EXPECT_EQ(files_read().back(), path);
 }
 
 TEST(ReadFile, TellsAMissingFileFromAFolder) {

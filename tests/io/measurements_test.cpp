@@ -85,5 +85,18 @@ TEST(MeasurementsCsv, ComesBackAsItWasWritten) {
   EXPECT_EQ(measurements_csv(surface, measured(text)), text);
 }
 
+TEST(MeasurementsCsv, KeepsColumnsThatMeanNothingHere) {
+  const Surface surface = square();
+  const TemporaryFolder folder;
+  const MeasurementsFile file = read_measurements(
+      folder.file("m.csv", "who,x,y,z,reading,t\n\"Anna, M.\",0.01,0.012,0,7,1.50\n,0,0,0,8,\n"),
+      surface);
+  const std::string text = measurements_csv(surface, file.palpations, file.foreign);
+  EXPECT_TRUE(contains(text, ",set_aside,who,t\n")) << text;
+  EXPECT_TRUE(contains(text, "0.01,0.012,0,7,,0,stop,,,,,\"Anna, M.\",1.50\n")) << text;
+  EXPECT_TRUE(contains(text, "0,0,0,8,,0,stop,,,,,,\n")) << text;
+  EXPECT_THROW(measurements_csv(surface, {}, file.foreign), InvalidInput);
+}
+
 }  // namespace
 }  // namespace palpation

@@ -8,14 +8,18 @@
 
 namespace palpation {
 
-/// Writes the content under a temporary name beside the path, then renames it. Throws WriteError
-/// with path and reason; the old file then stays.
+/// Writes the content under a temporary name beside the path, then renames it: to the disk, the
+/// folder's entry too. Nothing is written through a symbolic link, whose target is another's.
+/// Throws WriteError with path and reason; the old file then stays.
 void write_atomically(const std::filesystem::path& path, const std::string& content);
 
 /// The same for writers that take a path: `write` gets the temporary name (same extension), which
 /// is renamed once it returns.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
+
+/// What was renamed in a folder stays renamed when the power fails. Throws WriteError.
+void sync_folder(const std::filesystem::path& folder);
 
 /// The whole file as bytes. Throws IoError if it is missing, a folder, unreadable or larger than
 /// limit_bytes.

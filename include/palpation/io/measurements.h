@@ -3,8 +3,8 @@
 ///
 /// Columns: x,y,z [m], reading, noise_variance (empty: the field's noise), batch, kind (stop or
 /// way), tx,ty,tz (unit direction of travel, or empty), set_aside (why the reading is not used, or
-/// empty). As input x,y,z,reading is enough; unknown columns are ignored. The order of rows means
-/// nothing but the place of the last one, where the probe is taken to be.
+/// empty). As input x,y,z,reading is enough; unknown columns are kept (`foreign`). The order of
+/// rows means nothing but the place of the last one, where the probe is taken to be.
 ///
 /// Each position goes to the closest point of the surface, from at most 5 mm above or below it and
 /// 1 mm beside its border. Places within a nanometre of an earlier row's are that row's place:
@@ -25,9 +25,16 @@
 
 namespace palpation {
 
+/// The columns of a measurements file that mean nothing here, as they are.
+struct ForeignColumns {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;  ///< one a palpation, with a cell for each name
+};
+
 struct MeasurementsFile {
   std::vector<Palpation> palpations;  ///< one a row, in the order of the rows
   int places = 0;                     ///< distinct ones, of the readings that are not set aside
+  ForeignColumns foreign;             ///< such as a robot's own
   /// Plain sentences: positions more than 0.1 mm off the surface, places within a nanometre of
   /// others, copies, readings far from all others.
   std::vector<std::string> warnings;
@@ -43,7 +50,9 @@ struct MeasurementRules {
 MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
                                    const MeasurementRules& rules = {});
 
-/// The same columns as text, with the shortest digits that read back as the same doubles.
-std::string measurements_csv(const Surface& surface, std::span<const Palpation> palpations);
+/// The same columns as text, with the shortest digits that read back as the same doubles; behind
+/// them foreign ones, if there are any. Throws InvalidInput unless these have a row a palpation.
+std::string measurements_csv(const Surface& surface, std::span<const Palpation> palpations,
+                             const ForeignColumns& foreign = {});
 
 }  // namespace palpation
