@@ -1,7 +1,7 @@
 // palpate-draw: pictures from the files of a run.
 //
-//   palpate-draw OUT_DIR                       reads surface.vtp, boundary.vtp, measurements.csv,
-//   trace.csv and summary.json in OUT_DIR, writes picture.png
+//   palpate-draw OUT_DIR                       reads surface.vtp, boundary.vtp, readings_used.csv
+//   or measurements.csv, trace.csv and summary.json in OUT_DIR, writes picture.png
 //                                              and, if the trace has at least two rows,
 //                                              convergence.png beside them
 //   palpate-draw --curves CURVES.csv OUT.png   draws curves with standard errors: first column x,
@@ -12,6 +12,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,8 @@
 #include "draw/unroll.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
+#include "scene/add_to_run.h"
+#include "scene/single_file.h"
 
 namespace {
 
@@ -41,17 +45,19 @@ struct Wish {
   std::string spread = "bars";
   int width_px = 1100;
   int height_px = 760;
+  bool overwrite = false;
 };
 
-void draw_outcome(const fs::path& folder) {
+void draw_outcome(const fs::path& folder, tool::Existing pictures) {
   const Outcome outcome = unrolled_where_folded(read_outcome(folder));
-  write_atomically(folder / "picture.png", picture_of(outcome));
-  if (!outcome.trace) return;
-  const std::optional<Chart> chart = convergence_of(*outcome.trace);
-  if (chart) write_atomically(folder / "convergence.png", picture_of(*chart));
+  std::map<std::string, std::string> contents{{"picture.png", picture_of(outcome)}};
+  const std::optional<Chart> chart =
+      outcome.trace ? convergence_of(*outcome.trace) : std::optional<Chart>();
+  if (chart) contents["convergence.png"] = picture_of(*chart);
+  tool::add_to_run(folder, contents, pictures);
 }
 
-void draw_curves(const Wish& wish) {
+void draw_curves(const Wish& wish, tool::Existing picture) {
   Chart chart = chart_of(Table(wish.paths[0]));
   chart.title = wish.title;
   if (!wish.x_label.empty()) chart.x_label = wish.x_label;
@@ -62,6 +68,7 @@ void draw_curves(const Wish& wish) {
                                          : Spread::Bars;
   chart.width_px = wish.width_px;
   chart.height_px = wish.height_px;
+  tool::refuse_to_replace(wish.paths[1], picture);
   write_atomically(fs::path(wish.paths[1]), picture_of(chart));
 }
 
@@ -74,10 +81,11 @@ int fulfil(const Wish& wish) {
     return kWrongUsage;
   }
   silence_graphics_libraries();
+  const tool::Existing pictures = wish.overwrite ? tool::Existing::Replaced : tool::Existing::Kept;
   if (wish.curves) {
-    draw_curves(wish);
+    draw_curves(wish, pictures);
   } else {
-    draw_outcome(wish.paths[0]);
+    draw_outcome(wish.paths[0], pictures);
   }
   return 0;
 }
@@ -123,6 +131,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(300, 8000));
   app.add_option("--height", wish.height_px, "Height of the chart in pixels")
       ->check(CLI::Range(200, 8000));
+  app.add_flag("--overwrite", wish.overwrite, "Replace pictures that are none of the run's");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

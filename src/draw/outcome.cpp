@@ -84,6 +84,12 @@ std::vector<Curve> read_curves(const fs::path& path) {
   return curves;
 }
 
+/// A plan's or a boundary's own, where the measurements in the folder are what it was given.
+fs::path readings_in(const fs::path& folder) {
+  const fs::path used = folder / "readings_used.csv";
+  return fs::exists(used) ? used : folder / "measurements.csv";
+}
+
 std::vector<Touch> read_touches(const fs::path& path) {
   if (!fs::exists(path)) return {};
   const Table table(path);
@@ -272,7 +278,7 @@ std::optional<double> Outcome::level_along(const std::string& kind, const std::s
 Outcome read_outcome(const fs::path& folder) {
   Outcome outcome{.surface = read_surface(folder / "surface.vtp"),
                   .curves = read_curves(folder / "boundary.vtp"),
-                  .touches = read_touches(folder / "measurements.csv"),
+                  .touches = read_touches(readings_in(folder)),
                   .trace = read_trace(folder / "trace.csv"),
                   .summary = read_summary(folder / "summary.json")};
   if (outcome.summary.from_tissue)

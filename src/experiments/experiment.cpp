@@ -8,9 +8,9 @@
 
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
-#include "palpation/io/atomic_file.h"
 #include "scene/exit_code.h"
 #include "scene/progress.h"
+#include "scene/single_file.h"
 #include "scene/tissue.h"
 #include "scene/words.h"
 #include "scene/worlds.h"
@@ -118,7 +118,8 @@ std::string or_empty(const std::optional<double>& value) { return value ? text_o
 
 void write_table(const ExperimentArguments& arguments, const std::string& name,
                  const std::string& csv) {
-  if (!arguments.out.empty()) write_atomically(arguments.out / (name + ".csv"), csv);
+  if (arguments.out.empty()) return;
+  write_single_file(arguments.out / (name + ".csv"), csv, Existing::Replaced);
 }
 
 }  // namespace palpation::tool

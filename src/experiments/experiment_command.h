@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/single_file.h"
+
 namespace palpation::tool {
 
 struct ExperimentArguments {
@@ -21,7 +23,7 @@ struct ExperimentArguments {
   bool quiet = false;
 };
 
-void experiment(const ExperimentArguments& arguments);
+void experiment(const ExperimentArguments& arguments, Existing tables);
 /// The experiments that there are.
 std::vector<std::string> experiment_names();
 

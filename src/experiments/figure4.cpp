@@ -4,7 +4,7 @@
 #include "experiments/experiment.h"
 #include "experiments/paper_scene.h"
 #include "palpation/base/error.h"
-#include "scene/output_folder.h"
+#include "scene/draw_program.h"
 
 namespace palpation::tool {
 namespace {

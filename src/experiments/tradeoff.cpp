@@ -6,7 +6,7 @@
 #include "experiments/experiment.h"
 #include "experiments/peak_memory.h"
 #include "palpation/base/error.h"
-#include "scene/output_folder.h"
+#include "scene/draw_program.h"
 #include "scene/speed.h"
 #include "scene/stopwatch.h"
 #include "scene/tissue.h"

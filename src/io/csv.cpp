@@ -121,11 +121,9 @@ std::string row_fault(std::size_t cells, std::size_t columns) {
 }
 
 /// Half a number is a number too: 806.0 that was cut to 8 would be believed.
-[[noreturn]] void refuse_open_end(const std::string& name, std::int64_t line) {
-  fail_at_line(name, line,
-               "the last line has no line end, so it may have been cut short: if it is whole, end "
-               "it with a newline (echo >> FILE), else take it away");
-}
+constexpr const char* kOpenEnd = "the last line has no line end, so it may have been cut short";
+constexpr const char* kMendOpenEnd =
+    ": if it is whole, end it with a newline (echo >> FILE), else take it away";
 
 std::string_view without_mark(std::string_view text, const std::string& name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -172,7 +170,11 @@ CsvTable parse_csv(std::string_view text, const std::string& name,
       fail_at_line(name, lines.line(),
                    "a line of more than " + std::to_string(kLongestLine) + " bytes");
     if (trimmed(*line).empty()) continue;
-    if (lines.ended_without_line_end()) refuse_open_end(name, lines.line());
+    if (lines.ended_without_line_end()) {
+      if (!torn_rows) fail_at_line(name, lines.line(), std::string(kOpenEnd) + kMendOpenEnd);
+      torn_rows->push_back("line " + std::to_string(lines.line()) + ": " + kOpenEnd);
+      continue;
+    }
     const std::vector<std::string> cells = LineCutter(*line, name, lines.line()).cells();
     const int number = static_cast<int>(lines.line());
     if (table.columns_.empty()) {

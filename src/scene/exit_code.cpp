@@ -1,7 +1,7 @@
 #include "scene/exit_code.h"
 
 #include "palpation/base/error.h"
-#include "scene/progress.h"
+#include "scene/interrupt.h"
 
 namespace palpation::tool {
 namespace {

@@ -3,39 +3,17 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <utility>
+
+#include "scene/interrupt.h"
 
 namespace palpation::tool {
 namespace {
 
 constexpr int kBarWidth = 30;
-constexpr int kInterruptedCode = 130;
-volatile std::sig_atomic_t interrupted = 0;
-
-constexpr unsigned kPatience_s = 2;
-
-/// Long arithmetic does not look at the mark: then the program ends by itself. Files are renamed
-/// only when they are whole, so nothing is half-written.
-void on_interrupt(int) {
-  if (interrupted != 0) ::_exit(kInterruptedCode);
-  interrupted = 1;
-  ::alarm(kPatience_s);
-}
-
-void on_alarm(int) { ::_exit(kInterruptedCode); }
 
 }  // namespace
-
-void watch_for_interrupt() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGALRM, on_alarm);
-}
-
-void check_interrupt() {
-  if (interrupted != 0) throw Interrupted();
-}
 
 Progress::Progress(std::string what, int total, bool quiet)
     : what_(std::move(what)),

@@ -202,12 +202,4 @@ std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stop
   return words;
 }
 
-void finish_output(OutputFolder& output, bool quiet) {
-  const std::optional<std::string> no_picture = output.draw();
-  if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
-  if (quiet) return;
-  std::printf("Written to %s%s\n", output.folder().string().c_str(),
-              no_picture ? "" : ", with picture.png");
-}
-
 }  // namespace palpation::tool

@@ -6,7 +6,6 @@
 
 #include "palpation/exploration/waypoint.h"
 #include "scene/episode.h"
-#include "scene/output_folder.h"
 
 namespace palpation::tool {
 
@@ -46,8 +45,5 @@ std::string error_words(const RegionError& error, double search_area_m2,
                         const std::string& against = "Against the truth");
 /// The next stops.
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m);
-
-/// Draws the pictures, and says where all is, or why there is no picture.
-void finish_output(OutputFolder& output, bool quiet);
 
 }  // namespace palpation::tool

@@ -14,6 +14,7 @@ struct SceneArguments {
   std::vector<std::string> overrides;
   std::optional<std::uint64_t> seed;
   std::filesystem::path out;  ///< empty: nothing is written
+  bool overwrite = false;     ///< another run's results there
   bool quiet = false;
 };
 
@@ -25,10 +26,9 @@ struct InfoArguments {
 };
 
 struct MeshArguments {
-  std::string kind = "plane";  ///< of mesh_kinds()
-  std::vector<double> size_mm = {25.0, 50.0};
-  std::vector<int> vertices = {200, 200};
-  bool gives_size = false, gives_vertices = false;
+  std::string kind = "plane";     ///< of mesh_kinds()
+  std::vector<double> size_mm{};  ///< empty: 25 x 50
+  std::vector<int> vertices{};    ///< empty: 200 x 200
   double jitter = 0.0;
   std::filesystem::path around;  ///< span this recording instead
   double margin_mm = 0.0;
@@ -38,6 +38,7 @@ struct MeshArguments {
   std::uint64_t seed = 1;
   std::string unit = "mm";
   std::filesystem::path output;
+  bool overwrite = false;  ///< another mesh
 };
 
 void simulate(const SceneArguments& arguments);

@@ -85,12 +85,14 @@ void compare_boundaries(const SceneArguments& arguments, const std::filesystem::
                         const std::filesystem::path& b) {
   const Scene scene = Scene::read(arguments.scene, arguments.overrides);
   const Tissue tissue = tissue_of(scene);
-  std::optional<OutputFolder> output;
-  if (!arguments.out.empty()) output.emplace(arguments.out, scene, tissue.surface);
   std::vector<std::string> warnings = tissue.warnings;
   const Region estimate = read_region(a, tissue.surface, warnings);
   const Region truth = read_region(b, tissue.surface, warnings);
   tell(warnings);
+  std::optional<OutputFolder> output;
+  if (!arguments.out.empty())
+    output.emplace(Destination{arguments.out, "compare", arguments.overwrite}, scene,
+                   tissue.surface);
   const RegionError error = compare(tissue.surface, estimate, truth);
   if (!arguments.quiet)
     std::fputs(error_words(error, tissue.surface.area(),

@@ -8,7 +8,7 @@
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "scene/exit_code.h"
-#include "scene/progress.h"
+#include "scene/interrupt.h"
 #include "scene/scene_schema.h"
 #include "tool/commands.h"
 #include "tool/option_checks.h"
@@ -30,9 +30,17 @@ struct Arguments {
   ExperimentArguments experiment;
   std::filesystem::path measurements, a, b;
   std::vector<std::filesystem::path> recordings;
-  std::string help_topic = "scene";
+  bool overwrite = false;  // tables of an experiment
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
+
+/// An empty name, as of a variable in a script that is not set, would mean that nothing is asked
+/// for.
+void add_out(CLI::App& command, std::filesystem::path& folder, const std::string& what) {
+  command.add_option("--out", folder, what)->check([](const std::string& name) {
+    return name.empty() ? "is empty, but must name a folder" : "";
+  });
+}
 
 CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& name,
                         const std::string& what) {
@@ -41,8 +49,10 @@ CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& 
       ->add_option("SCENE", arguments.scene.scene,
                    "the scene, a JSON file (see: palpate help scene)")
       ->required();
-  command->add_option("--out", arguments.scene.out,
-                      "folder for the results; without it they are only printed");
+  add_out(*command, arguments.scene.out,
+          "folder for the results; without it they are only printed");
+  command->add_flag("--overwrite", arguments.scene.overwrite,
+                    "replace another run's results in that folder");
   command
       ->add_option(
           "--set", arguments.scene.overrides,
@@ -97,7 +107,7 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
   comparing->callback([&] { compare_boundaries(arguments.scene, arguments.a, arguments.b); });
 }
 
-void add_mesh_commands(CLI::App& app, Arguments& arguments) {
+void add_info_command(CLI::App& app, Arguments& arguments) {
   CLI::App* telling = app.add_subcommand(
       "info", "Check a mesh, or the tissue of a scene: what it supports, what to do next");
   telling
@@ -115,7 +125,9 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   telling->callback([&] { info(arguments.info); });
+}
 
+void add_mesh_command(CLI::App& app, Arguments& arguments) {
   CLI::App* making = app.add_subcommand("mesh", "Make a phantom");
   making->add_option("KIND", arguments.mesh.kind, "which")
       ->required()
@@ -124,12 +136,15 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
       ->required();
   CLI::Option* size = making
                           ->add_option("--size-mm", arguments.mesh.size_mm,
-                                       "along x (of a cylinder: along its arc) and y")
+                                       "along x (of a cylinder: along its arc) and y (25 50)")
                           ->expected(2)
+                          ->allow_extra_args(false)
                           ->check(number(1e-3, 1e6));
   CLI::Option* vertices =
-      making->add_option("--vertices", arguments.mesh.vertices, "of a plane, along x and y")
+      making
+          ->add_option("--vertices", arguments.mesh.vertices, "of a plane, along x and y (200 200)")
           ->expected(2)
+          ->allow_extra_args(false)
           ->check(whole(2, 20000));
   making
       ->add_option("--jitter", arguments.mesh.jitter,
@@ -160,11 +175,8 @@ void add_mesh_commands(CLI::App& app, Arguments& arguments) {
   making->add_option("--seed", arguments.mesh.seed, "of the jitter")->check(whole(0, kMostSeed));
   making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  making->callback([&, size, vertices] {
-    arguments.mesh.gives_size = size->count() > 0;
-    arguments.mesh.gives_vertices = vertices->count() > 0;
-    make_mesh(arguments.mesh);
-  });
+  making->add_flag("--overwrite", arguments.mesh.overwrite, "replace another mesh of that name");
+  making->callback([&] { make_mesh(arguments.mesh); });
 }
 
 void add_experiment_command(CLI::App& app, Arguments& arguments) {
@@ -194,18 +206,25 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
                       "for experiment recordings: the folder with the physical recordings");
   command->add_flag("--print-scene", arguments.experiment.print_scene,
                     "print the scene of every cell instead of running it");
-  command->add_option("--out", arguments.experiment.out, "folder for the table and the picture");
+  add_out(*command, arguments.experiment.out, "folder for the table and the picture");
+  command->add_flag("--overwrite", arguments.overwrite,
+                    "replace this experiment's tables and pictures in that folder");
   command
       ->add_option("--threads", arguments.threads,
                    "trials run at once; the results do not depend on it")
       ->check(whole(1, 1024));
   command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
-  command->callback([&] { experiment(arguments.experiment); });
+  command->callback([&] {
+    experiment(arguments.experiment, arguments.overwrite ? Existing::Replaced : Existing::Kept);
+  });
 }
 
-void add_help_command(CLI::App& app, Arguments& arguments) {
+void add_help_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("help", "Explain the keys of a scene: palpate help scene");
-  command->add_option("TOPIC", arguments.help_topic, "scene")->check(CLI::IsMember({"scene"}));
+  command
+      ->add_option_function<std::string>(
+          "TOPIC", [](const std::string&) {}, "scene")
+      ->check(CLI::IsMember({"scene"}));
   command->callback([] { std::fputs(scene_help().c_str(), stdout); });
 }
 
@@ -229,10 +248,11 @@ int run_tool(int count, char** words) {
   Arguments arguments;
   app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
   add_scene_commands(app, arguments);
-  add_mesh_commands(app, arguments);
+  add_info_command(app, arguments);
+  add_mesh_command(app, arguments);
   add_readings_command(app);
   add_experiment_command(app, arguments);
-  add_help_command(app, arguments);
+  add_help_command(app);
   for (CLI::App* command : app.get_subcommands({}))
     command->parse_complete_callback([&] { set_thread_count(arguments.threads); });
   try {

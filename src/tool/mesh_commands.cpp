@@ -10,10 +10,13 @@
 #include "palpation/base/error.h"
 #include "palpation/geometry/make_phantom.h"
 #include "palpation/geometry/make_plane.h"
+#include "palpation/io/atomic_file.h"
 #include "palpation/io/read_mesh.h"
 #include "palpation/io/recording.h"
 #include "scene/exit_code.h"
 #include "scene/mesh_words.h"
+#include "scene/run_record.h"
+#include "scene/single_file.h"
 #include "tool/commands.h"
 
 namespace palpation::tool {
@@ -24,6 +27,13 @@ namespace {
 }
 
 constexpr double kMostVertices = 16e6;
+constexpr int kVertices = 200;  // of a plane along each side, where they are not given
+
+Vec2 size_mm_of(const MeshArguments& arguments) {
+  const std::vector<double>& given = arguments.size_mm;
+  return given.empty() ? Vec2(25.0, 50.0) : Vec2(given[0], given[1]);
+}
+
 constexpr double kLeastCells = 4.0;  // across a shape, or it would not be that shape
 constexpr double kSteepest =
     100.0 / (2.0 * std::numbers::pi);  // amplitude over wavelength: 100 is the greatest slope
@@ -38,9 +48,9 @@ void check_count(double vertices, const MeshArguments& arguments) {
 TriangleMesh plane_of(const MeshArguments& arguments) {
   PlaneOptions options{.jitter = arguments.jitter};
   if (arguments.around.empty()) {
-    options.size_m = Vec2(arguments.size_mm[0], arguments.size_mm[1]) / 1000.0;
-    options.columns = arguments.vertices[0];
-    options.rows = arguments.vertices[1];
+    options.size_m = size_mm_of(arguments) / 1000.0;
+    options.columns = arguments.vertices.empty() ? kVertices : arguments.vertices[0];
+    options.rows = arguments.vertices.empty() ? kVertices : arguments.vertices[1];
   } else {
     const RecordedReadings recording = read_recording(arguments.around);
     const Vec2 margin = Vec2::Constant(arguments.margin_mm / 1000.0);
@@ -61,7 +71,7 @@ void take_mm(double& length_m, const std::optional<double>& given_mm) {
 }
 
 Sheet sheet_of(const MeshArguments& arguments) {
-  const Vec2 size_m = Vec2(arguments.size_mm[0], arguments.size_mm[1]) / 1000.0;
+  const Vec2 size_m = size_mm_of(arguments) / 1000.0;
   if (arguments.kind == "cylinder") {
     CylinderOptions options{.size_m = size_m};
     take_mm(options.radius_m, arguments.radius_mm);
@@ -87,7 +97,7 @@ Sheet sheet_of(const MeshArguments& arguments) {
   FoldedOptions options;
   take_mm(options.gap_m, arguments.gap_mm);
   take_mm(options.flank_m, arguments.flank_mm);
-  if (arguments.gives_size) options.width_m = size_m.y();
+  if (!arguments.size_mm.empty()) options.width_m = size_m.y();
   return folded_sheet(options);
 }
 
@@ -101,8 +111,8 @@ void check_options(const MeshArguments& arguments) {
     if (given && !belongs) refuse(arguments, std::string(option) + " is not among its options");
   };
   check("--around", !arguments.around.empty(), is_one_of({"plane"}));
-  check("--vertices", arguments.gives_vertices, is_one_of({"plane"}));
-  check("--size-mm", arguments.gives_size, !is_one_of({"dome"}));
+  check("--vertices", !arguments.vertices.empty(), is_one_of({"plane"}));
+  check("--size-mm", !arguments.size_mm.empty(), !is_one_of({"dome"}));
   check("--radius-mm", arguments.radius_mm.has_value(), is_one_of({"cylinder", "dome", "saddle"}));
   check("--reach-mm", arguments.reach_mm.has_value(), is_one_of({"dome"}));
   check("--amplitude-mm", arguments.amplitude_mm.has_value(), is_one_of({"wave"}));
@@ -122,7 +132,7 @@ void check_sizes(const MeshArguments& arguments) {
   };
   if (arguments.kind == "cylinder") {
     const double radius_mm = arguments.radius_mm.value_or(CylinderOptions().radius_m * 1000.0);
-    at_most("--size-mm", arguments.size_mm[0], 2.0 * kPi * radius_mm,
+    at_most("--size-mm", size_mm_of(arguments).x(), 2.0 * kPi * radius_mm,
             "once around a cylinder of --radius-mm " + text_of(radius_mm));
   }
   if (arguments.kind == "dome") {
@@ -153,6 +163,19 @@ TriangleMesh curved_of(const MeshArguments& arguments) {
   return make_phantom(sheet, edge_m, arguments.jitter, random).mesh;
 }
 
+/// The same mesh again is no loss.
+void write_without_loss(const MeshArguments& arguments, const TriangleMesh& mesh) {
+  const std::filesystem::path& output = arguments.output;
+  const LengthUnit unit = length_unit(arguments.unit);
+  remove_leftovers(output);
+  if (!std::filesystem::exists(output)) return write_mesh(output, mesh, unit);
+  write_atomically(output, [&](const std::filesystem::path& beside) {
+    write_mesh(beside, mesh, unit);
+    if (fingerprint_of_file(beside) != fingerprint_of_file(output))
+      refuse_to_replace(output, arguments.overwrite ? Existing::Replaced : Existing::Kept);
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_kinds() {
@@ -162,7 +185,7 @@ std::vector<std::string> mesh_kinds() {
 void make_mesh(const MeshArguments& arguments) {
   check_options(arguments);
   const TriangleMesh mesh = arguments.kind == "plane" ? plane_of(arguments) : curved_of(arguments);
-  write_mesh(arguments.output, mesh, length_unit(arguments.unit));
+  write_without_loss(arguments, mesh);
   std::printf("%s: %ld vertices, %ld triangles, %s\n", arguments.output.string().c_str(),
               static_cast<long>(mesh.vertices.rows()), static_cast<long>(mesh.triangles.rows()),
               size_words(mesh).c_str());

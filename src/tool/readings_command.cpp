@@ -6,12 +6,12 @@
 #include <map>
 
 #include "palpation/base/error.h"
-#include "palpation/io/atomic_file.h"
 #include "palpation/io/robot_log.h"
 #include "palpation/probing/oscillation.h"
 #include "palpation/probing/probings.h"
 #include "palpation/probing/scan.h"
 #include "scene/exit_code.h"
+#include "scene/single_file.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
@@ -160,9 +160,10 @@ void write(const ReadingsArguments& arguments, const ProbedLog& result) {
   if (std::filesystem::weakly_canonical(arguments.files.out) ==
       std::filesystem::weakly_canonical(arguments.files.log))
     throw WrongUsage("readings: --out is the log itself, which stays as it is");
-  write_atomically(arguments.files.out, probed_csv(result));
+  const Existing existing = arguments.files.overwrite ? Existing::Replaced : Existing::Kept;
   if (!arguments.files.left_out.empty())
-    write_atomically(arguments.files.left_out, left_out_csv(result));
+    write_single_file(arguments.files.left_out, left_out_csv(result), existing);
+  write_single_file(arguments.files.out, probed_csv(result), existing);
 }
 
 }  // namespace

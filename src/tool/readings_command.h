@@ -11,6 +11,7 @@ namespace palpation::tool {
 struct ReadingsFiles {
   std::filesystem::path log, out;
   std::filesystem::path left_out;  ///< may be empty
+  bool overwrite = false;          ///< other readings of these names
 };
 
 /// What the log's header leaves open.

@@ -85,6 +85,8 @@ void add_readings_command(CLI::App& app) {
   command
       ->add_option("--every-mm", arguments->every_mm, "of a scan: travel that makes a reading (1)")
       ->check(number(1e-3, 1e3));
+  command->add_flag("--overwrite", arguments->files.overwrite,
+                    "replace other files of these names");
   command->add_flag("--quiet", arguments->quiet, "no words but errors");
   command->callback([arguments] { readings(*arguments); });
 }

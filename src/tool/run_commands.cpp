@@ -1,5 +1,6 @@
 // simulate, replay, plan, boundary: a scene, and a world or measurements.
 #include <cstdio>
+#include <memory>
 
 #include "palpation/base/error.h"
 #include "palpation/io/measurements.h"
@@ -24,11 +25,12 @@ Scene scene_of(const SceneArguments& arguments) {
 
 /// Nothing where no folder is asked for. Made before anything is computed, so that one that cannot
 /// be costs no time.
-std::optional<OutputFolder> output_of(const SceneArguments& arguments, const Scene& scene,
-                                      const Tissue& tissue,
-                                      const std::vector<std::string>& warnings) {
-  if (arguments.out.empty()) return std::nullopt;
-  std::optional<OutputFolder> output(std::in_place, arguments.out, scene, tissue.surface);
+std::unique_ptr<OutputFolder> output_of(const SceneArguments& arguments, const std::string& command,
+                                        const Scene& scene, const Tissue& tissue,
+                                        const std::vector<std::string>& warnings) {
+  if (arguments.out.empty()) return nullptr;
+  auto output = std::make_unique<OutputFolder>(
+      Destination{arguments.out, command, arguments.overwrite}, scene, tissue.surface);
   for (const std::string& warning : tissue.warnings) output->warn(warning);
   for (const std::string& warning : warnings) output->warn(warning);
   return output;
@@ -56,9 +58,10 @@ MeasurementsFile measured_on(const Scene& scene, const Surface& surface,
 }
 
 /// The whole run of `simulate` and `replay`, to the files and the words.
-void run_and_report(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue,
-                    const World& world, double prepared_seconds) {
-  std::optional<OutputFolder> output = output_of(arguments, scene, tissue, world.warnings);
+void run_and_report(const SceneArguments& arguments, const std::string& command, const Scene& scene,
+                    const Tissue& tissue, const World& world, double prepared_seconds) {
+  std::unique_ptr<OutputFolder> output =
+      output_of(arguments, command, scene, tissue, world.warnings);
   tell(world.warnings);
   const Stopwatch running;
   Progress progress("Batch", scene.integer("plan.batches") + 1, arguments.quiet);
@@ -81,7 +84,7 @@ void run_and_report(const SceneArguments& arguments, const Scene& scene, const T
                  {"run_s", running_seconds - episode.start_seconds},
                  {"batches_s", episode.batch_seconds},
                  {"write_s", writing.seconds()}});
-  finish_output(*output, arguments.quiet);
+  output->finish(arguments.quiet);
 }
 
 }  // namespace
@@ -92,7 +95,7 @@ void simulate(const SceneArguments& arguments) {
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const World world = simulated_world(scene, tissue.surface);
-  run_and_report(arguments, scene, tissue, world, preparing.seconds());
+  run_and_report(arguments, "simulate", scene, tissue, world, preparing.seconds());
 }
 
 void replay(const SceneArguments& arguments, const std::vector<std::filesystem::path>& recordings) {
@@ -101,7 +104,7 @@ void replay(const SceneArguments& arguments, const std::vector<std::filesystem::
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const World world = recorded_world(scene, tissue.surface, recordings);
-  run_and_report(arguments, scene, tissue, world, preparing.seconds());
+  run_and_report(arguments, "replay", scene, tissue, world, preparing.seconds());
 }
 
 void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements) {
@@ -110,12 +113,13 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
-  std::optional<OutputFolder> output = output_of(arguments, scene, tissue, measured.warnings);
+  std::unique_ptr<OutputFolder> output =
+      output_of(arguments, "boundary", scene, tissue, measured.warnings);
   const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
   report(episode, arguments.quiet);
   if (!output) return;
-  output->write(episode, nullptr, {{"run_s", running.seconds()}});
-  finish_output(*output, arguments.quiet);
+  output->write(episode, nullptr, {{"run_s", running.seconds()}}, measured.foreign);
+  output->finish(arguments.quiet);
 }
 
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements) {
@@ -128,7 +132,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
-  std::optional<OutputFolder> output = output_of(arguments, scene, tissue, measured.warnings);
+  std::unique_ptr<OutputFolder> output =
+      output_of(arguments, "plan", scene, tissue, measured.warnings);
   const std::vector<Palpation>& palpations = measured.palpations;
   const Episode episode = episode_from(scene, tissue.surface, palpations);
   const std::vector<int> next = episode.exploration.next();
@@ -145,8 +150,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
   if (!output) return;
   output->write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);
-  output->write(episode, nullptr, {{"run_s", running.seconds()}});
-  finish_output(*output, arguments.quiet);
+  output->write(episode, nullptr, {{"run_s", running.seconds()}}, measured.foreign);
+  output->finish(arguments.quiet);
 }
 
 }  // namespace palpation::tool

@@ -43,9 +43,9 @@ TEST_F(Tables, AreRefusedWithTheLineAndTheColumn) {
   const auto refusal = [&](const std::string& text) {
     return io_error_of([&] { table(text).numbers("x"); });
   };
-  EXPECT_TRUE(contains(refusal("x,y\n1,2\n\n3\n"), "table.csv: line 4: 1 cells"));
-  EXPECT_TRUE(contains(refusal("x\n1\ntwo\n"), "table.csv: line 3: column x: 'two'"));
-  EXPECT_TRUE(contains(refusal("\n\n"), "no header"));
+  EXPECT_TRUE(contains(refusal("x,y\n1,2\n\n3\n"), "table.csv:4: 1 cell, but"));
+  EXPECT_TRUE(contains(refusal("x\n1\ntwo\n"), "table.csv:3: column x: \"two\""));
+  EXPECT_TRUE(contains(refusal("\n\n"), "the file is empty"));
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ class Tool(unittest.TestCase):
         out = self.folder / "out"
         self.done("simulate", self.scene, "--out", out)
         measured = self.write("measured.csv", (out / "measurements.csv").read_text())
-        self.done("boundary", self.scene, "--measurements", measured, "--out", out)
+        self.done("boundary", self.scene, "--measurements", measured, "--out", out, "--overwrite")
         names = {path.name for path in out.iterdir()}
         self.assertNotIn("waypoints.csv", names, "a robot must not follow the waypoints of another plan")
         self.assertNotIn("steps.pvd", names)

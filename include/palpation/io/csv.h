@@ -45,8 +45,8 @@ class CsvTable {
   std::vector<int> lines_;
 };
 
-/// Rows with more or fewer cells than the header are errors or, where the caller gives a place for
-/// their messages, left out: a log that was cut off has one at its end.
+/// Rows with more or fewer cells than the header, or without their end, are errors or, where the
+/// caller gives a place for their messages, left out: a log that was cut off has one at its end.
 CsvTable read_csv(const std::filesystem::path& path, std::vector<std::string>* torn_rows = nullptr);
 /// The same from text; `name` stands for the path in messages.
 CsvTable parse_csv(std::string_view text, const std::string& name,

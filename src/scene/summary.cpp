@@ -1,0 +1,147 @@
+#include "scene/summary.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "scene/parts.h"
+#include "scene/remarks.h"
+#include "scene/setup.h"
+
+namespace palpation::tool {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMm2 = 1e6;  // in a square metre
+constexpr double kMm = 1e3;   // in a metre
+
+json maybe(const std::optional<double>& value, double factor = 1.0) {
+  if (value.has_value()) return *value * factor;
+  return nullptr;
+}
+
+json error_json(const RegionError& error, double search_area_m2) {
+  return {{"symmetric_difference_mm2", error.symmetric_difference_m2 * kMm2},
+          {"missed_mm2", error.missed_m2 * kMm2},
+          {"extra_mm2", error.extra_m2 * kMm2},
+          {"percent_of_search_area", 100.0 * error.symmetric_difference_m2 / search_area_m2},
+          {"dice", error.dice},
+          {"hausdorff_mm", maybe(error.hausdorff_m, kMm)},
+          {"mean_distance_mm", maybe(error.mean_distance_m, kMm)}};
+}
+
+json pair_mm(const Vec2& place_m) { return {place_m.x() * kMm, place_m.y() * kMm}; }
+
+/// One part or hole, in chart millimetres.
+json place_json(const TumourPart& part) {
+  return {{"area_mm2", std::abs(part.area_m2) * kMm2},
+          {"centroid_mm", pair_mm(part.centroid_m)},
+          {"extent_mm", pair_mm(part.most_m - part.least_m)}};
+}
+
+json part_json(const TumourPart& part, const Surface& surface) {
+  json result = place_json(part);
+  result["position_mm"] = {part.position_m.x() * kMm, part.position_m.y() * kMm,
+                           part.position_m.z() * kMm};
+  result["probability"] = part.probability;
+  result["touches_border"] = part.touches_border;
+  result["holes"] = json::array();
+  for (const Ring& hole : part.polygon.holes)
+    result["holes"].push_back(place_json(measured(hole, surface)));
+  return result;
+}
+
+/// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is
+/// known of a boundary.
+void add_certainty(json& summary, const Episode& episode, double cut_risk) {
+  for (const char* key : {"expected_missed_mm2", "expected_extra_mm2", "band", "cut"})
+    summary[key] = nullptr;
+  const std::optional<Certainty>& certainty = episode.exploration.certainty();
+  if (!certainty || episode.exploration.tip_hides_all()) return;
+  const Surface& surface = episode.exploration.surface();
+  const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
+  summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
+  summary["expected_extra_mm2"] = certainty->expected.extra_m2 * kMm2;
+  summary["band"] = {{"probability", certainty->probability},
+                     {"score", q},
+                     {"half_width_mm", certainty->half_width_m * kMm},
+                     {"inner_area_mm2", superlevel_area(surface, certainty->score, q) * kMm2},
+                     {"outer_area_mm2", superlevel_area(surface, certainty->score, -q) * kMm2}};
+  summary["cut"] = {{"risk", cut_risk},
+                    {"score", cut},
+                    {"area_mm2", superlevel_area(surface, certainty->score, cut) * kMm2}};
+}
+
+/// What is in force of field.reduced_rank: null where the belief is exact.
+json reduced_rank_json(const Belief& belief) {
+  const std::optional<ReducedRank> reduced = belief.reduced_rank();
+  if (!reduced) return nullptr;
+  return {{"rank", reduced->rank},
+          {"mean_off_at_most", reduced->mean_error},
+          {"variance_off_at_most", reduced->variance_error}};
+}
+
+}  // namespace
+
+json summary_of(const Episode& episode, const Scene& scene, std::vector<std::string> warnings) {
+  const Exploration& exploration = episode.exploration;
+  const Surface& surface = exploration.surface();
+  json parts = json::array();
+  for (const TumourPart& part : parts_of(episode)) parts.push_back(part_json(part, surface));
+  const std::optional<Level>& level = exploration.level();
+  const std::vector<std::string> remarks = boundary_remarks(episode);
+  warnings.insert(warnings.end(), remarks.begin(), remarks.end());
+  json result = {
+      {"version", 1},
+      {"scene", scene.name()},
+      {"seed", scene.seed()},
+      {"options", scene.complete()},
+      {"computed", surface.computed()},
+      {"vertices", surface.vertex_count()},
+      {"measurements", exploration.palpations().size()},
+      {"search_area_mm2", surface.area() * kMm2},
+      {"level", level ? json(level->value) : json(nullptr)},
+      {"level_sd", level ? maybe(level->stddev) : json(nullptr)},
+      {"area_mm2", surface_area(surface, episode.estimate) * kMm2},
+      {"parts", parts},
+      {"expected_error_mm2",
+       episode.trace.empty() ? json(nullptr) : maybe(episode.trace.back().expected_error_m2, kMm2)},
+      {"path_mm", episode.path_m * kMm},
+      {"learned",
+       {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
+        {"signal_sd", exploration.belief().signal_sd()},
+        {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
+      {"precision", exploration.belief().options().single_precision ? "single" : "double"},
+      {"reduced_rank", reduced_rank_json(exploration.belief())},
+      {"warnings", warnings},
+      {"stop_reason", episode.stop_reason().empty() ? json(nullptr) : json(episode.stop_reason())},
+      {"chart_hash", surface.chart().hash()}};
+  if (field_of(scene).probe.has_lag()) {
+    result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
+    result["lag_sd_mm"] =
+        exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
+  }
+  const bool found = !episode.estimate.empty();
+  const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
+  result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;
+  result["no_other_wider_than_mm"] = found ? ruled_out : json(nullptr);
+  add_certainty(result, episode, scene.number("band.cut_risk"));
+  if (episode.truth) {
+    result["truth_is"] = episode.truth_is;
+    result["error"] = episode.error ? error_json(*episode.error, surface.area()) : json(nullptr);
+  }
+  return result;
+}
+
+json comparison_of(const RegionError& error, const Scene& scene, const Surface& surface,
+                   const std::vector<std::string>& warnings) {
+  return {{"version", 1},
+          {"scene", scene.name()},
+          {"search_area_mm2", surface.area() * kMm2},
+          {"error", error_json(error, surface.area())},
+          {"warnings", warnings},
+          {"chart_hash", surface.chart().hash()}};
+}
+
+}  // namespace palpation::tool
