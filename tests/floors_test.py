@@ -33,7 +33,7 @@ ROOFS = {"src/tool/main.cpp"}  # a program's main puts the siblings of its floor
 # Third party: how its headers are spelled, and the folders whose sources may use it. Boost also comes with CGAL, as the language of its graphs.
 THIRD_PARTIES = {
     "OpenMesh": (r"OpenMesh/", {"geometry"}),
-    "Boost.Math": (r"boost/math/", {"base"}),
+    "Boost.Math": (r"boost/math/", {"base", "experiments"}),
     "CGAL": (r"CGAL/|boost/", {"geometry", "boundary"}),
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),

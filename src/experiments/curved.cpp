@@ -1,11 +1,14 @@
 // experiment curved: tumours on curved tissue, by each metric of the field; which to choose, and
 // what it costs.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 
+#include "experiments/digest.h"
 #include "experiments/experiment.h"
 #include "experiments/paper_scene.h"
 #include "palpation/base/error.h"
@@ -89,20 +92,6 @@ json curved_scene() {
   return scene;
 }
 
-/// One line of the table.
-struct Row {
-  std::size_t tissue = 0;
-  std::string shape, metric;
-  Scene scene;
-};
-
-struct Outcome {
-  double error_m2 = 0.0;
-  std::optional<double> mean_distance_m{};
-  std::vector<double> errors_m2{};  ///< after every batch
-  double batch_s = 0.0;             ///< the median
-};
-
 /// From a mesh to the first prior of the metric, chart or spectrum included.
 double seconds_to_prepare(const TriangleMesh& mesh, const Scene& scene) {
   const Surface fresh(mesh);
@@ -117,52 +106,72 @@ double seconds_to_prepare(const TriangleMesh& mesh, const Scene& scene) {
   return watch.seconds();
 }
 
-Outcome outcome_of(const Scene& scene, const Surface& surface) {
-  const Episode episode = run_episode(scene, surface, simulated_world(scene, surface));
-  Outcome outcome;
-  for (const TraceRow& row : episode.trace)
-    outcome.errors_m2.push_back(row.error ? row.error->symmetric_difference_m2 : surface.area());
-  outcome.error_m2 = outcome.errors_m2.back();
-  if (episode.error) outcome.mean_distance_m = episode.error->mean_distance_m;
-  outcome.batch_s = median(episode.batch_seconds);
-  return outcome;
-}
+/// A phantom and its surface, made when they are first asked for.
+class LazySheet {
+ public:
+  explicit LazySheet(std::function<TriangleMesh()> make)
+      : state_(std::make_shared<State>(std::move(make))) {}
+  const TriangleMesh& mesh() const { return made().mesh; }
+  const Surface& surface() const { return *made().surface; }
 
-std::vector<double> errors_of(const std::vector<Outcome>& trials) {
-  std::vector<double> values;
-  for (const Outcome& trial : trials) values.push_back(trial.error_m2 * kMm2);
-  return values;
-}
-
-std::vector<double> distances_of(const std::vector<Outcome>& trials) {
-  std::vector<double> values;
-  for (const Outcome& trial : trials) {
-    if (trial.mean_distance_m) values.push_back(*trial.mean_distance_m * 1e3);
+ private:
+  struct State {
+    explicit State(std::function<TriangleMesh()> how) : make(std::move(how)) {}
+    std::function<TriangleMesh()> make;
+    std::once_flag once;
+    TriangleMesh mesh;
+    std::optional<Surface> surface;
+  };
+  const State& made() const {
+    std::call_once(state_->once, [&] {
+      state_->mesh = state_->make();
+      state_->surface.emplace(state_->mesh);
+    });
+    return *state_;
   }
-  return values;
+  std::shared_ptr<State> state_;
+};
+
+Figures outcome_of(const Scene& scene, const Surface& surface) {
+  const Episode episode = run_episode(scene, surface, simulated_world(scene, surface));
+  std::vector<double> errors_mm2;
+  for (const TraceRow& row : episode.trace)
+    errors_mm2.push_back(kMm2 * (row.error ? row.error->symmetric_difference_m2 : surface.area()));
+  Figures figures;
+  figures.set("error_mm2", errors_mm2.back())
+      .set("errors_mm2", list_text(errors_mm2))
+      .set("batch_s", median(episode.batch_seconds));
+  if (episode.error && episode.error->mean_distance_m)
+    figures.set("mean_distance_mm", *episode.error->mean_distance_m * 1e3);
+  return figures;
 }
 
-std::vector<double> batches_of(const std::vector<Outcome>& trials) {
-  std::vector<double> values;
-  for (const Outcome& trial : trials) values.push_back(trial.batch_s);
-  return values;
+/// What the metric takes before the first touch, and what the chart does to the tissue.
+Figures preparation_of(const Scene& scene, const LazySheet& sheet) {
+  const Distortion& distortion = sheet.surface().chart().distortion;
+  return Figures()
+      .set("prepare_s", seconds_to_prepare(sheet.mesh(), scene))
+      .set("least_stretch", distortion.least_stretch)
+      .set("greatest_stretch", distortion.greatest_stretch)
+      .set("stretch_words", stretch_words(distortion));
 }
 
 /// How the error falls on one tissue, a curve per metric.
-void draw(const ExperimentArguments& arguments, const std::string& tissue,
-          const std::vector<Row>& rows, std::size_t first,
-          const std::vector<std::vector<Outcome>>& outcomes) {
+void draw(const std::string& tissue, const std::vector<std::vector<Figures>>& curves,
+          const ReportFolder& folder) {
   std::string csv = "readings";
   for (const std::string& metric : kMetrics) csv += "," + metric + "," + metric + "_se";
   csv += "\n";
-  const int initial = rows[first].scene.integer("plan.initial.count"),
-            batch = rows[first].scene.integer("plan.batch");
-  for (std::size_t step = 0; step < outcomes[first].front().errors_m2.size(); ++step) {
-    csv += std::to_string(initial + batch * static_cast<int>(step));
-    for (std::size_t metric = 0; metric < kMetrics.size(); ++metric) {
+  const Figures& first = curves.front().front();
+  const std::size_t steps = listed(first, "errors_mm2").size();
+  for (std::size_t step = 0; step < steps; ++step) {
+    csv += text_of(first.number("initial") + first.number("batch") * static_cast<double>(step));
+    for (const std::vector<Figures>& trials : curves) {
       std::vector<double> values;
-      for (const Outcome& trial : outcomes[first + metric])
-        values.push_back(trial.errors_m2[std::min(step, trial.errors_m2.size() - 1)] * kMm2);
+      for (const Figures& trial : trials) {
+        const std::vector<double> errors = listed(trial, "errors_mm2");
+        values.push_back(errors[std::min(step, errors.size() - 1)]);
+      }
       const Statistics result = statistics(values);
       csv += "," + text_of(result.mean) + "," + or_empty(result.standard_error);
     }
@@ -171,21 +180,34 @@ void draw(const ExperimentArguments& arguments, const std::string& tissue,
   std::string name = "curved_" + tissue;
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == ' ' || c == ','; }, '_');
-  write_table(arguments, name, csv);
-  const auto no_picture = run_draw({"--curves", (arguments.out / (name + ".csv")).string(),
-                                    (arguments.out / (name + ".png")).string(), "--log-y",
-                                    "--title", tissue + ", disk, noise 5 %", "--x-label",
-                                    "readings", "--y-label", "wrong area on the tissue, mm2"});
-  if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
+  folder.write(name, csv);
+  folder.draw(name, {"--log-y", "--title", tissue + ", disk, noise 5 %", "--x-label", "readings",
+                     "--y-label", "wrong area on the tissue, mm2"});
 }
+
+/// Curves of the disk, of each tissue that has them for all metrics.
+void draw_all(const Results& results, const ReportFolder& folder) {
+  std::map<std::string, std::vector<std::vector<Figures>>> by_tissue;
+  for (std::size_t cell = 0; cell < results.manifest.cells.size(); ++cell) {
+    const std::vector<Figures> trials = results.of(cell);
+    if (trials.front().has("error_mm2") && trials.front().word("error_mm2") != "" &&
+        trials.front().word("shape") == kPaperShapes[0])
+      by_tissue[trials.front().word("tissue")].push_back(trials);
+  }
+  for (const auto& [tissue, curves] : by_tissue) {
+    if (curves.size() == kMetrics.size()) draw(tissue, curves, folder);
+  }
+}
+
+constexpr const char* kPreparing = "before the first touch: ";
 
 }  // namespace
 
-void curved(const ExperimentArguments& arguments) {
+Study curved_study(const ExperimentArguments& arguments) {
   const Scene base = base_scene(arguments, curved_scene());
   const std::vector<Sheeted> all = tissues();
-  std::vector<Row> rows;
-  std::vector<Cell> cells;
+  Study study;
+  std::vector<std::size_t> tissue_of_cell;
   for (std::size_t tissue = 0; tissue < all.size(); ++tissue) {
     for (const std::string& shape : kPaperShapes) {
       for (const std::string& metric : kMetrics) {
@@ -194,66 +216,71 @@ void curved(const ExperimentArguments& arguments) {
         const Vec3 centre_mm = shape == "disk" ? all[tissue].disk_mm : all[tissue].horseshoe_mm;
         const Scene scene =
             base.with("field.metric", metric).with("probe.tumours", tumour_at(shape, centre_mm));
-        rows.push_back({tissue, shape, metric, scene});
-        cells.push_back({name, scene});
+        const Figures labels = Figures()
+                                   .set("tissue", all[tissue].name)
+                                   .set("shape", shape)
+                                   .set("metric", metric)
+                                   .set("initial", scene.number("plan.initial.count"))
+                                   .set("batch", scene.number("plan.batch"));
+        study.cells.push_back({name, scene, labels});
+        study.cells.push_back({kPreparing + name, scene, labels, 1, true});
+        tissue_of_cell.insert(tissue_of_cell.end(), {tissue, tissue});
       }
     }
   }
-  refuse_no_cell(cells.size(), arguments);
-  if (printed_scenes(cells, arguments)) return;
+  study.columns = label_columns(study.cells);
+  study.columns.insert(study.columns.end(),
+                       {"error_mm2", "errors_mm2", "mean_distance_mm", "batch_s", "prepare_s",
+                        "least_stretch", "greatest_stretch", "stretch_words"});
+  std::vector<LazySheet> sheets;
+  for (const Sheeted& tissue : all) sheets.emplace_back(tissue.mesh);
+  study.mesh_digest = [=](std::size_t cell) { return digest(sheets[tissue_of_cell[cell]].mesh()); };
+  study.run = [=, cells = study.cells](std::size_t cell, std::uint64_t seed) {
+    const LazySheet& sheet = sheets[tissue_of_cell[cell]];
+    return std::vector{cells[cell].alone
+                           ? preparation_of(cells[cell].scene, sheet)
+                           : outcome_of(cells[cell].scene.with("seed", seed), sheet.surface())};
+  };
+  return study;
+}
 
-  std::vector<TriangleMesh> meshes;
-  std::vector<Surface> surfaces;
-  for (const Sheeted& tissue : all) {
-    meshes.push_back(tissue.mesh());
-    surfaces.emplace_back(meshes.back());
-  }
-  std::vector<std::vector<Outcome>> outcomes(
-      rows.size(), std::vector<Outcome>(static_cast<std::size_t>(arguments.trials)));
-  for_trials(rows.size(), arguments, [&](std::size_t row, std::size_t trial, std::uint64_t seed) {
-    outcomes[row][trial] =
-        outcome_of(rows[row].scene.with("seed", seed), surfaces[rows[row].tissue]);
-  });
-
+void report_curved(const Results& results, const ReportFolder& folder) {
+  const Figures& any = results.rows.front().figures;
+  const std::size_t batches = listed(any, "errors_mm2").size() - 1;
   std::printf(
-      "\nWrong area on the tissue after %d readings, noise 5 %%: mean +- standard error of %d "
+      "\nWrong area on the tissue after %g readings, noise 5 %%: mean +- standard error of %d "
       "trials\n",
-      base.integer("plan.initial.count") +
-          base.integer("plan.batch") * base.integer("plan.batches"),
-      arguments.trials);
+      any.number("initial") + any.number("batch") * static_cast<double>(batches), results.trials());
   std::printf("%-20s%-11s%-11s%16s%10s%10s%10s%10s   %s\n", "tissue", "shape", "metric", "mm2",
               "of flat", "mm apart", "ready s", "batch s", "laid flat");
-  std::string csv =
-      "tissue,shape,metric,trials,error_mm2,standard_error,of_flat,mean_distance_mm,prepare_s,"
-      "batch_s,least_stretch,greatest_stretch\n";
-  std::array<std::optional<double>, 2> flat{};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
-    const std::size_t shape = row.shape == kPaperShapes[0] ? 0 : 1;
-    const Statistics error = statistics(errors_of(outcomes[i]));
-    if (row.tissue == 0 && row.metric == "chart") flat[shape] = error.mean;
+  std::string csv = std::string("tissue,shape,metric,trials,error_mm2,") + kStatisticsColumns +
+                    ",of_flat,mean_distance_mm,least_stretch,greatest_stretch\n";
+  std::string times = "tissue,shape,metric,prepare_s,batch_s\n";
+  std::map<std::string, double> flat;  // by shape
+  for (std::size_t cell = 0; cell < results.manifest.cells.size(); cell += 2) {
+    const std::vector<Figures> trials = results.of(cell);
+    const Figures preparation = results.of(cell + 1).front();
+    const std::string tissue = preparation.word("tissue"), shape = preparation.word("shape"),
+                      metric = preparation.word("metric");
+    const Statistics error = statistics(trials, "error_mm2");
+    if (tissue == "plane" && metric == "chart") flat[shape] = error.mean;
     const std::optional<double> of_flat =
-        flat[shape] ? std::optional(error.mean / *flat[shape]) : std::nullopt;
-    const double distance = statistics(distances_of(outcomes[i])).mean,
-                 batch_s = median(batches_of(outcomes[i]));
-    const double prepare_s = seconds_to_prepare(meshes[row.tissue], row.scene);
-    const Distortion& distortion = surfaces[row.tissue].chart().distortion;
-    std::printf("%-20s%-11s%-11s%s%10s%10.3f%10.2f%10.3f   %s\n", all[row.tissue].name.c_str(),
-                row.shape.c_str(), row.metric.c_str(), in_words(error).c_str(),
-                or_dash(of_flat).c_str(), distance, prepare_s, batch_s,
-                row.metric == "chart" ? stretch_words(distortion).c_str() : "");
-    csv += "\"" + all[row.tissue].name + "\"," + row.shape + "," + row.metric + "," +
-           std::to_string(arguments.trials) + "," + text_of(error.mean) + "," +
-           or_empty(error.standard_error) + "," + or_empty(of_flat) + "," + text_of(distance) +
-           "," + text_of(prepare_s) + "," + text_of(batch_s) + "," +
-           text_of(distortion.least_stretch) + "," + text_of(distortion.greatest_stretch) + "\n";
+        flat.contains(shape) ? std::optional(error.mean / flat[shape]) : std::nullopt;
+    const double distance = statistics(trials, "mean_distance_mm").mean;
+    const double batch_s = median(values_of(trials, "batch_s"));
+    std::printf("%-20s%-11s%-11s%s%10s%10.3f%10.2f%10.3f   %s\n", tissue.c_str(), shape.c_str(),
+                metric.c_str(), in_words(error).c_str(), or_dash(of_flat).c_str(), distance,
+                preparation.number("prepare_s"), batch_s,
+                metric == "chart" ? preparation.word("stretch_words").c_str() : "");
+    const std::string start = "\"" + tissue + "\"," + shape + "," + metric + ",";
+    csv += start + std::to_string(trials.size()) + "," + csv_of(error) + "," + or_empty(of_flat) +
+           "," + text_of(distance) + "," + preparation.word("least_stretch") + "," +
+           preparation.word("greatest_stretch") + "\n";
+    times += start + preparation.word("prepare_s") + "," + text_of(batch_s) + "\n";
   }
-  write_table(arguments, "curved", csv);
-  if (arguments.out.empty() || !arguments.only.empty()) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].shape == kPaperShapes[0] && rows[i].metric == kMetrics[0])
-      draw(arguments, all[rows[i].tissue].name, rows, i, outcomes);
-  }
+  folder.write("curved", csv);
+  folder.write("curved_times", times);
+  draw_all(results, folder);
 }
 
 }  // namespace palpation::tool

@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "experiments/experiment.h"
+#include "experiments/lazy_tissue.h"
 #include "experiments/paper_scene.h"
 #include "palpation/base/error.h"
 #include "palpation/world/tumour.h"
-#include "scene/tissue.h"
 #include "scene/words.h"
 #include "scene/worlds.h"
 
@@ -25,14 +25,6 @@ constexpr double kLargeRadius_m = 0.006, kSmallRadius_m = 0.003;
 /// Between the two outlines: nearer, they are one to any probe.
 constexpr double kLeastGap_m = 0.004;
 constexpr int kBatchesOfTwo = 14;  // of 10 after 15 readings: 155
-
-struct Run {
-  std::string row;
-  std::uint64_t seed = 0;
-  double noise = 0.0;
-  std::optional<double> ruled_out_m{};  ///< diameter, of healthy tissue
-  bool good = false;                    ///< nothing found, found, both found
-};
 
 Episode episode_of(const Scene& scene, const Surface& surface) {
   return run_episode(scene, surface, simulated_world(scene, surface));
@@ -61,26 +53,36 @@ bool overlaps(const Surface& surface, const Episode& episode, const json& disk,
   return areas.both_m2 > least_share * region.area();
 }
 
-/// Healthy tissue, and the same run with a tumour of the diameter that it ruled out.
-std::array<Run, 2> healthy_and_planted(const Scene& base, const Surface& surface,
-                                       std::uint64_t seed) {
-  const Scene scene = base.with("seed", seed);
-  const Episode healthy = episode_of(scene, surface);
-  std::array<Run, 2> runs = {
-      Run{.row = "healthy", .seed = seed, .noise = base.number("probe.noise")},
-      Run{.row = "planted", .seed = seed, .noise = base.number("probe.noise")}};
-  runs[0].good = healthy.estimate.empty();
-  if (runs[0].good) runs[0].ruled_out_m = runs[1].ruled_out_m = diameter_ruled_out_m(healthy);
-  if (!runs[0].ruled_out_m) return runs;
-  Random random(seed ^ kPlaceStream);
-  const json disks =
-      json::array({disk_at(random_place(random, surface, 0.0), 0.5 * *runs[0].ruled_out_m)});
-  runs[1].good =
-      overlaps(surface, episode_of(scene.with("probe.tumours", disks), surface), disks[0], 0.0);
-  return runs;
+Figures figures_of(const char* row, double noise, const std::optional<double>& diameter_m,
+                   bool good) {
+  return Figures()
+      .set("row", row)
+      .set("noise", noise)
+      .set("diameter_mm", diameter_m ? std::optional(*diameter_m * 1e3) : std::nullopt)
+      .set("good", good);
 }
 
-Run two_tumours(const Scene& base, const Surface& surface, std::uint64_t seed) {
+/// Healthy tissue, in which nothing should be found, and the same run with a tumour of the diameter
+/// that it ruled out, which should.
+std::vector<Figures> healthy_and_planted(const Scene& base, const Surface& surface,
+                                         std::uint64_t seed) {
+  const Scene scene = base.with("seed", seed);
+  const double noise = base.number("probe.noise");
+  const Episode healthy = episode_of(scene, surface);
+  const bool nothing_found = healthy.estimate.empty();
+  const std::optional<double> ruled_out_m =
+      nothing_found ? diameter_ruled_out_m(healthy) : std::nullopt;
+  std::vector<Figures> rows = {figures_of("healthy", noise, ruled_out_m, nothing_found)};
+  if (!ruled_out_m) return rows;
+  Random random(seed ^ kPlaceStream);
+  const json disks = json::array({disk_at(random_place(random, surface, 0.0), 0.5 * *ruled_out_m)});
+  const Episode planted = episode_of(scene.with("probe.tumours", disks), surface);
+  rows.push_back(
+      figures_of("planted", noise, ruled_out_m, overlaps(surface, planted, disks[0], 0.0)));
+  return rows;
+}
+
+std::vector<Figures> two_tumours(const Scene& base, const Surface& surface, std::uint64_t seed) {
   Random random(seed ^ kPlaceStream);
   const Vec2 large = random_place(random, surface, kLargeRadius_m + 0.001);
   Vec2 small = random_place(random, surface, kSmallRadius_m + 0.001);
@@ -88,80 +90,81 @@ Run two_tumours(const Scene& base, const Surface& surface, std::uint64_t seed) {
     small = random_place(random, surface, kSmallRadius_m + 0.001);
   const json disks = json::array({disk_at(large, kLargeRadius_m), disk_at(small, kSmallRadius_m)});
   const Episode episode = episode_of(base.with("seed", seed).with("probe.tumours", disks), surface);
-  Run run{.row = "two", .seed = seed, .noise = base.number("probe.noise")};
-  run.good = overlaps(surface, episode, disks[0], 0.5) && overlaps(surface, episode, disks[1], 0.5);
-  return run;
+  const bool both =
+      overlaps(surface, episode, disks[0], 0.5) && overlaps(surface, episode, disks[1], 0.5);
+  return {figures_of("two", base.number("probe.noise"), std::nullopt, both)};
 }
 
-void report(const std::vector<Run>& runs, const std::string& row, const std::string& words) {
+/// The rows of this kind, a line per noise; returns their lines of the table.
+std::string report_rows(const Results& results, const std::string& row, const std::string& words) {
   std::printf("%s\n", words.c_str());
+  std::string csv;
   for (const double noise : kNoises) {
-    int count = 0, good = 0;
-    std::vector<double> diameters;
-    for (const Run& run : runs) {
-      if (run.row != row || run.noise != noise) continue;
-      ++count;
-      good += run.good;
-      if (run.ruled_out_m) diameters.push_back(*run.ruled_out_m * 1e3);
+    std::vector<Figures> runs;
+    for (const Row& one : results.rows) {
+      if (one.figures.word("row") == row && one.figures.number("noise") == noise)
+        runs.push_back(one.figures);
     }
-    if (count == 0) continue;
+    if (runs.empty()) continue;
+    const int count = static_cast<int>(runs.size());
+    const auto good = static_cast<int>(
+        std::ranges::count_if(runs, [](const Figures& run) { return run.flag("good"); }));
+    const std::vector<double> diameters = values_of(runs, "diameter_mm");
+    const Interval interval = wilson_interval(good, count);
     std::printf("  noise %2.0f %%: %d of %d, %.1f %%", 100.0 * noise, good, count,
                 100.0 * good / count);
     if (!diameters.empty())
       std::printf("; diameter %.1f mm on average", statistics(diameters).mean);
     std::printf("\n");
-  }
-}
-
-std::string csv_of(const std::vector<Run>& runs) {
-  std::string csv = "row,seed,noise,diameter_mm,good\n";
-  for (const Run& run : runs) {
-    csv += run.row + "," + std::to_string(run.seed) + "," + text_of(run.noise) + "," +
-           (run.ruled_out_m ? text_of(*run.ruled_out_m * 1e3) : "") + "," + (run.good ? "1" : "0") +
-           "\n";
+    csv += row + "," + text_of(noise) + "," + std::to_string(count) + "," + std::to_string(good) +
+           "," + text_of(interval.low) + "," + text_of(interval.high) + "," +
+           (diameters.empty() ? "" : text_of(statistics(diameters).mean)) + "\n";
   }
   return csv;
 }
 
+/// The paper's search area, unless a scene is given: 155 touches of a larger one leave gaps as wide
+/// as the small tumour.
+Scene scene_of_two(const Scene& base, bool is_given) {
+  return (is_given ? base
+                   : base.with("surface.plane.size_mm", {25, 50})
+                         .with("surface.plane.vertices", {51, 101}))
+      .with("plan.initial.count", 15)
+      .with("plan.batches", kBatchesOfTwo);
+}
+
 }  // namespace
 
-void detection(const ExperimentArguments& arguments) {
+Study detection_study(const ExperimentArguments& arguments) {
   const Scene base = base_scene(arguments, random_tumours_scene());
-  const Tissue tissue = tissue_of(base);
-  // The paper's search area, unless a scene is given: 155 touches of a larger one leave gaps as
-  // wide as the small tumour.
-  const Scene longer =
-      (arguments.scene.empty()
-           ? base.with("surface.plane.size_mm", {25, 50}).with("surface.plane.vertices", {51, 101})
-           : base)
-          .with("plan.initial.count", 15)
-          .with("plan.batches", kBatchesOfTwo);
-  const Tissue tissue_of_two = tissue_of(longer);
-  std::vector<Cell> cells;
+  const Scene longer = scene_of_two(base, !arguments.scene.empty());
+  Study study;
   for (const double noise : kNoises)
-    cells.push_back(
+    study.cells.push_back(
         {"healthy and planted, noise " + text_of(noise), base.with("probe.noise", noise)});
   for (const double noise : kNoisesOfTwo)
-    cells.push_back({"two tumours, noise " + text_of(noise), longer.with("probe.noise", noise)});
-  if (printed_scenes(cells, arguments)) return;
-  std::vector<std::vector<Run>> found(cells.size() * static_cast<std::size_t>(arguments.trials));
-  for_trials(cells.size(), arguments, [&](std::size_t cell, std::size_t trial, std::uint64_t seed) {
-    std::vector<Run>& runs = found[cell * static_cast<std::size_t>(arguments.trials) + trial];
-    if (cell < kNoises.size()) {
-      for (const Run& run : healthy_and_planted(cells[cell].scene, tissue.surface, seed)) {
-        if (run.row == "healthy" || run.ruled_out_m) runs.push_back(run);
-      }
-    } else {
-      runs.push_back(two_tumours(cells[cell].scene, tissue_of_two.surface, seed));
-    }
-  });
-  std::vector<Run> runs;
-  for (const std::vector<Run>& some : found) runs.insert(runs.end(), some.begin(), some.end());
-  report(runs, "healthy", "Healthy tissue: nothing found");
-  report(runs, "planted", "A tumour of the diameter that was ruled out: found");
-  report(runs, "two",
-         "Two tumours, of radius 6 and 3 mm, 155 readings: both found, half of each at least");
-  write_table(arguments, "detection", csv_of(runs));
+    study.cells.push_back(
+        {"two tumours, noise " + text_of(noise), longer.with("probe.noise", noise)});
+  study.columns = {"row", "noise", "diameter_mm", "good"};
+  const LazyTissue tissue(base), tissue_of_two(longer);
+  study.mesh_digest = [=](std::size_t cell) {
+    return (cell < kNoises.size() ? tissue : tissue_of_two).mesh_digest();
+  };
+  study.run = [=, cells = study.cells](std::size_t cell, std::uint64_t seed) {
+    return cell < kNoises.size() ? healthy_and_planted(cells[cell].scene, tissue.surface(), seed)
+                                 : two_tumours(cells[cell].scene, tissue_of_two.surface(), seed);
+  };
+  return study;
+}
+
+void report_detection(const Results& results, const ReportFolder& folder) {
+  std::string csv = "row,noise,runs,good,good_low_95,good_high_95,diameter_mm\n";
+  csv += report_rows(results, "healthy", "Healthy tissue: nothing found");
+  csv += report_rows(results, "planted", "A tumour of the diameter that was ruled out: found");
+  csv += report_rows(
+      results, "two",
+      "Two tumours, of radius 6 and 3 mm, 155 readings: both found, half of each at least");
+  folder.write("detection", csv);
 }
 
 }  // namespace palpation::tool

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <mutex>
+#include <sstream>
 
+#include "experiments/lazy_tissue.h"
 #include "palpation/base/error.h"
-#include "palpation/base/parallel.h"
 #include "scene/exit_code.h"
-#include "scene/progress.h"
-#include "scene/single_file.h"
 #include "scene/tissue.h"
 #include "scene/words.h"
 #include "scene/worlds.h"
@@ -42,48 +40,55 @@ void refuse_no_cell(std::size_t cells, const ExperimentArguments& arguments) {
 bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& arguments) {
   if (!arguments.print_scene) return false;
   json all = json::array();
-  for (const Cell& cell : cells)
-    all.push_back({{"cell", cell.name}, {"scene", cell.scene.given()}});
+  for (const Cell& cell : cells) {
+    if (!cell.alone) all.push_back({{"cell", cell.name}, {"scene", cell.scene.given()}});
+  }
   std::printf("%s\n", all.dump(2, ' ', false, json::error_handler_t::replace).c_str());
   return true;
 }
 
-void for_trials(std::size_t cells, const ExperimentArguments& arguments, const Trial& run) {
-  const int runs = static_cast<int>(cells) * arguments.trials;
-  Progress progress("Runs", runs, arguments.quiet);
-  std::mutex progress_guard;
-  int done = 0;
-  for_ranges(runs, 1, [&](int first, int last) {
-    for (int number = first; number < last; ++number) {
-      const int trial = number % arguments.trials;
-      run(static_cast<std::size_t>(number / arguments.trials), static_cast<std::size_t>(trial),
-          arguments.first_seed + static_cast<std::uint64_t>(trial));
-      const std::lock_guard lock(progress_guard);
-      if (++done % std::max(1, runs / 100) == 0 || done == runs) progress.step(done, "");
+std::vector<std::string> label_columns(std::span<const Cell> cells) {
+  std::vector<std::string> columns;
+  for (const Cell& cell : cells) {
+    for (const auto& [name, text] : cell.labels.texts()) {
+      if (std::ranges::find(columns, name) == columns.end()) columns.push_back(name);
     }
-  });
+  }
+  return columns;
 }
 
-Errors run_trials(std::span<const Cell> cells, const ExperimentArguments& arguments) {
-  const Tissue tissue = tissue_of(cells.front().scene);
-  const Surface& surface = tissue.surface;
-  Errors errors(cells.size(),
-                std::vector<std::vector<double>>(static_cast<std::size_t>(arguments.trials)));
-  for_trials(cells.size(), arguments, [&](std::size_t cell, std::size_t trial, std::uint64_t seed) {
+std::string list_text(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : " ") + text_of(value);
+  return text;
+}
+
+std::vector<double> listed(const Figures& figures, const std::string& name) {
+  std::istringstream text(figures.word(name));
+  std::vector<double> values;
+  for (std::string word; text >> word;) values.push_back(Figures().set(name, word).number(name));
+  return values;
+}
+
+Study error_study(std::vector<Cell> cells) {
+  Study study{.cells = std::move(cells)};
+  study.columns = label_columns(study.cells);
+  study.columns.insert(study.columns.end(), {"error_percent", "errors_percent"});
+  if (study.cells.empty()) return study;
+  const LazyTissue tissue(study.cells.front().scene);
+  study.mesh_digest = [tissue](std::size_t) { return tissue.mesh_digest(); };
+  study.run = [tissue, cells = study.cells](std::size_t cell, std::uint64_t seed) {
+    const Surface& surface = tissue.surface();
     const Scene scene = cells[cell].scene.with("seed", seed);
     const Episode episode = run_episode(scene, surface, simulated_world(scene, surface));
-    for (const TraceRow& row : episode.trace) {
-      errors[cell][trial].push_back(
-          row.error ? 100.0 * row.error->symmetric_difference_m2 / surface.area() : 100.0);
-    }
-  });
-  return errors;
-}
-
-std::vector<double> finals(const std::vector<std::vector<double>>& trials) {
-  std::vector<double> values;
-  for (const auto& trial : trials) values.push_back(trial.back());
-  return values;
+    std::vector<double> errors;
+    for (const TraceRow& row : episode.trace)
+      errors.push_back(row.error ? 100.0 * row.error->symmetric_difference_m2 / surface.area()
+                                 : 100.0);
+    return std::vector{
+        Figures().set("error_percent", errors.back()).set("errors_percent", list_text(errors))};
+  };
+  return study;
 }
 
 Statistics statistics(std::span<const double> values) {
@@ -93,7 +98,20 @@ Statistics statistics(std::span<const double> values) {
   double square = 0.0;
   for (double value : values) square += (value - result.mean) * (value - result.mean);
   if (n > 1.0) result.standard_error = std::sqrt(square / (n - 1.0) / n);
+  result.interval = mean_interval(values);
   return result;
+}
+
+Statistics statistics(std::span<const Figures> rows, const std::string& name) {
+  return statistics(values_of(rows, name));
+}
+
+std::string csv_of(const Statistics& result) {
+  const auto bound = [&](double Interval::*end) {
+    return result.interval ? text_of((*result.interval).*end) : std::string();
+  };
+  return text_of(result.mean) + "," + or_empty(result.standard_error) + "," +
+         bound(&Interval::low) + "," + bound(&Interval::high);
 }
 
 double median(std::vector<double> values) {
@@ -115,11 +133,5 @@ std::string or_dash(const std::optional<double>& value) {
 }
 
 std::string or_empty(const std::optional<double>& value) { return value ? text_of(*value) : ""; }
-
-void write_table(const ExperimentArguments& arguments, const std::string& name,
-                 const std::string& csv) {
-  if (arguments.out.empty()) return;
-  write_single_file(arguments.out / (name + ".csv"), csv, Existing::Replaced);
-}
 
 }  // namespace palpation::tool

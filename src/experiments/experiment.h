@@ -1,6 +1,5 @@
-/// What the experiments share: cells of a table, trials in parallel, means with their standard
-/// errors. Each experiment is one function in a file of its own, <name>.cpp, entered in
-/// the table of experiment_command.cpp.
+/// What the experiments share: cells of a table, means with their standard errors. Each experiment
+/// is a study and its report in a file of its own, entered in the table of experiment_command.cpp.
 #pragma once
 
 #include <functional>
@@ -10,20 +9,36 @@
 #include <vector>
 
 #include "experiments/experiment_command.h"
+#include "experiments/intervals.h"
+#include "experiments/study.h"
 #include "scene/episode.h"
 #include "scene/scene.h"
 
 namespace palpation::tool {
 
-void table1(const ExperimentArguments& arguments);
-void recordings(const ExperimentArguments& arguments);
-void figure4(const ExperimentArguments& arguments);
-void table2(const ExperimentArguments& arguments);
-void coverage(const ExperimentArguments& arguments);
-void detection(const ExperimentArguments& arguments);
-void curved(const ExperimentArguments& arguments);
-void acquisitions(const ExperimentArguments& arguments);
-void tradeoff(const ExperimentArguments& arguments);
+Study table1_study(const ExperimentArguments& arguments);
+Study figure4_study(const ExperimentArguments& arguments);
+Study table2_study(const ExperimentArguments& arguments);
+Study coverage_study(const ExperimentArguments& arguments);
+Study detection_study(const ExperimentArguments& arguments);
+Study recordings_study(const ExperimentArguments& arguments);
+Study curved_study(const ExperimentArguments& arguments);
+Study acquisitions_study(const ExperimentArguments& arguments);
+Study tradeoff_study(const ExperimentArguments& arguments);
+Study users_study(const ExperimentArguments& arguments);
+
+void report_table1(const Results& results, const ReportFolder& folder);
+void report_figure4(const Results& results, const ReportFolder& folder);
+void report_table2(const Results& results, const ReportFolder& folder);
+void report_coverage(const Results& results, const ReportFolder& folder);
+void report_detection(const Results& results, const ReportFolder& folder);
+void report_recordings(const Results& results, const ReportFolder& folder);
+void report_curved(const Results& results, const ReportFolder& folder);
+void report_acquisitions(const Results& results, const ReportFolder& folder);
+/// Its cells: every choice by every seed, and the memory of each.
+inline constexpr std::size_t kTradeoffTrials = 0, kTradeoffMemory = 1;
+void report_tradeoff(const Results& results, const ReportFolder& folder);
+void report_users_study(const Results& results, const ReportFolder& folder);
 
 /// The search area of Garg et al. 2016, section VII, with vertices half a millimetre apart and no
 /// tumour yet; all else is as by default.
@@ -31,12 +46,6 @@ nlohmann::json random_tumours_scene();
 
 /// The scene that was given, or this one, with the overrides.
 Scene base_scene(const ExperimentArguments& arguments, const nlohmann::json& standard);
-
-/// A scene that is run once per trial, each time with another seed.
-struct Cell {
-  std::string name;
-  Scene scene;
-};
 
 /// Whether a cell of this name is to be run: it has all texts of --only in it.
 bool is_chosen(const std::string& name, const ExperimentArguments& arguments);
@@ -48,23 +57,24 @@ void refuse_no_cell(std::size_t cells, const ExperimentArguments& arguments);
 /// then.
 bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& arguments);
 
-/// Runs `run(cell, trial, seed)` for every trial of every cell, several at once, and shows how far
-/// it has come.
-using Trial = std::function<void(std::size_t cell, std::size_t trial, std::uint64_t seed)>;
-void for_trials(std::size_t cells, const ExperimentArguments& arguments, const Trial& run);
-
-/// The error after every batch of every trial, in % of the search area: [cell][trial][batch].
-using Errors = std::vector<std::vector<std::vector<double>>>;
-/// All cells against the scene's own simulated phantom, on the tissue that is common to them.
-Errors run_trials(std::span<const Cell> cells, const ExperimentArguments& arguments);
-/// The errors after the last batch, one per trial.
-std::vector<double> finals(const std::vector<std::vector<double>>& trials);
+/// A study of cells against the scene's own simulated phantom, on the tissue that is common to
+/// them. Its figures: error_percent of the search area after the last batch, errors_percent after
+/// every one, with blanks between them.
+Study error_study(std::vector<Cell> cells);
+/// The columns of all labels of all cells, in the order of their first appearance.
+std::vector<std::string> label_columns(std::span<const Cell> cells);
+/// Numbers of a figure that holds several.
+std::vector<double> listed(const Figures& figures, const std::string& name);
+std::string list_text(std::span<const double> values);
 
 struct Statistics {
   double mean = 0.0;
   std::optional<double> standard_error{};  ///< nothing for a single trial
+  std::optional<Interval> interval{};      ///< of the mean, 95 %; nothing for a single trial
 };
 Statistics statistics(std::span<const double> values);
+/// Of a figure of some rows.
+Statistics statistics(std::span<const Figures> rows, const std::string& name);
 
 /// NaN of none.
 double median(std::vector<double> values);
@@ -76,8 +86,8 @@ std::string or_dash(const std::optional<double>& value);
 /// As text_of, or empty where there is no value: for CSV.
 std::string or_empty(const std::optional<double>& value);
 
-/// Writes a table to the folder for results, if there is one.
-void write_table(const ExperimentArguments& arguments, const std::string& name,
-                 const std::string& csv);
+/// "mean,standard error,low,high" for CSV; the last three empty for a single trial.
+std::string csv_of(const Statistics& result);
+inline constexpr const char* kStatisticsColumns = "standard_error,low_95,high_95";
 
 }  // namespace palpation::tool

@@ -1,11 +1,15 @@
 #include "experiments/experiment_command.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <memory>
 
 #include "experiments/experiment.h"
+#include "experiments/row_files.h"
+#include "experiments/run_study.h"
 #include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
 #include "scene/exit_code.h"
 #include "scene/folder_lock.h"
 #include "scene/make_folder.h"
@@ -14,27 +18,64 @@
 namespace palpation::tool {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Experiment {
   const char* name;
-  void (*run)(const ExperimentArguments& arguments);
+  Study (*study)(const ExperimentArguments& arguments);
+  void (*report)(const Results& results, const ReportFolder& folder);
   int trials = 5;
   bool cells_stand_alone = false;  ///< so that --only may choose among them
 };
 
 constexpr Experiment kExperiments[] = {
-    {"table1", table1, 5, true}, {"figure4", figure4},           {"table2", table2, 5, true},
-    {"coverage", coverage},      {"detection", detection},       {"recordings", recordings},
-    {"curved", curved, 5, true}, {"acquisitions", acquisitions}, {"tradeoff", tradeoff, 20},
+    {"table1", table1_study, report_table1, 5, true},
+    {"figure4", figure4_study, report_figure4},
+    {"table2", table2_study, report_table2, 5, true},
+    {"coverage", coverage_study, report_coverage},
+    {"detection", detection_study, report_detection},
+    {"recordings", recordings_study, report_recordings},
+    {"curved", curved_study, report_curved, 5, true},
+    {"acquisitions", acquisitions_study, report_acquisitions},
+    {"tradeoff", tradeoff_study, report_tradeoff, 20},
+    {"study", users_study, report_users_study, 5, true},
 };
 
 /// Tables and pictures begin with the experiment's name.
-void refuse_to_replace_results(const ExperimentArguments& arguments, Existing tables) {
-  for (const auto& entry : std::filesystem::directory_iterator(arguments.out)) {
+void refuse_to_replace_results(const fs::path& folder, const std::string& name, Existing results) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
-    if (entry.path().filename().string().starts_with(arguments.name) &&
+    if (entry.path().filename().string().starts_with(name) &&
         (extension == ".csv" || extension == ".png"))
-      refuse_to_replace(entry.path(), tables);
+      refuse_to_replace(entry.path(), results);
   }
+}
+
+const Experiment& experiment_called(const std::string& name) {
+  const auto* found = std::ranges::find(kExperiments, name, &Experiment::name);
+  require(found != std::end(kExperiments), "experiment", name, "is none");
+  return *found;
+}
+
+void check(const ExperimentArguments& arguments, const Experiment& experiment) {
+  if (!arguments.only.empty() && !experiment.cells_stand_alone)
+    throw WrongUsage("experiment " + arguments.name +
+                     ": --only chooses among the cells of table1, table2, curved and study, not of "
+                     "this one");
+  if (!arguments.shard.empty() && arguments.out.empty())
+    throw WrongUsage("experiment " + arguments.name +
+                     ": --shard needs --out: the folder that its rows are kept in");
+}
+
+/// Locks the folder for results, and leaves what a person put there alone: before hours of work,
+/// not after them. Tables beside our own manifest are ours.
+std::unique_ptr<FolderLock> prepared(const fs::path& folder, const std::string& name,
+                                     Existing results) {
+  if (folder.empty()) return nullptr;
+  make_folder(folder);
+  auto lock = std::make_unique<FolderLock>(folder, "experiment " + name);
+  if (!fs::exists(folder / kManifestFile)) refuse_to_replace_results(folder, name, results);
+  return lock;
 }
 
 }  // namespace
@@ -42,25 +83,34 @@ void refuse_to_replace_results(const ExperimentArguments& arguments, Existing ta
 std::vector<std::string> experiment_names() {
   std::vector<std::string> names;
   for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
+  names.emplace_back("merge");
   return names;
 }
 
-void experiment(const ExperimentArguments& arguments, Existing tables) {
-  const auto* found = std::ranges::find(kExperiments, arguments.name, &Experiment::name);
-  require(found != std::end(kExperiments), "experiment", arguments.name, "is none");
-  if (!arguments.only.empty() && !found->cells_stand_alone)
-    throw WrongUsage(
-        "experiment " + arguments.name +
-        ": --only chooses among the cells of table1, table2 and curved, not of this one");
-  std::optional<FolderLock> lock;
-  if (!arguments.out.empty() && !arguments.print_scene) {  // before hours of work, not after them
-    make_folder(arguments.out);
-    lock.emplace(arguments.out, "experiment " + arguments.name);
-    refuse_to_replace_results(arguments, tables);
-  }
+void experiment(const ExperimentArguments& arguments, Existing existing) {
+  const Experiment& experiment = experiment_called(arguments.name);
+  check(arguments, experiment);
+  const Study study = experiment.study(arguments);
+  refuse_no_cell(study.cells.size(), arguments);
+  if (printed_scenes(study.printed.empty() ? study.cells : study.printed, arguments)) return;
   ExperimentArguments complete = arguments;
-  if (complete.trials == 0) complete.trials = found->trials;
-  found->run(complete);
+  if (complete.trials == 0) complete.trials = study.trials > 0 ? study.trials : experiment.trials;
+  const auto lock = prepared(arguments.out, arguments.name, existing);
+  const std::optional<Results> results = run_study(study, complete, existing);
+  if (results) return experiment.report(*results, {arguments.out});
+  std::printf(
+      "Shard %s is done: its rows are in %s. When all are, add them up:\n"
+      "  palpate experiment merge FOLDER... --out FOLDER\n",
+      arguments.shard.c_str(), arguments.out.string().c_str());
+}
+
+void merge_experiment(const std::vector<fs::path>& folders, const fs::path& out,
+                      Existing existing) {
+  const Results results = merged(folders);
+  const Experiment& experiment = experiment_called(results.manifest.experiment);
+  const auto lock = prepared(out, results.manifest.experiment, existing);
+  if (!out.empty()) RowFiles(out, results.manifest, Shard{}, existing).replace(results.rows);
+  experiment.report(results, {out});
 }
 
 }  // namespace palpation::tool

@@ -19,12 +19,16 @@ struct ExperimentArguments {
   std::uint64_t first_seed = 0;
   bool print_scene = false;
   std::filesystem::path recordings;  ///< the folder that holds them
+  std::string shard;                 ///< "3/8"; empty: all
   std::filesystem::path out;
   bool quiet = false;
 };
 
-void experiment(const ExperimentArguments& arguments, Existing tables);
-/// The experiments that there are.
+void experiment(const ExperimentArguments& arguments, Existing results);
+/// Adds up the folders that hold the shards of one experiment, and reports it.
+void merge_experiment(const std::vector<std::filesystem::path>& folders,
+                      const std::filesystem::path& out, Existing results);
+/// The experiments that there are, and merge.
 std::vector<std::string> experiment_names();
 
 }  // namespace palpation::tool

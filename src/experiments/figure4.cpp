@@ -4,7 +4,6 @@
 #include "experiments/experiment.h"
 #include "experiments/paper_scene.h"
 #include "palpation/base/error.h"
-#include "scene/draw_program.h"
 
 namespace palpation::tool {
 namespace {
@@ -19,25 +18,36 @@ std::vector<Cell> cells_of(const Scene& base, bool keep_tumours) {
       Scene scene =
           base.with("probe.noise", std::stod(percent) / 100.0).with("plan.acquisition", algorithm);
       if (!keep_tumours) scene = scene.with("probe.tumours", paper_tumour("horseshoe"));
-      cells.push_back({percent + ", horseshoe, " + algorithm + ", level known", scene});
+      const std::string shape = keep_tumours ? base.name() : "Horseshoe";
+      cells.push_back({percent + ", " + (keep_tumours ? shape : "horseshoe") + ", " + algorithm +
+                           ", level known",
+                       scene,
+                       Figures()
+                           .set("noise_percent", percent)
+                           .set("algorithm", algorithm)
+                           .set("shape", shape)
+                           .set("initial", scene.number("plan.initial.count"))
+                           .set("batch", scene.number("plan.batch"))});
     }
   }
   return cells;
 }
 
-/// The mean errors after every batch, a row each.
-std::string curves(std::span<const std::vector<std::vector<double>>> panel, int initial,
-                   int batch) {
+/// The mean errors after every batch, a row each; `panel` holds the trials of each algorithm.
+std::string curves(const std::vector<std::vector<Figures>>& panel) {
   std::string csv = "readings";
   for (const std::string& algorithm : kPaperAlgorithms)
     csv += "," + algorithm + "," + algorithm + "_se";
   csv += "\n";
-  for (std::size_t step = 0; step < panel.front().front().size(); ++step) {
-    csv += std::to_string(initial + batch * static_cast<int>(step));
-    for (const auto& trials : panel) {
+  const Figures& first = panel.front().front();
+  const std::size_t steps = listed(first, "errors_percent").size();
+  for (std::size_t step = 0; step < steps; ++step) {
+    csv += text_of(first.number("initial") + first.number("batch") * static_cast<double>(step));
+    for (const std::vector<Figures>& trials : panel) {
       std::vector<double> values;
-      for (const auto& trial : trials) {
-        if (step < trial.size()) values.push_back(trial[step]);
+      for (const Figures& trial : trials) {
+        const std::vector<double> errors = listed(trial, "errors_percent");
+        if (step < errors.size()) values.push_back(errors[step]);
       }
       const Statistics result = statistics(values);
       csv += "," + text_of(result.mean) + "," + or_empty(result.standard_error);
@@ -47,34 +57,26 @@ std::string curves(std::span<const std::vector<std::vector<double>>> panel, int 
   return csv;
 }
 
-void draw(const ExperimentArguments& arguments, const std::string& name,
-          const std::string& percent) {
-  const auto no_picture =
-      run_draw({"--curves", (arguments.out / (name + ".csv")).string(),
-                (arguments.out / (name + ".png")).string(), "--log-y", "--title",
-                "Horseshoe, noise " + percent + " % of the range", "--x-label", "readings",
-                "--y-label", "symmetric difference, % of the search area"});
-  if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
-}
-
 }  // namespace
 
-void figure4(const ExperimentArguments& arguments) {
-  const Scene base = base_scene(arguments, paper_scene());
-  const std::vector<Cell> cells = cells_of(base, !arguments.scene.empty());
-  if (printed_scenes(cells, arguments)) return;
-  const Errors errors = run_trials(cells, arguments);
-  for (std::size_t panel = 0; panel < kNoisePercents.size(); ++panel) {
-    const std::string& percent = kNoisePercents[panel];
-    const std::string csv =
-        curves(std::span(errors).subspan(panel * kPaperAlgorithms.size(), kPaperAlgorithms.size()),
-               base.integer("plan.initial.count"), base.integer("plan.batch"));
-    std::printf(
-        "\nHorseshoe, noise %s %%: symmetric difference in %% of the search area, mean of %d "
-        "trials\n%s",
-        percent.c_str(), arguments.trials, csv.c_str());
-    write_table(arguments, "figure4_noise_" + percent, csv);
-    if (!arguments.out.empty()) draw(arguments, "figure4_noise_" + percent, percent);
+Study figure4_study(const ExperimentArguments& arguments) {
+  return error_study(cells_of(base_scene(arguments, paper_scene()), !arguments.scene.empty()));
+}
+
+void report_figure4(const Results& results, const ReportFolder& folder) {
+  for (std::size_t number = 0; number < kNoisePercents.size(); ++number) {
+    const std::string& percent = kNoisePercents[number];
+    std::vector<std::vector<Figures>> panel;
+    for (std::size_t curve = 0; curve < kPaperAlgorithms.size(); ++curve)
+      panel.push_back(results.of(number * kPaperAlgorithms.size() + curve));
+    const std::string csv = curves(panel),
+                      title = panel.front().front().word("shape") + ", noise " + percent + " %";
+    std::printf("\n%s: symmetric difference in %% of the search area, mean of %d trials\n%s",
+                title.c_str(), results.trials(), csv.c_str());
+    const std::string name = "figure4_noise_" + percent;
+    folder.write(name, csv);
+    folder.draw(name, {"--log-y", "--title", title + " of the range", "--x-label", "readings",
+                       "--y-label", "symmetric difference, % of the search area"});
   }
 }
 

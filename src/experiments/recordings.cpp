@@ -1,21 +1,18 @@
 // experiment recordings: the physical recordings of Garg et al. 2016's probe, for those who have
 // them. R1 to R7, each against its bound.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <numbers>
 
-#include "experiments/experiment.h"
+#include "experiments/digest.h"
+#include "experiments/recorded.h"
 #include "palpation/base/error.h"
-#include "palpation/geometry/make_plane.h"
+#include "palpation/io/atomic_file.h"
 #include "palpation/io/csv.h"
 #include "palpation/io/recording.h"
-#include "palpation/readings/screening.h"
 #include "palpation/world/recording.h"
 #include "palpation/world/tumour.h"
-#include "readings/contact.h"
 #include "scene/setup.h"
 #include "scene/words.h"
 #include "scene/worlds.h"
@@ -25,94 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kCell_m =
-    0.0007;  // of the mesh around a recording: half the distance of its closest rows
-constexpr std::size_t kMostBelieved =
-    300;  // of a dense recording's readings: more lie closer together than any edge is sharp
-constexpr double kCm2 = 1e4;            // in a square metre
 constexpr double kTipRadius_mm = 2.25;  // of the probe
-constexpr double kFaultyShare = 0.1;    // of a row's readings: the row has a fault
-
-/// One figure against its bound.
-struct Figure {
-  std::string name, what;
-  double value = 0.0, least = 0.0, most = 0.0;
-  bool good() const { return value >= least && value <= most; }
-};
-
-/// A recording as it was made: places, readings, scan lines.
-struct Recorded {
-  std::string name;
-  Surface tissue;
-  std::vector<Palpation> palpations;
-  std::vector<int> index, row;
-  std::vector<Vec3> places;
-};
-
-Surface tissue_around(std::span<const Vec3> places) {
-  Vec2 least = places.front().head<2>(), most = least;
-  for (const Vec3& place : places) {
-    least = least.cwiseMin(place.head<2>());
-    most = most.cwiseMax(place.head<2>());
-  }
-  const Vec2 size = most - least;
-  Random unused(0);
-  return Surface(make_plane({.size_m = size,
-                             .columns = static_cast<int>(std::ceil(size.x() / kCell_m)) + 1,
-                             .rows = static_cast<int>(std::ceil(size.y() / kCell_m)) + 1,
-                             .corner_m = least},
-                            unused));
-}
-
-std::filesystem::path file_of(const ExperimentArguments& arguments, const std::string& name) {
-  return arguments.recordings / (name + ".csv");
-}
-
-/// Without heights: they are the arm's, not the tissue's. Rows that run one way along y have that
-/// direction of travel.
-Recorded recorded(const ExperimentArguments& arguments, const std::string& name) {
-  const CsvTable table = read_csv(file_of(arguments, name));
-  const std::size_t x = column_index(table, "x"), y = column_index(table, "y"),
-                    reading = column_index(table, "reading"), row = column_index(table, "row"),
-                    index = column_index(table, "index");
-  std::vector<Vec3> places;
-  std::vector<double> readings;
-  std::vector<int> rows, indices;
-  for (std::size_t i = 0; i < table.row_count(); ++i) {
-    const std::optional<double> felt = number_at(table, i, reading);
-    if (!felt || std::isnan(*felt)) continue;
-    places.emplace_back(finite_number_at(table, i, x), finite_number_at(table, i, y), 0.0);
-    readings.push_back(*felt);
-    rows.push_back(static_cast<int>(finite_number_at(table, i, row)));
-    indices.push_back(static_cast<int>(finite_number_at(table, i, index)));
-  }
-  if (places.empty()) throw IoError(table.name() + ": no row holds a reading");
-  double forward_m = 0.0;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    if (rows[i] == rows[i - 1]) forward_m += places[i].y() - places[i - 1].y();
-  }
-  Recorded made{name, tissue_around(places), {}, indices, rows, places};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    Palpation palpation;
-    palpation.where = made.tissue.project(places[i]);
-    palpation.reading = readings[i];
-    palpation.travel = forward_m > 0.0 ? Vec3(Vec3::UnitY()) : Vec3(-Vec3::UnitY());
-    made.palpations.push_back(palpation);
-  }
-  return made;
-}
-
-/// What is used of the readings, thinned evenly.
-std::vector<Palpation> thinned(std::span<const Palpation> palpations, std::size_t most) {
-  std::vector<Palpation> used;
-  for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) used.push_back(palpation);
-  }
-  const std::size_t stride = (used.size() + most - 1) / most;
-  std::vector<Palpation> kept;
-  for (std::size_t i = 0; i < used.size(); i += stride) kept.push_back(used[i]);
-  return kept;
-}
 
 /// What all recordings are explored with.
 json replay_scene() {
@@ -210,7 +120,7 @@ void truth_and_lag(const ExperimentArguments& arguments, const Scene& scene,
       }
     }
     Exploration exploration(forward.tissue, model_of(probe), plan_of(probe));
-    exploration.take_up(thinned(all, kMostBelieved));
+    exploration.take_up(thinned(all));
     return exploration.lag()->value_m * 1e3;
   };
   const double here_mm = lag_mm(0.0);
@@ -218,153 +128,6 @@ void truth_and_lag(const ExperimentArguments& arguments, const Scene& scene,
   for (const double shift_mm : {-1.0, 1.0}) {
     figures.push_back({"R3", "lag found less lag shifted by " + fixed(shift_mm, 0) + " mm, mm",
                        lag_mm(shift_mm / 1e3) - here_mm - shift_mm, -0.2, 0.2});
-  }
-}
-
-bool is_fault(const Palpation& palpation) {
-  return !palpation.set_aside.empty() && palpation.set_aside != kStartUp;
-}
-
-/// What is known to be wrong with a recording: readings by their row, index and place along the
-/// row.
-struct KnownFault {
-  std::string recording;
-  std::function<bool(int row, int index, double y_m)> is_faulty;
-};
-
-/// R4: what the screen sets aside.
-void screening(const ExperimentArguments& arguments, std::vector<Figure>& figures) {
-  const std::vector<KnownFault> faults = {
-      {"exp2", [](int row, int, double) { return row >= 3; }},
-      {"exp3", [](int row, int, double y_m) { return row == 9 || (row == 0 && y_m < 0.005); }},
-      {"exp5", [](int row, int, double y_m) { return row == 2 && y_m > 0.037; }},
-      {"exp6", [](int row, int, double y_m) { return row == 0 || (row == 1 && y_m < 0.022); }},
-      {"probe_data_L2R_old_tool_tilt_yaw90",
-       [](int row, int, double y_m) { return row == 0 && y_m < 0.0235; }},
-      {"point_probe_40x20x1",
-       [](int, int index, double) { return index >= 667; }},  // the first of equal readings is none
-      {"dense_grid",
-       [](int, int index, double) {
-         return index == 129 || index == 130 || index == 131 || index == 214;
-       }},
-  };
-  for (const KnownFault& fault : faults) {
-    const Recorded recording = recorded(arguments, fault.recording);
-    const std::vector<Palpation> result = screened(recording.tissue, recording.palpations);
-    int missed = 0;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      if (result[i].set_aside.empty() &&
-          fault.is_faulty(recording.row[i], recording.index[i], recording.places[i].y()))
-        ++missed;
-    }
-    figures.push_back({"R4", fault.recording + ": faulty readings not set aside",
-                       static_cast<double>(missed), 0.0, 0.0});
-  }
-  for (const std::string name : {"exp4", "exp7", "exp9", "exp10"}) {
-    const Recorded recording = recorded(arguments, name);
-    const std::vector<Palpation> result = screened(recording.tissue, recording.palpations);
-    std::vector<int> readings(100, 0), wrong(100, 0);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      const auto row = static_cast<std::size_t>(recording.row[i]) % readings.size();
-      ++readings[row];
-      if (is_fault(result[i])) ++wrong[row];
-    }
-    int rows = 0;
-    for (std::size_t row = 0; row < readings.size(); ++row)
-      rows += wrong[row] > kFaultyShare * readings[row] ? 1 : 0;
-    figures.push_back({"R4", name + ": sound rows set aside", static_cast<double>(rows), 0.0, 1.0});
-  }
-}
-
-/// What is believed of a dense recording, screened and thinned.
-struct Believed {
-  Recorded recording;
-  std::vector<Palpation> screened_readings;
-  Exploration exploration;
-};
-
-Believed believed(const ExperimentArguments& arguments, const Scene& scene,
-                  const std::string& name) {
-  Recorded recording = recorded(arguments, name);
-  std::vector<Palpation> all = screened(recording.tissue, recording.palpations);
-  Exploration exploration(recording.tissue, model_of(scene), plan_of(scene));
-  exploration.take_up(thinned(all, kMostBelieved));
-  return {std::move(recording), std::move(all), std::move(exploration)};
-}
-
-/// Points of a boundary, apart from the tissue's border.
-std::vector<Vec3> points_of(const Surface& surface, const Field& field, double level) {
-  std::vector<Vec3> points;
-  for (const LevelLoop& loop : level_loops(surface, field, level)) {
-    for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      if (!loop.on_border[i]) points.push_back(surface.position(loop.points[i]));
-    }
-  }
-  return points;
-}
-
-/// Mean half width of the band on the side of the tissue where contact is better (false) or worse
-/// (true).
-double half_width_mm(const Believed& one, const FadingContact& fading, bool worse) {
-  const Surface& tissue = one.recording.tissue;
-  const Certainty& certainty = *one.exploration.certainty();
-  const std::vector<Vec3> boundary = points_of(tissue, certainty.score, 0.0);
-  std::vector<double> along;
-  for (const Vec3& point : boundary) along.push_back(point.dot(fading.towards));
-  if (along.empty()) return 0.0;
-  std::nth_element(along.begin(), along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2),
-                   along.end());
-  const double middle = along[along.size() / 2];
-  double area = 0.0, length = 0.0;
-  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
-    const bool is_there = (tissue.vertex(vertex).dot(fading.towards) > middle) == worse;
-    if (is_there && std::abs(certainty.score[vertex]) <= certainty.band_score)
-      area += tissue.vertex_areas()[vertex];
-  }
-  for (const LevelLoop& loop : level_loops(tissue, certainty.score, 0.0)) {
-    for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      const Vec3 here = tissue.position(loop.points[i]),
-                 next = tissue.position(loop.points[(i + 1) % loop.points.size()]);
-      if (!loop.on_border[i] && (here.dot(fading.towards) > middle) == worse)
-        length += (next - here).norm();
-    }
-  }
-  return length > 0.0 ? 500.0 * area / length : 0.0;
-}
-
-/// R5: fading contact; R6: one recording's band against the boundary of another of the same rows.
-void fading(const ExperimentArguments& arguments, const Scene& scene,
-            std::vector<Figure>& figures) {
-  std::optional<Believed> first;
-  for (const std::string name : {"exp4", "exp7", "exp9", "exp10"}) {
-    Believed now = believed(arguments, scene, name);
-    const bool has_boundary =
-        now.exploration.level() && now.exploration.certainty() &&
-        !points_of(now.recording.tissue, now.exploration.certainty()->score, 0.0).empty();
-    figures.push_back({"R5", name + ": boundaries found", has_boundary ? 1.0 : 0.0, 1.0, 1.0});
-    const std::optional<FadingContact> contact =
-        fading_contact(now.recording.tissue, now.screened_readings);
-    figures.push_back(
-        {"R5", name + ": warnings that contact fades", contact ? 1.0 : 0.0, 1.0, 1.0});
-    if (contact && has_boundary) {
-      const double ratio = half_width_mm(now, *contact, true) / half_width_mm(now, *contact, false);
-      figures.push_back({"R5", name + ": band there over band elsewhere", ratio, 1.0, 1e3});
-    }
-    if (name == "exp4" && has_boundary) first = std::move(now);
-    if (name != "exp7" || !first || !has_boundary) continue;
-    const Surface& tissue = first->recording.tissue;
-    const Certainty& band = *first->exploration.certainty();
-    int inside = 0, all = 0;
-    for (const Vec3& point :
-         points_of(now.recording.tissue, now.exploration.certainty()->score, 0.0)) {
-      ++all;
-      if (std::abs(tissue.interpolate(band.score, tissue.project(point))) <= band.band_score)
-        ++inside;
-    }
-    figures.push_back({"R6", "part of exp7's boundary in exp4's band",
-                       static_cast<double>(inside) / all, 1.0, 1.0});
-    figures.push_back(
-        {"R6", "mean half width of exp4's band, mm", band.half_width_m * 1e3, 0.0, 1.5});
   }
 }
 
@@ -392,45 +155,93 @@ void pokes(const ExperimentArguments& arguments, const Scene& scene, std::vector
   }
 }
 
+void faults(const ExperimentArguments& arguments, const Scene&, std::vector<Figure>& figures) {
+  add_faults(arguments, figures);
+}
+
+using Group = void (*)(const ExperimentArguments& arguments, const Scene& scene,
+                       std::vector<Figure>& figures);
+
+/// What is looked at by itself, and what the scene is changed to for it.
+struct Groups {
+  std::string name;
+  Group figures;
+  std::string path;
+  json value;
+};
+
+const std::vector<Groups>& groups() {
+  static const std::vector<Groups> all = {
+      {"a map against itself", own_map, "field.trend", "constant"},  // it is of the whole field
+      {"both directions of travel", truth_and_lag, "field.trend", "linear"},
+      {"faults", faults, "field.trend", "linear"},
+      {"fading contact", add_fading, "field.screening", true},
+      {"pokes", pokes, "field.trend", "linear"}};
+  return all;
+}
+
+/// Of all recordings in the folder.
+std::string recordings_digest(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  std::string digests;
+  for (const std::filesystem::path& path : paths)
+    digests += path.filename().string() + digest(read_file(path));
+  return digest(digests);
+}
+
 }  // namespace
 
-void recordings(const ExperimentArguments& arguments) {
+Study recordings_study(const ExperimentArguments& arguments) {
   const Scene scene = base_scene(arguments, replay_scene());
-  const std::vector<Cell> cells = {{"all recordings", scene}};
-  if (printed_scenes(cells, arguments)) return;
-  if (arguments.recordings.empty())
-    throw IoError(
-        "experiment recordings: needs --recordings FOLDER, which holds fig_circle_forward.csv, "
-        "exp4.csv and the others");
-  std::vector<Figure> figures;
-  std::size_t told = 0;
-  const auto tell_new = [&] {
-    for (; told < figures.size(); ++told) {
-      const Figure& figure = figures[told];
-      std::printf("%-3s %-66s %9.3f  [%g, %g]%s\n", figure.name.c_str(), figure.what.c_str(),
-                  figure.value, figure.least, figure.most, figure.good() ? "" : "  MISSED");
-    }
-    std::fflush(stdout);
-  };
-  own_map(arguments, scene.with("field.trend", "constant"),
-          figures);  // the map is of the whole field
-  tell_new();
-  truth_and_lag(arguments, scene, figures);
-  tell_new();
-  screening(arguments, figures);
-  tell_new();
-  fading(arguments, scene.with("field.screening", true), figures);
-  tell_new();
-  pokes(arguments, scene, figures);
-  tell_new();
-  std::string csv = "name,what,value,least,most,good\n";
-  for (const Figure& figure : figures) {
-    const std::array<std::string, 6> row = {figure.name,           figure.what,
-                                            text_of(figure.value), text_of(figure.least),
-                                            text_of(figure.most),  figure.good() ? "1" : "0"};
-    csv += csv_line(row);
+  Study study{.columns = {"name", "what", "value", "least", "most", "good"}};
+  for (const Groups& group : groups()) {
+    const bool is_given =
+        !arguments.scene.empty() && group.path == "field.trend" && group.value == "linear";
+    study.cells.push_back({.name = group.name,
+                           .scene = is_given ? scene : scene.with(group.path, group.value),
+                           .trials = 1});
   }
-  write_table(arguments, "recordings", csv);
+  study.mesh_digest = [folder = arguments.recordings](std::size_t) {
+    if (folder.empty())
+      throw IoError(
+          "experiment recordings: needs --recordings FOLDER, which holds fig_circle_forward.csv, "
+          "exp4.csv and the others");
+    return recordings_digest(folder);
+  };
+  study.run = [arguments, cells = study.cells](std::size_t cell, std::uint64_t) {
+    std::vector<Figure> figures;
+    groups()[cell].figures(arguments, cells[cell].scene, figures);
+    std::vector<Figures> rows;
+    for (const Figure& figure : figures)
+      rows.push_back(Figures()
+                         .set("name", figure.name)
+                         .set("what", figure.what)
+                         .set("value", figure.value)
+                         .set("least", figure.least)
+                         .set("most", figure.most)
+                         .set("good", figure.good()));
+    return rows;
+  };
+  return study;
+}
+
+void report_recordings(const Results& results, const ReportFolder& folder) {
+  std::string csv = "name,what,value,least,most,good\n";
+  for (const Row& row : results.rows) {
+    const Figures& figure = row.figures;
+    std::printf("%-3s %-66s %9.3f  [%g, %g]%s\n", figure.word("name").c_str(),
+                figure.word("what").c_str(), figure.number("value"), figure.number("least"),
+                figure.number("most"), figure.flag("good") ? "" : "  MISSED");
+    std::vector<std::string> cells;
+    for (const char* column : {"name", "what", "value", "least", "most", "good"})
+      cells.push_back(figure.word(column));
+    csv += csv_line(cells);
+  }
+  folder.write("recordings", csv);
 }
 
 }  // namespace palpation::tool

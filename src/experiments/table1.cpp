@@ -4,26 +4,15 @@
 #include <map>
 
 #include "experiments/experiment.h"
+#include "experiments/lazy_tissue.h"
 #include "experiments/paper_scene.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
 #include "palpation/certainty/reference_bound.h"
-#include "scene/tissue.h"
 #include "scene/worlds.h"
 
 namespace palpation::tool {
 namespace {
-
-/// Where a cell stands in the table.
-struct Entry {
-  std::string shape, row, algorithm, level;
-  std::optional<double> printed;  ///< in the paper
-};
-
-struct Table {
-  std::vector<Entry> entries;
-  std::vector<Cell> cells;  ///< one per entry
-};
 
 /// Table I as printed, in % of the search area: shape, row, algorithm. The bias rows beyond 1 % are
 /// lost.
@@ -41,95 +30,63 @@ std::optional<double> printed_value(const std::string& shape, const std::string&
   return found->second[(shape == "disk" ? 0 : 3) + algorithm_index];
 }
 
-Table table_of(const Scene& base, const ExperimentArguments& arguments) {
+/// What stands beside a cell in the table, the printed value included where there is one.
+Figures labels(const std::string& table, const std::string& shape, const std::string& row,
+               const std::string& algorithm, const std::string& level) {
+  return Figures()
+      .set("table", table)
+      .set("shape", shape)
+      .set("row", row)
+      .set("algorithm", algorithm)
+      .set("level", level)
+      .set("printed", printed_value(shape, row, algorithm == "auto" ? "ils-ucb" : algorithm));
+}
+
+/// The rows of the table: noise, bias.
+struct TableRow {
+  std::string name;
+  double noise = 0.0, bias = 0.0;
+};
+
+std::vector<TableRow> table_rows() {
+  std::vector<TableRow> rows;
+  for (const int percent : {1, 5, 10, 25})
+    rows.push_back({"noise " + std::to_string(percent) + " %", percent / 100.0, 0.0});
+  for (const int percent : {1, 5, 50, 100})
+    rows.push_back({"bias " + std::to_string(percent) + " %", 0.01, percent / 100.0});
+  return rows;
+}
+
+/// The paper's model, with the level known and with that of its text.
+void add_paper_cells(const Scene& base, const ExperimentArguments& arguments,
+                     std::vector<Cell>& cells) {
   const bool keep_tumours = !arguments.scene.empty();
-  Table table;
-  const auto add = [&](const std::string& level, const std::string& row, double noise,
-                       double bias) {
-    for (const std::string& shape :
-         keep_tumours ? std::vector<std::string>{"the scene's"} : kPaperShapes) {
-      for (const std::string& algorithm : kPaperAlgorithms) {
-        const std::string name = row + ", " + shape + ", " + algorithm + ", level " + level;
-        if (!is_chosen(name, arguments)) continue;
-        Scene scene = base.with("probe.noise", noise)
-                          .with("probe.bias", bias)
-                          .with("plan.acquisition", algorithm)
-                          .with("level.estimate", level);
-        if (!keep_tumours) scene = scene.with("probe.tumours", paper_tumour(shape));
-        table.entries.push_back(
-            {shape, row, algorithm, level, printed_value(shape, row, algorithm)});
-        table.cells.push_back({name, scene});
+  const std::vector<std::string> shapes =
+      keep_tumours ? std::vector<std::string>{"the scene's"} : kPaperShapes;
+  for (const std::string level : {"known", "range"}) {
+    for (const TableRow& row : table_rows()) {
+      for (const std::string& shape : shapes) {
+        for (const std::string& algorithm : kPaperAlgorithms) {
+          const std::string name = row.name + ", " + shape + ", " + algorithm + ", level " + level;
+          if (!is_chosen(name, arguments)) continue;
+          Scene scene = base.with("probe.noise", row.noise)
+                            .with("probe.bias", row.bias)
+                            .with("plan.acquisition", algorithm)
+                            .with("level.estimate", level);
+          if (!keep_tumours) scene = scene.with("probe.tumours", paper_tumour(shape));
+          cells.push_back({name, scene, labels("paper", shape, row.name, algorithm, level)});
+        }
       }
     }
-  };
-  for (const std::string level : {"known", "range"}) {
-    for (const int percent : {1, 5, 10, 25})
-      add(level, "noise " + std::to_string(percent) + " %", percent / 100.0, 0.0);
-    for (const int percent : {1, 5, 50, 100})
-      add(level, "bias " + std::to_string(percent) + " %", 0.01, percent / 100.0);
   }
-  return table;
-}
-
-void report(const std::vector<Entry>& entries, const Errors& errors,
-            const ExperimentArguments& arguments) {
-  std::string csv = "level,row,shape,algorithm,trials,error_percent,standard_error,printed\n";
-  std::string level;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Entry& entry = entries[i];
-    const Statistics result = statistics(finals(errors[i]));
-    if (entry.level != level) {
-      level = entry.level;
-      std::printf(
-          "\n\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d "
-          "trials (printed in the paper)",
-          level == "known" ? "Level known beforehand (the authors' code)"
-                           : "Level from the greatest and least mean (the paper's text)",
-          arguments.trials);
-    }
-    if (i == 0 || entry.row != entries[i - 1].row || entry.shape != entries[i - 1].shape ||
-        entry.level != entries[i - 1].level)
-      std::printf("\n%-12s%-12s", entry.row.c_str(), entry.shape.c_str());
-    std::printf("  %-8s%s (%s)", entry.algorithm.c_str(), in_words(result).c_str(),
-                or_dash(entry.printed).c_str());
-    csv += entry.level + "," + entry.row + "," + entry.shape + "," + entry.algorithm + "," +
-           std::to_string(arguments.trials) + "," + text_of(result.mean) + "," +
-           or_empty(result.standard_error) + "," + or_empty(entry.printed) + "\n";
-  }
-  std::printf("\n");
-  write_table(arguments, "table1", csv);
-}
-
-/// The tool's defaults on the same phantoms, with the level unknown; a trend where there is a bias.
-Table default_table(const Scene& base, const ExperimentArguments& arguments) {
-  Table table;
-  const auto add = [&](const std::string& row, double noise, double bias,
-                       const std::string& trend) {
-    for (const std::string& shape : kPaperShapes) {
-      const std::string name = row + ", " + shape + ", the defaults";
-      if (!is_chosen(name, arguments)) continue;
-      const Scene scene = base.with("probe.noise", noise)
-                              .with("probe.bias", bias)
-                              .with("probe.tumours", paper_tumour(shape))
-                              .with("field.trend", trend);
-      table.entries.push_back(
-          {shape, row, "auto", scene.word("level.estimate"), printed_value(shape, row, "ils-ucb")});
-      table.cells.push_back({name, scene});
-    }
-  };
-  for (const int percent : {1, 5, 10, 25})
-    add("noise " + std::to_string(percent) + " %", percent / 100.0, 0.0, "constant");
-  for (const int percent : {1, 5, 50, 100})
-    add("bias " + std::to_string(percent) + " %", 0.01, percent / 100.0, "linear");
-  return table;
 }
 
 /// The bound knows the shape's number of modes, and where its outline runs: a reference for every
 /// method.
-double bound_percent(const Entry& entry, const Scene& scene, double area_m2) {
+double bound_percent(const Scene& scene, const std::string& shape, double area_m2) {
   const int readings = scene.integer("plan.initial.count") +
                        scene.integer("plan.batch") * scene.integer("plan.batches");
-  const ReferenceBound bound = reference_bound({.perimeter_m = paper_perimeter_m(entry.shape),
+  const ReferenceBound bound = reference_bound({.perimeter_m = paper_perimeter_m(shape),
                                                 .slope_per_m = scene.number("probe.slope_per_m"),
                                                 .noise = scene.number("probe.noise"),
                                                 .readings = readings,
@@ -137,8 +94,67 @@ double bound_percent(const Entry& entry, const Scene& scene, double area_m2) {
   return 100.0 * bound.expected_error_m2 / area_m2;
 }
 
-void report_defaults(const Table& table, const Errors& errors,
-                     const ExperimentArguments& arguments) {
+/// The tool's defaults on the same phantoms, with the level unknown; a trend where there is a bias.
+void add_default_cells(const Scene& base, const ExperimentArguments& arguments,
+                       std::vector<Cell>& cells) {
+  for (const TableRow& row : table_rows()) {
+    for (const std::string& shape : kPaperShapes) {
+      const std::string name = row.name + ", " + shape + ", the defaults";
+      if (!is_chosen(name, arguments)) continue;
+      const Scene scene = base.with("probe.noise", row.noise)
+                              .with("probe.bias", row.bias)
+                              .with("probe.tumours", paper_tumour(shape))
+                              .with("field.trend", row.bias > 0.0 ? "linear" : "constant");
+      cells.push_back(
+          {name, scene, labels("defaults", shape, row.name, "auto", scene.word("level.estimate"))});
+    }
+  }
+}
+
+/// Adds what a run of the defaults is held against: half of the tumour's area, and the bound.
+std::vector<Figures> with_references(std::vector<Figures> rows, const Cell& cell,
+                                     const Surface& tissue) {
+  if (cell.labels.word("table") != "defaults") return rows;
+  const World world = simulated_world(cell.scene, tissue);
+  const double half = 50.0 * superlevel_area(tissue, world.truth, world.true_level) / tissue.area();
+  for (Figures& row : rows)
+    row.set("lost", row.number("error_percent") > half)
+        .set("bound_percent", bound_percent(cell.scene, cell.labels.word("shape"), tissue.area()));
+  return rows;
+}
+
+void report_paper(const Results& results, const std::vector<std::size_t>& cells,
+                  const ReportFolder& folder) {
+  std::string csv = std::string("level,row,shape,algorithm,trials,error_percent,") +
+                    kStatisticsColumns + ",printed\n";
+  std::string level, line;
+  for (const std::size_t i : cells) {
+    const std::vector<Figures> trials = results.of(i);
+    const Figures& cell = trials.front();
+    const Statistics result = statistics(trials, "error_percent");
+    if (cell.word("level") != level) {
+      level = cell.word("level");
+      std::printf(
+          "\n\n%s\nSymmetric difference, %% of the search area: mean +- standard error of %d "
+          "trials (printed in the paper)",
+          level == "known" ? "Level known beforehand (the authors' code)"
+                           : "Level from the greatest and least mean (the paper's text)",
+          results.trials());
+    }
+    const std::string row = cell.word("row"), shape = cell.word("shape");
+    if (line != level + row + shape) std::printf("\n%-12s%-12s", row.c_str(), shape.c_str());
+    line = level + row + shape;
+    std::printf("  %-8s%s (%s)", cell.word("algorithm").c_str(), in_words(result).c_str(),
+                or_dash(cell.maybe_number("printed")).c_str());
+    csv += level + "," + row + "," + shape + "," + cell.word("algorithm") + "," +
+           std::to_string(trials.size()) + "," + csv_of(result) + "," + cell.word("printed") + "\n";
+  }
+  std::printf("\n");
+  folder.write("table1", csv);
+}
+
+void report_defaults(const Results& results, const std::vector<std::size_t>& cells,
+                     const ReportFolder& folder) {
   std::printf(
       "\nLevel unknown, the tool's defaults (trend on in the rows with bias); over half the tumour "
       "wrong: missed\n");
@@ -146,42 +162,50 @@ void report_defaults(const Table& table, const Errors& errors,
       "%-12s%-12s  error, %%              (ILS-UCB as printed)  missed reference bound   error / "
       "bound\n",
       "", "");
-  std::string csv = "row,shape,trials,error_percent,standard_error,printed,lost,bound_percent\n";
-  for (std::size_t i = 0; i < table.entries.size(); ++i) {
-    const Entry& entry = table.entries[i];
-    const Surface tissue = tissue_of(table.cells[i].scene).surface;
-    const World world = simulated_world(table.cells[i].scene, tissue);
-    const double half =
-        50.0 * superlevel_area(tissue, world.truth, world.true_level) / tissue.area();
-    const std::vector<double> last = finals(errors[i]);
-    const Statistics result = statistics(last);
-    const auto lost =
-        std::count_if(last.begin(), last.end(), [&](double error) { return error > half; });
-    const double bound = bound_percent(entry, table.cells[i].scene, tissue.area());
-    std::printf("%-12s%-12s  %s (%s)  %12ld  %16.3f  %14.2f\n", entry.row.c_str(),
-                entry.shape.c_str(), in_words(result).c_str(), or_dash(entry.printed).c_str(),
-                static_cast<long>(lost), bound, result.mean / bound);
-    csv += entry.row + "," + entry.shape + "," + std::to_string(arguments.trials) + "," +
-           text_of(result.mean) + "," + or_empty(result.standard_error) + "," +
-           or_empty(entry.printed) + "," + std::to_string(lost) + "," + text_of(bound) + "\n";
+  std::string csv = std::string("row,shape,trials,error_percent,") + kStatisticsColumns +
+                    ",printed,lost,lost_low_95,lost_high_95,bound_percent\n";
+  for (const std::size_t i : cells) {
+    const std::vector<Figures> trials = results.of(i);
+    const Figures& cell = trials.front();
+    const Statistics result = statistics(trials, "error_percent");
+    const int count = static_cast<int>(trials.size());
+    const auto lost = static_cast<int>(
+        std::ranges::count_if(trials, [](const Figures& trial) { return trial.flag("lost"); }));
+    const Interval of_lost = wilson_interval(lost, count);
+    const double bound = cell.number("bound_percent");
+    std::printf("%-12s%-12s  %s (%s)  %12d  %16.3f  %14.2f\n", cell.word("row").c_str(),
+                cell.word("shape").c_str(), in_words(result).c_str(),
+                or_dash(cell.maybe_number("printed")).c_str(), lost, bound, result.mean / bound);
+    csv += cell.word("row") + "," + cell.word("shape") + "," + std::to_string(count) + "," +
+           csv_of(result) + "," + cell.word("printed") + "," + std::to_string(lost) + "," +
+           text_of(of_lost.low) + "," + text_of(of_lost.high) + "," + text_of(bound) + "\n";
   }
-  write_table(arguments, "table1_defaults", csv);
+  folder.write("table1_defaults", csv);
 }
 
 }  // namespace
 
-void table1(const ExperimentArguments& arguments) {
-  const Table table = table_of(base_scene(arguments, paper_scene()), arguments);
-  const Table defaults = arguments.scene.empty()
-                             ? default_table(base_scene(arguments, default_scene()), arguments)
-                             : Table();
-  std::vector<Cell> cells = defaults.cells;
-  cells.insert(cells.end(), table.cells.begin(), table.cells.end());
-  refuse_no_cell(cells.size(), arguments);
-  if (printed_scenes(cells, arguments)) return;
-  if (!defaults.cells.empty())
-    report_defaults(defaults, run_trials(defaults.cells, arguments), arguments);
-  if (!table.cells.empty()) report(table.entries, run_trials(table.cells, arguments), arguments);
+Study table1_study(const ExperimentArguments& arguments) {
+  std::vector<Cell> cells;
+  if (arguments.scene.empty())
+    add_default_cells(base_scene(arguments, default_scene()), arguments, cells);
+  add_paper_cells(base_scene(arguments, paper_scene()), arguments, cells);
+  Study study = error_study(cells);
+  study.columns.insert(study.columns.end(), {"lost", "bound_percent"});
+  if (cells.empty()) return study;
+  const LazyTissue tissue(cells.front().scene);
+  study.run = [run = study.run, cells, tissue](std::size_t cell, std::uint64_t seed) {
+    return with_references(run(cell, seed), cells[cell], tissue.surface());
+  };
+  return study;
+}
+
+void report_table1(const Results& results, const ReportFolder& folder) {
+  std::vector<std::size_t> defaults, paper;
+  for (std::size_t i = 0; i < results.manifest.cells.size(); ++i)
+    (results.of(i).front().word("table") == "paper" ? paper : defaults).push_back(i);
+  if (!defaults.empty()) report_defaults(results, defaults, folder);
+  if (!paper.empty()) report_paper(results, paper, folder);
 }
 
 }  // namespace palpation::tool

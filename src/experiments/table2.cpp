@@ -20,14 +20,6 @@ struct Method {
   json changes;        ///< paths to values
 };
 
-struct Entry {
-  const Method* method;
-  std::string shape;
-  int noise_percent;
-  bool lag_modelled;
-  std::optional<double> printed;
-};
-
 /// The search area, the level and the number of stops of the physical experiments; readings 1.5 mm
 /// late. As by default, but for that.
 json physical_scene() {
@@ -91,14 +83,9 @@ std::optional<double> printed_value(const std::string& column, const std::string
   return shape == "disk" ? found->second.first : found->second.second;
 }
 
-struct Table {
-  std::vector<Entry> entries;
-  std::vector<Cell> cells;  ///< one per entry
-};
-
-Table table_of(const Scene& base, const ExperimentArguments& arguments) {
+std::vector<Cell> cells_of(const Scene& base, const ExperimentArguments& arguments) {
   const bool keep_tumours = !arguments.scene.empty();
-  Table table;
+  std::vector<Cell> cells;
   for (const Method& method : methods()) {
     for (const bool lag_modelled : {false, true}) {
       for (const std::string& shape :
@@ -108,52 +95,56 @@ Table table_of(const Scene& base, const ExperimentArguments& arguments) {
                             .with("field.lag_mm", lag_modelled ? json("learn") : json(0.0));
           for (const auto& [path, value] : method.changes.items()) scene = scene.with(path, value);
           if (!keep_tumours) scene = scene.with("probe.tumours", tumour_of(shape));
-          const std::string lag = lag_modelled ? "lag learned" : "lag ignored";
-          const std::string name =
-              method.name + ", " + lag + ", " + shape + ", noise " + std::to_string(percent) + " %";
+          const std::string lag = lag_modelled ? "learned" : "ignored";
+          const std::string name = method.name + ", lag " + lag + ", " + shape + ", noise " +
+                                   std::to_string(percent) + " %";
           if (!is_chosen(name, arguments)) continue;
-          table.entries.push_back(
-              {&method, shape, percent, lag_modelled,
-               keep_tumours ? std::nullopt : printed_value(method.column, shape)});
-          table.cells.push_back({name, scene});
+          cells.push_back(
+              {name, scene,
+               Figures()
+                   .set("method", method.name)
+                   .set("words", method.words)
+                   .set("lag", lag)
+                   .set("shape", shape)
+                   .set("noise_percent", std::to_string(percent))
+                   .set("printed",
+                        keep_tumours ? std::nullopt : printed_value(method.column, shape))});
         }
       }
     }
   }
-  return table;
-}
-
-void report(const std::vector<Entry>& entries, const Errors& errors,
-            const ExperimentArguments& arguments) {
-  std::string csv = "method,lag,shape,noise_percent,trials,error_percent,standard_error,printed\n";
-  std::printf(
-      "\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed "
-      "in the paper, noise unknown)\n",
-      arguments.trials);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Entry& entry = entries[i];
-    const Statistics result = statistics(finals(errors[i]));
-    const std::string lag = entry.lag_modelled ? "learned" : "ignored";
-    if (i == 0 || entries[i - 1].method != entry.method ||
-        entries[i - 1].lag_modelled != entry.lag_modelled)
-      std::printf("\n%s, lag %s\n", entry.method->words.c_str(), lag.c_str());
-    std::printf("  %-12s noise %2d %% %s (%s)\n", entry.shape.c_str(), entry.noise_percent,
-                in_words(result).c_str(), or_dash(entry.printed).c_str());
-    csv += entry.method->name + "," + lag + "," + entry.shape + "," +
-           std::to_string(entry.noise_percent) + "," + std::to_string(arguments.trials) + "," +
-           text_of(result.mean) + "," + or_empty(result.standard_error) + "," +
-           or_empty(entry.printed) + "\n";
-  }
-  write_table(arguments, "table2", csv);
+  return cells;
 }
 
 }  // namespace
 
-void table2(const ExperimentArguments& arguments) {
-  const Table table = table_of(base_scene(arguments, physical_scene()), arguments);
-  refuse_no_cell(table.cells.size(), arguments);
-  if (printed_scenes(table.cells, arguments)) return;
-  report(table.entries, run_trials(table.cells, arguments), arguments);
+Study table2_study(const ExperimentArguments& arguments) {
+  return error_study(cells_of(base_scene(arguments, physical_scene()), arguments));
+}
+
+void report_table2(const Results& results, const ReportFolder& folder) {
+  std::string csv = std::string("method,lag,shape,noise_percent,trials,error_percent,") +
+                    kStatisticsColumns + ",printed\n";
+  std::printf(
+      "\nSymmetric difference, %% of the search area: mean +- standard error of %d trials (printed "
+      "in the paper, noise unknown)\n",
+      results.trials());
+  std::string heading;
+  for (std::size_t i = 0; i < results.manifest.cells.size(); ++i) {
+    const std::vector<Figures> trials = results.of(i);
+    const Figures& cell = trials.front();
+    const Statistics result = statistics(trials, "error_percent");
+    const std::string words = cell.word("words") + ", lag " + cell.word("lag");
+    if (words != heading) std::printf("\n%s\n", words.c_str());
+    heading = words;
+    std::printf("  %-12s noise %2s %% %s (%s)\n", cell.word("shape").c_str(),
+                cell.word("noise_percent").c_str(), in_words(result).c_str(),
+                or_dash(cell.maybe_number("printed")).c_str());
+    csv += cell.word("method") + "," + cell.word("lag") + "," + cell.word("shape") + "," +
+           cell.word("noise_percent") + "," + std::to_string(trials.size()) + "," + csv_of(result) +
+           "," + cell.word("printed") + "\n";
+  }
+  folder.write("table2", csv);
 }
 
 }  // namespace palpation::tool

@@ -29,6 +29,7 @@ struct Arguments {
   MeshArguments mesh;
   ExperimentArguments experiment;
   std::filesystem::path measurements, a, b;
+  std::vector<std::filesystem::path> inputs;  ///< of an experiment: a scene, a study, or shards
   std::vector<std::filesystem::path> recordings;
   bool overwrite = false;  // tables of an experiment
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -179,12 +180,33 @@ void add_mesh_command(CLI::App& app, Arguments& arguments) {
   making->callback([&] { make_mesh(arguments.mesh); });
 }
 
+void experiment_or_merge(Arguments& arguments) {
+  ExperimentArguments& asked = arguments.experiment;
+  const Existing results = arguments.overwrite ? Existing::Replaced : Existing::Kept;
+  if (asked.name == "merge") {
+    if (arguments.inputs.empty())
+      throw WrongUsage("experiment merge: needs the folders that hold the shards");
+    return merge_experiment(arguments.inputs, asked.out, results);
+  }
+  if (arguments.inputs.size() > 1)
+    throw WrongUsage("experiment " + asked.name + ": takes one scene, not " +
+                     std::to_string(arguments.inputs.size()));
+  if (!arguments.inputs.empty()) asked.scene = arguments.inputs.front();
+  experiment(asked, results);
+}
+
 void add_experiment_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials");
-  command->add_option("NAME", arguments.experiment.name, "which")
+  command->add_option("NAME", arguments.experiment.name, "which; or merge, to add up shards")
       ->required()
       ->check(CLI::IsMember(experiment_names()));
-  command->add_option("SCENE", arguments.experiment.scene, "in place of the paper's phantom");
+  command->add_option("SCENE", arguments.inputs,
+                      "in place of the paper's phantom; of study its file; of merge the shards' "
+                      "folders");
+  command
+      ->add_option("--shard", arguments.experiment.shard,
+                   "run only the I-th of N parts of the trials, and keep their rows in --out")
+      ->type_name("I/N");
   command
       ->add_option("--trials", arguments.experiment.trials, "per cell; default: 5, for tradeoff 20")
       ->check(whole(1, kMostTrials));
@@ -208,15 +230,13 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
                     "print the scene of every cell instead of running it");
   add_out(*command, arguments.experiment.out, "folder for the table and the picture");
   command->add_flag("--overwrite", arguments.overwrite,
-                    "replace this experiment's tables and pictures in that folder");
+                    "begin anew in a folder that holds another experiment");
   command
       ->add_option("--threads", arguments.threads,
                    "trials run at once; the results do not depend on it")
       ->check(whole(1, 1024));
   command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
-  command->callback([&] {
-    experiment(arguments.experiment, arguments.overwrite ? Existing::Replaced : Existing::Kept);
-  });
+  command->callback([&] { experiment_or_merge(arguments); });
 }
 
 void add_help_command(CLI::App& app) {

@@ -172,31 +172,59 @@ class Tool(unittest.TestCase):
         rows = [row.split(",")[:4] for row in (self.folder / "table1.csv").read_text().splitlines()[1:]]
         self.assertEqual(rows, [[level, "noise 5 %", "disk", algorithm] for level in ("known", "range") for algorithm in ("evr", "ucb", "ils-ucb")])
         self.assertEqual(len((self.folder / "table1_defaults.csv").read_text().splitlines()), 2)
-        coarse[3] = "surface.plane.vertices=[19,17]"
+        coarse[3], coarse[-1] = "surface.plane.vertices=[19,17]", self.folder / "table2"
         self.done("experiment", "table2", "--only", "way, lag learned, horseshoe, noise 10 %", *coarse)
-        (row,) = (self.folder / "table2.csv").read_text().splitlines()[1:]
+        (row,) = (self.folder / "table2" / "table2.csv").read_text().splitlines()[1:]
         self.assertTrue(row.startswith("way,learned,horseshoe,10,1,"), row)
 
     def test_coverage_and_detection_count_runs_over_random_tumours(self):
         coarse = ["--trials", 1, "--set", "surface.plane.vertices=[37,33]", "--set", "plan.batches=2", "--quiet", "--out", self.folder]
         words = self.done("experiment", "coverage", *coarse)
         self.assertIn("noise 25 %", words)
-        header, *rows = (self.folder / "coverage.csv").read_text().splitlines()
+        header, *rows = (self.folder / "rows.csv").read_text().splitlines()
         self.assertEqual(len(rows), 4)
         names = header.split(",")
         for row in rows:
             run = dict(zip(names, row.split(",")))
+            self.assertEqual((run["seed"], run["parts"]), ("0", "1"))
             self.assertTrue(50.0 <= float(run["area_mm2"]) <= 400.0 and 500.0 <= float(run["slope_per_m"]) <= 2000.0)
             self.assertGreater(float(run["bound_mm2"]), 0.0)
+        (total,) = [row for row in (self.folder / "coverage.csv").read_text().splitlines() if row.startswith("all,")]
+        self.assertTrue(total.startswith("all,4,"), total)
+        coarse[-1] = self.folder / "detection"
         words = self.done("experiment", "detection", *coarse, "--set", "plan.min_contrast=2")
         self.assertIn("Healthy tissue: nothing found", words)
-        kinds = [row.split(",")[0] for row in (self.folder / "detection.csv").read_text().splitlines()[1:]]
+        kinds = [row.split(",")[0] for row in (self.folder / "detection" / "detection.csv").read_text().splitlines()[1:]]
         self.assertEqual((kinds.count("healthy"), kinds.count("two")), (4, 3))
+
+    def test_a_study_varies_values_and_meshes(self):
+        (self.folder / "meshes").mkdir()
+        for name in ("a.ply", "b.ply"):
+            self.done("mesh", "plane", "--vertices", 13, 25, self.folder / "meshes" / name)
+        scene = dict(SCENE, surface={"mesh": "none.ply", "unit": "mm"})
+        self.write("meshed.json", json.dumps(scene))
+        study = self.write("study.json", json.dumps({"scene": "meshed.json", "meshes": "meshes", "vary": {"plan.batch": [5, 10], "plan.batches": [1]}, "trials": 2}))
+        self.done("experiment", "study", study, "--quiet", "--out", self.folder / "out")
+        _, *rows = (self.folder / "out" / "study.csv").read_text().splitlines()
+        self.assertEqual([row.split('"')[1] for row in rows], [f"surface.mesh {mesh}, plan.batch {batch}, plan.batches 1" for mesh in ("a.ply", "b.ply") for batch in (5, 10)])
+        self.assertTrue(all(row.split('"')[2].startswith(",2,") for row in rows))
+        self.assertIn("no key of a study", self.refused(3, "experiment", "study", self.write("bad.json", '{"scene": "meshed.json", "varry": {}}')))
+        self.assertIn("must be a list", self.refused(3, "experiment", "study", self.write("bad.json", '{"scene": "meshed.json", "vary": {"seed": 1}}')))
+        self.assertIn("needs a study", self.refused(3, "experiment", "study"))
+
+    def test_shards_are_asked_for_in_words_that_make_sense(self):
+        self.assertIn("--shard needs --out", self.refused(2, "experiment", "coverage", "--shard", "1/2"))
+        self.assertIn("must be I/N", self.refused(2, "experiment", "coverage", "--shard", "3/2", "--out", self.folder / "x"))
+        self.assertIn("needs the folders", self.refused(2, "experiment", "merge"))
+        self.assertIn("experiment.json: cannot read", self.refused(3, "experiment", "merge", self.folder))
 
     def test_tradeoff_advises_what_its_table_supports(self):
         words = self.done("experiment", "tradeoff", self.scene, "--trials", 3, "--quiet", "--out", self.folder)
-        header, *rows = (self.folder / "tradeoff.csv").read_text().splitlines()
-        table = {row["choice"]: row for row in (dict(zip(header.split(","), row.split(","))) for row in rows)}
+        table = {}
+        for name in ("tradeoff_areas.csv", "tradeoff_times.csv"):
+            header, *rows = (self.folder / name).read_text().splitlines()
+            for row in (dict(zip(header.split(","), row.split(","))) for row in rows):
+                table.setdefault(row["choice"], {}).update(row)
         self.assertTrue({"exact", "fast", "draft", "plan on 1.0 mm", "plain arithmetic"} <= set(table))
         self.assertEqual(float(table["exact"]["from_exact_mm2"]), 0.0)
         self.assertEqual(float(table["plain arithmetic"]["from_exact_mm2"]), 0.0, "the boundary is the same, only its error is summed otherwise")
