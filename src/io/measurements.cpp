@@ -10,6 +10,7 @@
 
 #include "io/landing.h"
 #include "io/measurement_columns.h"
+#include "io/measurement_rows.h"
 #include "io/number_text.h"
 #include "io/places.h"
 #include "palpation/base/error.h"
@@ -36,17 +37,16 @@ struct Columns {
         noise_variance(find_column(table, "noise_variance")),
         batch(find_column(table, "batch")),
         kind(find_column(table, "kind")),
-        travel{find_column(table, "tx"), find_column(table, "ty"), find_column(table, "tz")},
-        set_aside(find_column(table, "set_aside")) {}
+        travel{find_column(table, "tx"), find_column(table, "ty"), find_column(table, "tz")} {}
 
   std::array<std::size_t, 3> position;
   std::size_t reading;
   std::optional<std::size_t> noise_variance, batch, kind;
   std::array<std::optional<std::size_t>, 3> travel;
-  std::optional<std::size_t> set_aside;
 };
 
-ForeignColumns foreign_columns(const CsvTable& table) {
+/// Of the rows that are on the tissue.
+ForeignColumns foreign_columns(const CsvTable& table, const std::vector<bool>& is_off) {
   std::vector<std::size_t> numbers;
   ForeignColumns foreign;
   for (std::size_t column = 0; column < table.columns().size(); ++column) {
@@ -56,10 +56,12 @@ ForeignColumns foreign_columns(const CsvTable& table) {
     foreign.names.push_back(name);
   }
   if (numbers.empty()) return foreign;
-  foreign.rows.resize(table.row_count());
-  for (std::size_t row = 0; row < table.row_count(); ++row)
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    if (is_off[row]) continue;
+    foreign.rows.emplace_back();
     for (const std::size_t column : numbers)
-      foreign.rows[row].emplace_back(table.cell(row, column));
+      foreign.rows.back().emplace_back(table.cell(row, column));
+  }
   return foreign;
 }
 
@@ -257,7 +259,12 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   MeasurementsFile file;
   file.palpations.reserve(table.row_count());
   std::size_t farthest_row = 0;
+  check_reading_unit(table, rules.reading_unit);
+  const std::vector<bool> is_off = rules.leave_out_off_tissue
+                                       ? rows_off_tissue(table, surface, file.warnings)
+                                       : std::vector<bool>(table.row_count(), false);
   for (std::size_t row = 0; row < table.row_count(); ++row) {
+    if (is_off[row]) continue;
     Vec3 position;
     for (std::size_t i = 0; i < 3; ++i)
       position[static_cast<Eigen::Index>(i)] = finite_number_at(table, row, columns.position[i]);
@@ -268,7 +275,7 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
                         .batch = batch_at(table, row, columns.batch),
                         .kind = kind_at(table, row, columns.kind),
                         .travel = travel_at(table, row, columns.travel),
-                        .set_aside = std::string(word_at(table, row, columns.set_aside))};
+                        .set_aside = set_aside_at(table, row)};
     if (landing.farthest_m() > farthest_m) farthest_row = row;
     if (palpation.set_aside.empty()) {
       const bool exact = palpation.noise_variance == 0.0 ||
@@ -281,7 +288,7 @@ MeasurementsFile read_measurements(const std::filesystem::path& path, const Surf
   check_range(table, file.palpations);
   set_aside_copies(table, surface, file.palpations, file.warnings);
   file.places = static_cast<int>(repeats.places());
-  file.foreign = foreign_columns(table);
+  file.foreign = foreign_columns(table, is_off);
   if (landing.moved() > 0) {
     file.warnings.push_back(
         table.name() + ": " + std::to_string(landing.moved()) + " of " +

@@ -115,11 +115,17 @@ std::vector<SceneKey> make_scene_keys() {
            "a choice of plan.explore_mm and error.arithmetic, each of which can be given by "
            "itself; palpate experiment tradeoff tells what "
            "they cost on a scene"),
+      text("reading_unit",
+           "what the readings are measured in, such as N/mm; where measurements have a column "
+           "reading_unit, it must say the same"),
       text("surface.mesh",
            "the tissue: an OBJ, OFF, STL, PLY or VTP file, relative to the scene, or where there "
            "is none to where palpate runs"),
       word("surface.unit", {"mm", "cm", "m"}, nullptr,
            "of the mesh's coordinates; needed with surface.mesh"),
+      word("surface.off_tissue", {"leave-out", "refuse"}, "leave-out",
+           "measurements more than 5 mm above or below the tissue, or 1 mm beside its border: left "
+           "out and told, or their file is refused; a file all of which lies off is refused"),
       truth("surface.weld", false,
             "vertices of the mesh at exactly the same place become one; STL corners always do"),
       numbers("surface.plane.size_mm", 2, "mm", 0.01, 2000.0, nullptr,

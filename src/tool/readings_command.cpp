@@ -190,7 +190,8 @@ void readings(const ReadingsArguments& arguments) {
     words += "No reading from " + std::to_string(failed) + ":\n" + left_out_words(result);
   words += "Next: palpate boundary SCENE.json --measurements " + arguments.files.out.string() +
            ", on a mesh of this tissue (of a flat one: palpate mesh plane --around " +
-           arguments.files.out.string() + ").\n";
+           arguments.files.out.string() + "); \"reading_unit\": \"" + result.unit +
+           "\" in the scene holds others to it.\n";
   std::fputs(words.c_str(), stdout);
 }
 

@@ -48,7 +48,11 @@ void report(const Episode& episode, bool quiet) {
 MeasurementsFile measured_on(const Scene& scene, const Surface& surface,
                              const std::filesystem::path& path) {
   const bool noiseless = field_of(scene).is_noiseless();
-  MeasurementsFile measured = read_measurements(path, surface, {.empty_noise_is_none = noiseless});
+  MeasurementsFile measured = read_measurements(
+      path, surface,
+      {.empty_noise_is_none = noiseless,
+       .leave_out_off_tissue = scene.word("surface.off_tissue") == "leave-out",
+       .reading_unit = scene.gives("reading_unit") ? scene.word("reading_unit") : ""});
   if (measured.places > kMostPlaces)
     throw IoError(path.string() + ": readings at " + std::to_string(measured.places) +
                   " places; at most " + std::to_string(kMostPlaces) +

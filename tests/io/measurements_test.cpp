@@ -98,5 +98,51 @@ TEST(MeasurementsCsv, KeepsColumnsThatMeanNothingHere) {
   EXPECT_THROW(measurements_csv(surface, {}, file.foreign), InvalidInput);
 }
 
+TEST(ReadMeasurements, SetsAsideWhatAPersonTookBack) {
+  const std::vector<Palpation> palpations = measured(
+      "x,y,z,reading,withdrawn,set_aside,t,session\n"
+      "0,0,0,1,,,0.5,morning\n0.01,0,0,2,slipped,,1.5,morning\n"
+      "0,0.01,0,3,1,,2,noon\n0.01,0.01,0,4,0,,3,noon\n0.02,0,0,5,no,jammed,4,noon\n");
+  ASSERT_EQ(palpations.size(), 5u);
+  EXPECT_EQ(palpations[0].set_aside, "");
+  EXPECT_EQ(palpations[1].set_aside, "withdrawn: slipped");
+  EXPECT_EQ(palpations[2].set_aside, "withdrawn");
+  EXPECT_EQ(palpations[3].set_aside, "");
+  EXPECT_EQ(palpations[4].set_aside, "jammed");
+}
+
+TEST(ReadMeasurements, LeavesOutWhatLiesOffTheTissueWhereAsked) {
+  const TemporaryFolder folder;
+  const MeasurementRules rules{.leave_out_off_tissue = true};
+  const MeasurementsFile file = read_measurements(
+      folder.file("m.csv",
+                  "x,y,z,reading,who\n-0.00102,0.01,0,2,a\n0.01,0.01,0,1,b\n0.01,0.01,0.3,3,c\n"),
+      square(), rules);
+  ASSERT_EQ(file.palpations.size(), 1u);
+  EXPECT_EQ(file.foreign.rows, (std::vector<std::vector<std::string>>{{"b"}}));
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_TRUE(contains(file.warnings[0],
+                       "2 of 3 readings lie off the tissue and were left out, the farthest by 0.3 "
+                       "m in line 4"))
+      << file.warnings[0];
+  const std::filesystem::path all = folder.file("all.csv", "x,y,z,reading\n10,12,0,1\n8,9,0,2\n");
+  EXPECT_TRUE(contains(io_error_of([&] { read_measurements(all, square(), rules); }),
+                       "(is it in millimetres? positions are metres); no reading lies on the"));
+}
+
+TEST(ReadMeasurements, RefusesTwoUnits) {
+  const TemporaryFolder folder;
+  const std::filesystem::path two =
+      folder.file("m.csv", "x,y,z,reading,reading_unit\n0,0,0,1,N/mm\n0.01,0,0,2,kPa\n");
+  EXPECT_TRUE(contains(io_error_of([&] { read_measurements(two, square()); }),
+                       ":3: column reading_unit: \"kPa\" is another unit than \"N/mm\""));
+  const std::filesystem::path one =
+      folder.file("o.csv", "x,y,z,reading,reading_unit\n0,0,0,1,N/mm\n0.01,0,0,2,\n");
+  EXPECT_EQ(read_measurements(one, square(), {.reading_unit = "N/mm"}).palpations.size(), 2u);
+  EXPECT_TRUE(
+      contains(io_error_of([&] { read_measurements(one, square(), {.reading_unit = "kPa"}); }),
+               "the scene's reading_unit"));
+}
+
 }  // namespace
 }  // namespace palpation

@@ -40,9 +40,16 @@ struct MeasurementsFile {
   std::vector<std::string> warnings;
 };
 
+/// A row whose column withdrawn is neither empty, 0, no nor false was taken back by a person: it is
+/// set aside, with that word as its reason. Where a column reading_unit says what readings are in,
+/// all agree. Columns t and session may say when and in which session a reading was made: rows of
+/// many lie in one file.
 struct MeasurementRules {
-  bool empty_noise_is_none = false;  ///< the field has no noise, so that repeats must agree even
-                                     ///< where a row does not say so
+  bool empty_noise_is_none = false;   ///< the field has no noise, so that repeats must agree even
+                                      ///< where a row does not say so
+  bool leave_out_off_tissue = false;  ///< positions too far off the surface are left out with a
+                                      ///< warning, in place of an error, unless all are
+  std::string reading_unit{};         ///< what a column reading_unit must say; empty: anything
 };
 
 /// A table without rows is no error. Throws IoError, naming line, column, value and rule, for all

@@ -1,0 +1,24 @@
+/// Rows of measurements that do not count: off the tissue, or taken back; and whether all are in
+/// one unit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palpation/geometry/surface.h"
+#include "palpation/io/csv.h"
+
+namespace palpation {
+
+/// True for rows whose position lies too far off the surface, with a warning of how many and the
+/// farthest. Throws IoError if all do, with what is wrong with the first.
+std::vector<bool> rows_off_tissue(const CsvTable& table, const Surface& surface,
+                                  std::vector<std::string>& warnings);
+
+/// Why a row does not count: its own reason, or that a person has withdrawn it.
+std::string set_aside_at(const CsvTable& table, std::size_t row);
+
+/// Throws IoError where the column reading_unit names two, or another than `unit` (empty: any).
+void check_reading_unit(const CsvTable& table, const std::string& unit);
+
+}  // namespace palpation
