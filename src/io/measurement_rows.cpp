@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/landing.h"
+#include "io/measurement_columns.h"
 #include "io/number_text.h"
 #include "palpation/base/error.h"
 
@@ -55,6 +56,25 @@ std::vector<bool> rows_off_tissue(const CsvTable& table, const Surface& surface,
                      text_of(std::round(farthest_m * 1e6) / 1e6) + " m in line " +
                      std::to_string(table.line(farthest)) + ".");
   return is_off;
+}
+
+ForeignColumns foreign_columns(const CsvTable& table, const std::vector<bool>& is_off) {
+  std::vector<std::size_t> numbers;
+  ForeignColumns foreign;
+  for (std::size_t column = 0; column < table.columns().size(); ++column) {
+    const std::string& name = table.columns()[column];
+    if (std::ranges::find(kMeasurementColumns, name) != kMeasurementColumns.end()) continue;
+    numbers.push_back(column);
+    foreign.names.push_back(name);
+  }
+  if (numbers.empty()) return foreign;
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    if (is_off[row]) continue;
+    foreign.rows.emplace_back();
+    for (const std::size_t column : numbers)
+      foreign.rows.back().emplace_back(table.cell(row, column));
+  }
+  return foreign;
 }
 
 std::string set_aside_at(const CsvTable& table, std::size_t row) {

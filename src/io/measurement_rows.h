@@ -7,6 +7,7 @@
 
 #include "palpation/geometry/surface.h"
 #include "palpation/io/csv.h"
+#include "palpation/io/measurements.h"
 
 namespace palpation {
 
@@ -14,6 +15,9 @@ namespace palpation {
 /// farthest. Throws IoError if all do, with what is wrong with the first.
 std::vector<bool> rows_off_tissue(const CsvTable& table, const Surface& surface,
                                   std::vector<std::string>& warnings);
+
+/// The columns that mean nothing here, of the rows that are on the tissue.
+ForeignColumns foreign_columns(const CsvTable& table, const std::vector<bool>& is_off);
 
 /// Why a row does not count: its own reason, or that a person has withdrawn it.
 std::string set_aside_at(const CsvTable& table, std::size_t row);

@@ -45,26 +45,6 @@ struct Columns {
   std::array<std::optional<std::size_t>, 3> travel;
 };
 
-/// Of the rows that are on the tissue.
-ForeignColumns foreign_columns(const CsvTable& table, const std::vector<bool>& is_off) {
-  std::vector<std::size_t> numbers;
-  ForeignColumns foreign;
-  for (std::size_t column = 0; column < table.columns().size(); ++column) {
-    const std::string& name = table.columns()[column];
-    if (std::ranges::find(kMeasurementColumns, name) != kMeasurementColumns.end()) continue;
-    numbers.push_back(column);
-    foreign.names.push_back(name);
-  }
-  if (numbers.empty()) return foreign;
-  for (std::size_t row = 0; row < table.row_count(); ++row) {
-    if (is_off[row]) continue;
-    foreign.rows.emplace_back();
-    for (const std::size_t column : numbers)
-      foreign.rows.back().emplace_back(table.cell(row, column));
-  }
-  return foreign;
-}
-
 /// A cell of a column that may be missing: then all its cells are empty.
 std::string_view word_at(const CsvTable& table, std::size_t row,
                          const std::optional<std::size_t>& column) {

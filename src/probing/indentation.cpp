@@ -15,9 +15,10 @@ namespace palpation {
 namespace {
 
 constexpr Eigen::Index kLeastInAir = 5;
-constexpr double kFlat = 0.05;     // of the slope of all: in the air
-constexpr double kDrifting = 0.3;  // the same, where stamps tell the drift apart
-constexpr double kBend = 12.0;     // F statistic: a bend by chance is one in a thousand
+constexpr Eigen::Index kTellsContact = 5;  // samples: three degrees of freedom
+constexpr double kFlat = 0.05;             // of the slope of all: in the air
+constexpr double kDrifting = 0.3;          // the same, where stamps tell the drift apart
+constexpr double kBend = 12.0;             // F statistic: a bend by chance is one in a thousand
 constexpr double kInAirAtSight = 1.0 / 3.0;
 constexpr int kMostSamples = 400;      // for looking where contact is; fits take all
 constexpr double kReach = 1.0 + 1e-9;  // a depth written in decimals may be a rounding less
@@ -132,6 +133,11 @@ bool rises(const Loading& loading, const ContactOptions& options, const Attempt&
 /// What keeps a fit from being a value.
 std::optional<ContactFit> fault_of(const Loading& loading, const ContactOptions& options,
                                    const Attempt& best, int left_out) {
+  if (!rises(loading, options, best) && loading.depth_m.size() < kTellsContact)
+    return failed(
+        ContactOutcome::TooFewSamples,
+        "too few samples to tell contact from noise: " + std::to_string(loading.depth_m.size()),
+        left_out);
   if (!rises(loading, options, best))
     return failed(ContactOutcome::NoContact,
                   "no contact: the force does not rise with the depth above its own scatter",

@@ -11,6 +11,7 @@
 namespace palpation {
 namespace {
 
+constexpr double kDeepest_m = 0.2;    // approach and all
 constexpr double kFarAway_m = 2.0;    // tissue is at most that across
 constexpr double kOtherUnit = 300.0;  // times the usual depth, or a part of it: mm for m
 
@@ -96,6 +97,9 @@ class Reader {
     for (const AxialProbing& probing : axial_.probings)
       ranges.push_back(range_of(probing.indentation.depth_m));
     usual_range_m_ = median_of(ranges);
+    require(!(usual_range_m_ > kDeepest_m), "probing_readings",
+            "the depth, which spans " + text_of(usual_range_m_) + " m in most probings,",
+            "is deeper than tissue: is its unit right?");
     std::vector<Eigen::Index> all(static_cast<std::size_t>(log.size()));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);
     middle_ = median_point(log.position_m, all);
@@ -114,6 +118,10 @@ class Reader {
       if (seen != fitted && (seen > 0 || decided.approach == Approach::Recorded))
         fits = fit_all(decided);
     }
+    std::vector<double> values;
+    for (const ContactFit& fit : fits)
+      if (fit.outcome == ContactOutcome::Fitted) values.push_back(fit.value);
+    usual_value_ = median_of(values);
     ProbedLog result;
     result.unit = scale_.unit;
     for (std::size_t i = 0; i < fits.size(); ++i)
@@ -162,6 +170,11 @@ class Reader {
     if ((probed.place_m - middle_).norm() > kFarAway_m)
       return "it lies " + text_of(std::round((probed.place_m - middle_).norm() * 10.0) / 10.0) +
              " m away from the middle of all: in another unit?";
+    const double share = fit.value / usual_value_;
+    if (share > kOtherUnit || share * kOtherUnit < 1.0)
+      return "it reads " + text_of(fit.value * scale_.factor) + " " + scale_.unit +
+             ", most probings about " + text_of(usual_value_ * scale_.factor) +
+             ": in another unit?";
     return fit.reason;
   }
 
@@ -203,7 +216,7 @@ class Reader {
   const ContactOptions& options_;
   AxialLog axial_;
   Scale scale_;
-  double usual_range_m_ = 0.0;
+  double usual_range_m_ = 0.0, usual_value_ = 0.0;
   Vec3 middle_ = Vec3::Zero();
 };
 

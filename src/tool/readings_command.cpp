@@ -55,9 +55,12 @@ std::string kind_of(const LogFile& file, const ReadingsArguments& arguments) {
                           (arguments.slide.frequency_hz || !oscillations_in(file.log).empty());
   if (oscillates) return "slide";
   if (!probings_in(file.log).empty()) return "probings";
-  throw IoError(arguments.files.log.string() +
-                ": neither probings (no column names them, and no force comes and goes), nor an "
-                "oscillation: say --kind probings, slide or scan");
+  throw IoError(
+      arguments.files.log.string() +
+      ": neither probings (no column names them, and no force comes and goes), nor an "
+      "oscillation" +
+      (file.log.time_s.size() > 0 ? "" : " (a slide needs times, and no column has them)") +
+      ": say --kind probings, slide or scan");
 }
 
 ContactOptions contact_of(const ReadingsArguments& arguments) {

@@ -193,6 +193,12 @@ class Readings(unittest.TestCase):
             ("milliseconds and metres", text([[r[0], r[1], float(r[2]) * 1e3, r[3] / 1e3, r[4] / 1e3, float(r[5]) / 1e3, float(r[6]) * 1e3] for r in base], "probe,sample,t_ms,x_m,y_m,z_m,force_mN"), 6, "x_m [m]", []),
             ("units by option", text(base, "probe,sample,t,x,y,z,force"), 6, "", ["--unit", "time=s", "--unit", "position=mm", "--unit", "force=N"]),
             ("names by option", text(base, "wo,nr,wann,a,b,c,druck"), 6, "", ["--unit", "time=s", "--unit", "position=mm", "--unit", "force=N", *sum((["--column", pair] for pair in ["probe=wo", "sample=nr", "time=wann", "x=a", "y=b", "z=c", "force=druck"]), [])]),
+            ("a probing in millinewtons", text([row[:6] + [float(row[6]) * 1000] if row[0] == 2 else row for row in base]), 5, "in another unit?", []),
+            ("three samples each", text([row for row in base if row[1] in (0, 6, 11) or row[0] != 2]), 6, "do not tell their noise", []),
+            ("no name in two rows", text(changed(changed(base, 20, 0, ""), 21, 0, "")), 6, "too few samples: 2", []),
+            ("a header in the middle", text(base[:20] + [HEADER.split(",")] + base[20:]), 6, "is not a number", []),
+            ("normals of zero", text([row + [0, 0, 0] for row in base], HEADER + ",nx,ny,nz"), 6, "", []),
+            ("two sessions", text([["a"] + row for row in base] + [["b"] + row for row in base], "session," + HEADER), 12, "", []),
             ("named twice in two visits", text(base + [r[:2] + [float(r[2]) + 100] + r[3:] for r in base]), 12, "", []),
         ]
         bad = [
@@ -212,6 +218,12 @@ class Readings(unittest.TestCase):
             ("all stuck", text([row[:6] + ["0.5"] for row in base]), ["no reading came of it", "stuck"], []),
             ("all nan", text([row[:6] + ["nan"] for row in base]), "no reading came of it", []),
             ("a slide without oscillation", text([row[:4] + ["1.0"] for row in slide()], SLIDE), "--kind", []),
+            ("metres that are millimetres", text(base, HEADER.replace("_mm", "_m")), "is its unit right?", []),
+            ("a comment on top", "# mine\n" + text(base), "no column for the position x", []),
+            ("a row of units", text([["-", "-", "s", "mm", "mm", "mm", "N"]] + base, "probe,sample,t,x,y,z,force"), "--unit", []),
+            ("two topics", text([row[:3] + row[3:6] + row[3:] for row in base], "probe,sample,t_s,m.position.x [mm],m.position.y [mm],m.position.z [mm],s.position.x [mm],s.position.y [mm],s.position.z [mm],force_N"), "--column x=NAME", []),
+            ("positions and forces in turns", text([r for row in base for r in (row[:6] + [""], row[:3] + ["", "", "", row[6]])]), "too few samples", []),
+            ("a slide without times", text([row[1:] for row in slide()], SLIDE[4:]), "a slide needs times", []),
             ("bytes", b"\x00\x01\x02", "NUL", []),
         ]
         for name, content, count, says, options in good:

@@ -14,7 +14,8 @@
 /// The place is, in this order: the contact point that the log names; where the probe was at the
 /// contact depth, if the fit found that in the air; where it was at the shallowest sample.
 ///
-/// A probing that fails is reported with its reason, missed if there was no contact.
+/// A probing that fails is reported with its reason, missed if there was no contact; so is one
+/// whose depths or value are 300 times those of most, or a 300th: it is in another unit.
 #pragma once
 
 #include "palpation/probing/indentation.h"
@@ -29,7 +30,8 @@ std::vector<std::vector<Eigen::Index>> probings_in(const RobotLog& log);
 
 /// Readings are in the force's unit per millimetre (Linear), kPa (Hertz, where the force is in
 /// newtons; else its unit per mm2) or the force's unit (ForceAtDepth). Throws InvalidInput without
-/// force and positions, without samples, and as fit_contact.
+/// force and positions, without samples, where most probings span more than 0.2 m, and as
+/// fit_contact.
 ProbedLog probing_readings(const RobotLog& log, const ContactOptions& options = {});
 
 }  // namespace palpation
