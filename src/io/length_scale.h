@@ -20,6 +20,18 @@ inline double units_per_metre(LengthUnit unit) {
   return 1.0;
 }
 
+inline const char* name_of(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::Millimetre:
+      return "mm";
+    case LengthUnit::Centimetre:
+      return "cm";
+    case LengthUnit::Metre:
+      return "m";
+  }
+  return "m";
+}
+
 /// Division by 1000 rounds once; multiplication by 0.001, which is no double, would round twice.
 inline double to_metres(double value, LengthUnit unit) { return value / units_per_metre(unit); }
 

@@ -188,10 +188,12 @@ std::int64_t drop_unused_points(PolygonSoup& soup, std::vector<SoupTriangle>& tr
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] < 0) continue;
     soup.points[used] = soup.points[i];
+    if (!soup.height_sd.empty()) soup.height_sd[used] = soup.height_sd[i];
     number[i] = used++;
   }
   const auto dropped = static_cast<std::int64_t>(soup.points.size()) - used;
   soup.points.resize(used);
+  if (!soup.height_sd.empty()) soup.height_sd.resize(used);
   if (dropped == 0) return 0;
   for (SoupTriangle& triangle : triangles) {
     for (int& corner : triangle.corners) corner = number[corner];

@@ -25,7 +25,8 @@ inline constexpr std::int64_t kMostPoints = std::numeric_limits<int>::max() / 3 
 
 struct PolygonSoup {
   std::string format;
-  std::vector<Vec3> points;  ///< in the file's unit, finite
+  std::vector<Vec3> points;       ///< in the file's unit, finite
+  std::vector<double> height_sd;  ///< of each point, in the same unit; or none
   std::vector<MeshWarning> warnings;
   PlaceKind place_kind = PlaceKind::None;
   int first_number = 0;  ///< what the format calls its first vertex and face: 0 or 1

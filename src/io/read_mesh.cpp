@@ -161,8 +161,11 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
   }
   const std::int64_t equal = warn_of_close_points(soup);
   warn_of_slivers(soup, triangles);
+  Field height_sd =
+      Eigen::Map<Field>(soup.height_sd.data(), static_cast<Eigen::Index>(soup.height_sd.size()))
+          .unaryExpr([unit](double value) { return to_metres(value, unit); });
   return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format),
-          equal};
+          std::move(height_sd), equal};
 }
 
 struct NamedUnit {
@@ -171,12 +174,6 @@ struct NamedUnit {
 };
 constexpr std::array<NamedUnit, 3> kUnits = {
     {{"mm", LengthUnit::Millimetre}, {"cm", LengthUnit::Centimetre}, {"m", LengthUnit::Metre}}};
-
-std::string name_of(LengthUnit unit) {
-  return std::find_if(kUnits.begin(), kUnits.end(),
-                      [unit](const NamedUnit& named) { return named.unit == unit; })
-      ->name;
-}
 
 /// The units under which the size would be that of tissue, as a question.
 std::string suggestion(double extent_m_as_read, LengthUnit unit) {
@@ -203,8 +200,8 @@ MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit, const Mes
   MeshFile file = read_mesh_of_any_size(path, unit, repair);
   const double size_m = extent_m(file.mesh);
   if (size_m >= kSmallestTissue && size_m <= kLargestTissue) return file;
-  throw IoError(path.string() + ": read in " + name_of(unit) + " the mesh is " + text_of(size_m) +
-                " m long, but tissue is between 0.001 m and 2 m across; " +
+  throw IoError(path.string() + ": read in " + std::string(name_of(unit)) + " the mesh is " +
+                text_of(size_m) + " m long, but tissue is between 0.001 m and 2 m across; " +
                 suggestion(size_m, unit));
 }
 

@@ -11,6 +11,8 @@
 namespace palpation {
 namespace {
 
+constexpr int kHeightSd = 3;  // behind x, y and z
+
 template <typename Body>
 class BodyReader {
  public:
@@ -50,7 +52,7 @@ class BodyReader {
   }
 
   void read_vertices(const PlyElement& element) {
-    // Which property is x, y, z, and -1 for the others.
+    // Which property is x, y, z or height_sd, and -1 for the others.
     std::vector<int> component(element.properties.size(), -1);
     for (int axis = 0; axis < 3; ++axis) {
       const std::string name(1, "xyz"[axis]);
@@ -60,6 +62,10 @@ class BodyReader {
         source_.fail_at_line(element.line, "element \"vertex\" has no number \"" + name + "\"");
       }
       component[found - element.properties.begin()] = axis;
+    }
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (property.name == "height_sd" && !property.count_type) component[i] = kHeightSd;
     }
     soup_.points.reserve(element.count);
     for (std::int64_t vertex = 0; vertex < element.count; ++vertex)
@@ -80,9 +86,20 @@ class BodyReader {
       if (!std::isfinite(value))
         body_.fail("vertex " + std::to_string(vertex) + ": " + property.name + " = " +
                    text_of(value) + " is not finite");
-      point[component[i]] = value;
+      if (component[i] == kHeightSd) {
+        take_height_sd(value, vertex);
+      } else {
+        point[component[i]] = value;
+      }
     }
     soup_.points.push_back(point);
+  }
+
+  void take_height_sd(double value, std::int64_t vertex) {
+    if (value < 0.0)
+      body_.fail("vertex " + std::to_string(vertex) + ": height_sd = " + text_of(value) +
+                 " is a standard deviation, and must not be negative");
+    soup_.height_sd.push_back(value);
   }
 
   void read_faces(const PlyElement& element) {

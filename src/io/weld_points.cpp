@@ -93,11 +93,13 @@ std::int64_t weld_equal_points(PolygonSoup& soup) {
       continue;
     }
     soup.points[kept] = soup.points[i];
+    if (!soup.height_sd.empty()) soup.height_sd[kept] = soup.height_sd[i];
     number[i] = static_cast<int>(kept++);
   }
   const auto dropped = static_cast<std::int64_t>(soup.points.size() - kept);
   const auto count = static_cast<std::int64_t>(number.size());
   soup.points.resize(kept);
+  if (!soup.height_sd.empty()) soup.height_sd.resize(kept);
   for (int& corner : soup.corners) {
     if (corner >= 0 && corner < count) corner = number[static_cast<std::size_t>(corner)];
   }

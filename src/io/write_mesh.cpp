@@ -37,16 +37,20 @@ void append_triangle(std::string& text, const ScaledMesh& mesh, Eigen::Index tri
   text += '\n';
 }
 
-std::string ply_of(const ScaledMesh& mesh) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+/// height_sd: of each vertex, in the unit; or none.
+std::string ply_of(const ScaledMesh& mesh, const std::string& comments = "",
+                   const Field& height_sd = {}) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n" + comments + "element vertex " +
                       std::to_string(mesh.vertices.rows()) +
-                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-                      std::to_string(mesh.triangles.rows()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\n" +
+                      (height_sd.size() > 0 ? "property double height_sd\n" : "") +
+                      "element face " + std::to_string(mesh.triangles.rows()) +
                       "\nproperty list uchar int vertex_indices\nend_header\n";
   bytes.reserve(bytes.size() + 24 * static_cast<std::size_t>(mesh.vertices.rows()) +
                 13 * static_cast<std::size_t>(mesh.triangles.rows()));
   for (Eigen::Index vertex = 0; vertex < mesh.vertices.rows(); ++vertex) {
     for (int i = 0; i < 3; ++i) append_little_endian(bytes, mesh.vertices(vertex, i));
+    if (height_sd.size() > 0) append_little_endian(bytes, height_sd[vertex]);
   }
   for (Eigen::Index triangle = 0; triangle < mesh.triangles.rows(); ++triangle) {
     bytes += '\3';
@@ -114,6 +118,24 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, Len
   if (extension == ".off") return write_atomically(path, off_of(in_unit));
   if (extension == ".stl") return write_atomically(path, stl_of(in_unit));
   throw InvalidInput("write_mesh: " + path.string() + " must end with .ply, .obj, .off or .stl");
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, LengthUnit unit,
+                const Field& height_sd) {
+  require(path.extension() == ".ply", "write_mesh", path.string(),
+          "must end with .ply: no other format has a place for height_sd");
+  require(height_sd.size() == mesh.vertices.rows() && height_sd.allFinite() &&
+              (height_sd.array() >= 0.0).all(),
+          "write_mesh", "height_sd", "must have a number that is not negative for each vertex");
+  const std::string name = name_of(unit);
+  const Field in_unit =
+      height_sd.unaryExpr([unit](double value_m) { return from_metres(value_m, unit); });
+  write_atomically(path, ply_of(scaled(mesh, unit),
+                                "comment unit " + name +
+                                    "\ncomment height_sd: standard deviation of the height along "
+                                    "the normal, " +
+                                    name + "\n",
+                                in_unit));
 }
 
 }  // namespace palpation

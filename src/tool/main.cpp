@@ -11,22 +11,24 @@
 #include "scene/interrupt.h"
 #include "scene/scene_schema.h"
 #include "tool/commands.h"
+#include "tool/mesh_options.h"
 #include "tool/option_checks.h"
 #include "tool/readings_options.h"
 #include "tool/standard_streams.h"
+#include "tool/surface_command.h"
 
 namespace {
 
 using namespace palpation;
 using namespace palpation::tool;
 
-constexpr double kMostSeed = 9007199254740991.0;  // as in a scene
 constexpr double kMostTrials = 1e6;
 
 struct Arguments {
   SceneArguments scene;
   InfoArguments info;
   MeshArguments mesh;
+  SurfaceArguments surface;
   ExperimentArguments experiment;
   std::filesystem::path measurements, a, b;
   std::vector<std::filesystem::path> inputs;  ///< of an experiment: a scene, a study, or shards
@@ -128,58 +130,6 @@ void add_info_command(CLI::App& app, Arguments& arguments) {
   telling->callback([&] { info(arguments.info); });
 }
 
-void add_mesh_command(CLI::App& app, Arguments& arguments) {
-  CLI::App* making = app.add_subcommand("mesh", "Make a phantom");
-  making->add_option("KIND", arguments.mesh.kind, "which")
-      ->required()
-      ->check(CLI::IsMember(mesh_kinds()));
-  making->add_option("OUT", arguments.mesh.output, "file to write: .ply, .obj, .off or .stl")
-      ->required();
-  CLI::Option* size = making
-                          ->add_option("--size-mm", arguments.mesh.size_mm,
-                                       "along x (of a cylinder: along its arc) and y (25 50)")
-                          ->expected(2)
-                          ->allow_extra_args(false)
-                          ->check(number(1e-3, 1e6));
-  CLI::Option* vertices =
-      making
-          ->add_option("--vertices", arguments.mesh.vertices, "of a plane, along x and y (200 200)")
-          ->expected(2)
-          ->allow_extra_args(false)
-          ->check(whole(2, 20000));
-  making
-      ->add_option("--jitter", arguments.mesh.jitter,
-                   "move inner vertices by up to this fraction of a cell")
-      ->check(number(0.0, 0.45));
-  making
-      ->add_option("--around", arguments.mesh.around,
-                   "a plane that spans this recording instead of --size-mm")
-      ->excludes(size, vertices);
-  making->add_option("--margin-mm", arguments.mesh.margin_mm, "around the recording")
-      ->check(number(0.0, 1e6));
-  making
-      ->add_option("--edge-mm", arguments.mesh.edge_mm,
-                   "length of the cells, unless a plane is given by --vertices")
-      ->check(number(1e-3, 1e6));
-  const auto shape = [&](const char* name, std::optional<double>& length_mm, const char* meaning) {
-    making->add_option(name, length_mm, meaning)->check(number(1e-3, 1e6));
-  };
-  shape("--radius-mm", arguments.mesh.radius_mm,
-        "of a cylinder (15), a dome's sphere (25), or a saddle's curvature in its middle (25)");
-  shape("--reach-mm", arguments.mesh.reach_mm,
-        "of a dome, from its top to its border along the surface (20.5)");
-  shape("--amplitude-mm", arguments.mesh.amplitude_mm, "of a wave (2)");
-  shape("--wavelength-mm", arguments.mesh.wavelength_mm, "of a wave, along y (20)");
-  shape("--gap-mm", arguments.mesh.gap_mm, "between the flanks of a folded sheet (1.5)");
-  shape("--flank-mm", arguments.mesh.flank_mm,
-        "how long each of its flanks is (20); --size-mm's second number is how wide (25)");
-  making->add_option("--seed", arguments.mesh.seed, "of the jitter")->check(whole(0, kMostSeed));
-  making->add_option("--unit", arguments.mesh.unit, "of the file: mm, cm or m")
-      ->check(CLI::IsMember({"mm", "cm", "m"}));
-  making->add_flag("--overwrite", arguments.mesh.overwrite, "replace another mesh of that name");
-  making->callback([&] { make_mesh(arguments.mesh); });
-}
-
 void experiment_or_merge(Arguments& arguments) {
   ExperimentArguments& asked = arguments.experiment;
   const Existing results = arguments.overwrite ? Existing::Replaced : Existing::Kept;
@@ -269,7 +219,7 @@ int run_tool(int count, char** words) {
   app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
   add_scene_commands(app, arguments);
   add_info_command(app, arguments);
-  add_mesh_command(app, arguments);
+  add_mesh_command(app, arguments.mesh, arguments.surface);
   add_readings_command(app);
   add_experiment_command(app, arguments);
   add_help_command(app);

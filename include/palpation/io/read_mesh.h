@@ -32,7 +32,9 @@ struct MeshWarning {
 struct MeshFile {
   TriangleMesh mesh;  ///< metres
   std::vector<MeshWarning> warnings;
-  std::string format;               ///< "OBJ", "binary PLY", ...
+  std::string format;  ///< "OBJ", "binary PLY", ...
+  Field height_sd{};   ///< of each vertex along the normal, metres, where a PLY has that property:
+                       ///< how sure its surface is (belief/height.h); else empty
   std::int64_t equal_vertices = 0;  ///< at the same place as another: MeshRepair would join them
 };
 
@@ -59,5 +61,11 @@ MeshFile read_mesh_of_any_size(const std::filesystem::path& path, LengthUnit uni
 /// but from STL, which holds floats. Throws InvalidInput for another extension, a vertex that is
 /// not finite or a triangle that points at none; WriteError if the file cannot be written.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, LengthUnit unit);
+
+/// The same as PLY, with the vertex property height_sd in the same unit, and comments that say so.
+/// Throws InvalidInput also unless the path ends with .ply and height_sd has a number that is not
+/// negative for each vertex.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, LengthUnit unit,
+                const Field& height_sd);
 
 }  // namespace palpation
