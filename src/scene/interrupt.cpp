@@ -6,6 +6,7 @@
 #include <csignal>
 #include <ctime>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -56,7 +57,12 @@ void watch_for_interrupt() {
     ::sigaddset(&watched, signal);
   }
   ::pthread_sigmask(SIG_BLOCK, &watched, nullptr);
-  std::thread(wait_for_signal, watched).detach();
+  try {
+    std::thread(wait_for_signal, watched).detach();
+  } catch (const std::system_error&) {
+    // No thread is to be had: they end the program as they end any.
+    ::pthread_sigmask(SIG_UNBLOCK, &watched, nullptr);
+  }
 }
 
 bool is_interrupted() { return received != 0; }

@@ -16,6 +16,7 @@ class Interrupted : public std::runtime_error {
 
 /// From now on such a signal sets a mark; if the program has not ended two seconds later, or at a
 /// second signal, it is ended with 130. A hang-up that was ignored at the start (nohup) still is.
+/// Where no thread can be started, signals end the program as they end any.
 /// To be called before any thread is started.
 void watch_for_interrupt();
 
