@@ -51,10 +51,7 @@ class SceneReader : public json::json_sax_t {
   bool number_integer(number_integer_t value) override { return put(value); }
   bool number_unsigned(number_unsigned_t value) override { return put(value); }
   bool number_float(number_float_t value, const string_t&) override { return put(value); }
-  bool string(string_t& value) override {
-    refuse_nul(value);
-    return put(value);
-  }
+  bool string(string_t& value) override { return put(value); }
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open(json::object()); }
   bool start_array(std::size_t) override { return open(json::array()); }
@@ -63,7 +60,6 @@ class SceneReader : public json::json_sax_t {
 
   bool key(string_t& name) override {
     open_.back().key = name;
-    refuse_nul(name);
     if (open_.back().value->contains(name))
       throw IoError(name_ + ": " + path() + ": appears twice");
     return true;
@@ -83,12 +79,6 @@ class SceneReader : public json::json_sax_t {
   }
 
  private:
-  /// The system ends a text there: of "mesh.ply\u0000.txt" it would open mesh.ply.
-  void refuse_nul(const string_t& text) const {
-    if (text.find('\0') != string_t::npos)
-      throw IoError(name_ + ": " + shown_key(path()) + ": has a NUL character (\\u0000) in it");
-  }
-
   struct Open {
     json* value;
     std::string key{};
@@ -145,12 +135,12 @@ class SceneReader : public json::json_sax_t {
 json parse_json(std::string_view text, const std::string& name) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw IoError(name + ": is empty; a scene is a JSON object, such as { \"version\": 1, ... }");
+  SceneReader reader(text, name);
+  json::sax_parse(text, &reader);
   // To the parser a NUL is the end: what follows it would be dropped without a word.
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos)
     throw IoError(name + ":" + place_in(text, nul + 1) + ": not JSON: a NUL byte (if this is " +
                   "UTF-16, save it as UTF-8)");
-  SceneReader reader(text, name);
-  json::sax_parse(text, &reader);
   return reader.take();
 }
 

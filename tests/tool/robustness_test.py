@@ -79,7 +79,7 @@ class Robustness(unittest.TestCase):
             (("info", self.square, "--unit", "km"), "km"),
             (("experiment", "table3"), "table3"),
             (("experiment", "table1", "--only", "disk", "--only", "cube"), "no cell has 'disk' and 'cube' in its name"),
-            (("experiment", "coverage", "--only", "noise 25 %"), "table1, table2 and curved, not of this one"),
+            (("experiment", "coverage", "--only", "noise 25 %"), "table1, table2, curved and study, not of this one"),
             (("help", "cats"), "cats"),
             (("mesh", "sphere", "x.ply"), "sphere"),
             ((*scene, "--treads", 2), "--treads"),
