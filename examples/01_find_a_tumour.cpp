@@ -18,11 +18,11 @@ int main() {
     return std::optional(phantom.touch(where, random));
   });
 
-  const Region tumour =
-      superlevel_region(tissue, exploration.contour().field, exploration.contour().level);
+  const Region tumour = superlevel_region(tissue, exploration.conclusion().contour->field,
+                                          exploration.conclusion().contour->level);
   const Region truth = superlevel_region(tissue, phantom.truth(), phantom.true_level());
   const RegionError error = compare(tissue, tumour, truth);
   std::printf("%zu touches, %.0f mm2 found, %.0f mm2 true, %.1f %% of the search area wrong\n",
-              exploration.belief().palpations().size(), tumour.area() * 1e6, truth.area() * 1e6,
-              100.0 * error.symmetric_difference_m2 / tissue.area());
+              exploration.conclusion().belief.palpations().size(), tumour.area() * 1e6,
+              truth.area() * 1e6, 100.0 * error.symmetric_difference_m2 / tissue.area());
 }

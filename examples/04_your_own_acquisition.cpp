@@ -32,7 +32,7 @@ int main() {
     run(exploration, [&](const SurfacePoint& where, const Vec3&) {
       return std::optional(phantom.touch(where, noise));
     });
-    const Region found = superlevel_region(tissue, exploration.marginals().mean, 8.0);
+    const Region found = superlevel_region(tissue, exploration.conclusion().marginals.mean, 8.0);
     std::printf("%-8s %.1f mm2 wrong\n", name,
                 compare(tissue, found, truth).symmetric_difference_m2 * 1e6);
   }

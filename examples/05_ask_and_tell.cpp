@@ -38,8 +38,8 @@ int main() {
     exploration.record(felt);
     std::printf("batch %d: %zu stops\n", exploration.batch() - 1, stops.size());
   }
-  const Region stiff =
-      superlevel_region(tissue, exploration.marginals().mean, exploration.level()->value);
+  const Region stiff = superlevel_region(tissue, exploration.conclusion().marginals.mean,
+                                         exploration.conclusion().level->value);
   std::printf("%s; the stiff part has %.0f mm2 of 113\n", exploration.stop_reason().c_str(),
               stiff.area() * 1e6);
 }

@@ -31,8 +31,8 @@ int main() {
   Exploration exploration(tissue, {.level = {.known = 8000.0}}, {}, {.touch_once = true});
   run(exploration,
       [&](const SurfacePoint& where, const Vec3& travel) { return world.touch(where, travel); });
-  const Region found =
-      superlevel_region(tissue, exploration.marginals().mean, exploration.level()->value);
+  const Region found = superlevel_region(tissue, exploration.conclusion().marginals.mean,
+                                         exploration.conclusion().level->value);
   std::printf("%zu part, %.0f mm2 (a disk of 6 mm radius has 113)\n", found.polygons().size(),
               found.area() * 1e6);
 }

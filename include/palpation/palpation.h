@@ -29,6 +29,8 @@
 #include "palpation/decision/batch.h"
 #include "palpation/decision/design.h"
 #include "palpation/decision/tour.h"
+#include "palpation/exploration/choice.h"
+#include "palpation/exploration/conclusion.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/exploration/model.h"
 #include "palpation/exploration/plan.h"

@@ -217,6 +217,22 @@ double climb_from_both(Objective& objective, Search search) {
   return at_start;
 }
 
+/// The best point, or one nearby that is a multiple of the largest step there is among halvings of
+/// one, for what it costs.
+void round_best(Objective& objective, double nats, const Search& search) {
+  const Optimum best = objective.best;
+  if (nats == 0.0 || search.lower.empty() || !std::isfinite(best.value)) return;
+  for (double step = 1.0; step > 1e-3; step *= 0.5) {
+    std::vector<double> x = best.x;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = std::clamp(step * std::round(x[i] / step), search.lower[i], search.upper[i]);
+    objective.best = {};
+    nlopt_objective(static_cast<unsigned>(x.size()), x.data(), nullptr, &objective);
+    if (objective.best.value >= best.value - nats) return;
+  }
+  objective.best = best;
+}
+
 }  // namespace
 
 Learned learn(const Prior& prior, std::span<const Palpation> palpations,
@@ -239,7 +255,9 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations,
                       static_cast<double>(used_readings(palpations).size()),
                       std::max(kLeastNoise * range, std::sqrt(rounding_variance(palpations))),
                       {}};
-  const double at_start = climb_from_both(objective, search_of(objective, prior, start, range));
+  const Search search = search_of(objective, prior, start, range);
+  const double at_start = climb_from_both(objective, search);
+  round_best(objective, options.rounding_nats, search);
   const Optimum& best = objective.best;
   if (!std::isfinite(best.value)) {
     throw NumericalError("learn: no starting point gives a finite likelihood over " +

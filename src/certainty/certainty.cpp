@@ -68,18 +68,20 @@ Certainty certainty_of(const Surface& surface, const Belief&, const Marginals& m
   return certainty;
 }
 
-void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m) {
+Certainty less_tip(Certainty certainty, const Surface& surface, double radius_m) {
   const double felt = boundary_length(surface, certainty.score);
   certainty.score = eroded(surface, certainty.score, radius_m).field;
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
-  if (felt == 0.0) return;
+  if (felt == 0.0) return certainty;
   const double share = boundary_length(surface, certainty.score) / felt;
   certainty.expected.missed_m2 *= share;
   certainty.expected.extra_m2 *= share;
+  return certainty;
 }
 
-void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading,
-                          const Field& sd, double whole_loss) {
+Certainty doubted_where_contact_fades(Certainty certainty, const Surface& surface,
+                                      const FadingContact& fading, const Field& sd,
+                                      double whole_loss) {
   const double before = certainty.half_width_m;
   const Eigen::VectorXd along = surface.mesh().vertices * fading.towards;
   const double start = along.minCoeff(), length = along.maxCoeff() - start;
@@ -91,18 +93,18 @@ void doubt_fading_contact(Certainty& certainty, const Surface& surface, const Fa
           here / std::hypot(here, farthest * (along[vertex] - start) / length);
   }
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
-  if (before == 0.0) return;
+  if (before == 0.0) return certainty;
   certainty.expected.missed_m2 *= certainty.half_width_m / before;
   certainty.expected.extra_m2 *= certainty.half_width_m / before;
+  return certainty;
 }
 
-double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals,
-                       const Level& level) {
+Certainty doubted_where_untouched(Certainty certainty, const Belief& belief,
+                                  const Marginals& marginals, const Level& level) {
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
   const std::vector<Vec3> touched = layout.touched(belief.palpations());
   const double level_sd = level.stddev.value_or(0.0);
-  double area = 0.0;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     const Vec3 place = layout.at(vertex);
     const auto is_near = [&](const Vec3& other) {
@@ -117,9 +119,9 @@ double doubt_untouched(Certainty& certainty, const Belief& belief, const Margina
     const double here = surface.vertex_areas()[vertex];
     (inside ? certainty.expected.extra_m2 : certainty.expected.missed_m2) +=
         here * normal_probability(-sureness);
-    area += here;
+    certainty.untouched_m2 += here;
   }
-  return area;
+  return certainty;
 }
 
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability) {

@@ -102,7 +102,7 @@ std::vector<Touch> read_touches(const fs::path& path) {
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Vec3 position(x[i], y[i], z[i]);
-    if (!position.allFinite()) continue;
+    if (!position.allFinite() || kind[i] == "missed") continue;
     touches.push_back({.position = position,
                        .initial = batch[i] == 0.0,
                        .on_the_way = kind[i] == "way",

@@ -86,14 +86,14 @@ Figures run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
   const World world = simulated_world(scene, surface);
   const Episode episode = run_episode(scene, surface, world);
   const Exploration& exploration = episode.exploration;
-  const ReferenceBound bound =
-      reference_bound({.perimeter_m = perimeter(tumour.outline),
-                       .slope_per_m = tumour.slope_per_m,
-                       .noise = scene.number("probe.noise"),
-                       .readings = static_cast<int>(exploration.belief().palpations().size()),
-                       .fraction = scene.number("level.fraction")});
+  const ReferenceBound bound = reference_bound(
+      {.perimeter_m = perimeter(tumour.outline),
+       .slope_per_m = tumour.slope_per_m,
+       .noise = scene.number("probe.noise"),
+       .readings = static_cast<int>(exploration.conclusion().belief.palpations().size()),
+       .fraction = scene.number("level.fraction")});
   const double error_m2 = episode.error ? episode.error->symmetric_difference_m2 : area_m2;
-  const bool found = !episode.estimate.empty() && exploration.level().has_value();
+  const bool found = !episode.estimate.empty() && exploration.conclusion().level.has_value();
   Figures row;
   row.set("family", tumour.family)
       .set("area_mm2", area_m2 * 1e6)
@@ -106,7 +106,7 @@ Figures run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
       .set("covered", false)
       .set("warnings", static_cast<double>(boundary_remarks(episode).size()));
   if (!found) return row;
-  const Certainty& certainty = *exploration.certainty();
+  const Certainty& certainty = *exploration.conclusion().certainty;
   const double needed = needed_width(surface, certainty, world);
   return row.set("covered", needed <= 1.0)
       .set("needed_width", needed)

@@ -30,7 +30,7 @@ Believed believed(const ExperimentArguments& arguments, const Scene& scene,
 /// (true).
 double half_width_mm(const Believed& one, const FadingContact& fading, bool worse) {
   const Surface& tissue = one.recording.tissue;
-  const Certainty& certainty = *one.exploration.certainty();
+  const Certainty& certainty = *one.exploration.conclusion().certainty;
   const std::vector<Vec3> boundary = points_of(tissue, certainty.score, 0.0);
   std::vector<double> along;
   for (const Vec3& point : boundary) along.push_back(point.dot(fading.towards));
@@ -63,8 +63,9 @@ void add_fading(const ExperimentArguments& arguments, const Scene& scene,
   for (const std::string name : {"exp4", "exp7", "exp9", "exp10"}) {
     Believed now = believed(arguments, scene, name);
     const bool has_boundary =
-        now.exploration.level() && now.exploration.certainty() &&
-        !points_of(now.recording.tissue, now.exploration.certainty()->score, 0.0).empty();
+        now.exploration.conclusion().level && now.exploration.conclusion().certainty &&
+        !points_of(now.recording.tissue, now.exploration.conclusion().certainty->score, 0.0)
+             .empty();
     figures.push_back({"R5", name + ": boundaries found", has_boundary ? 1.0 : 0.0, 1.0, 1.0});
     const std::optional<FadingContact> contact =
         fading_contact(now.recording.tissue, now.screened_readings);
@@ -77,10 +78,10 @@ void add_fading(const ExperimentArguments& arguments, const Scene& scene,
     if (name == "exp4" && has_boundary) first = std::move(now);
     if (name != "exp7" || !first || !has_boundary) continue;
     const Surface& tissue = first->recording.tissue;
-    const Certainty& band = *first->exploration.certainty();
+    const Certainty& band = *first->exploration.conclusion().certainty;
     int inside = 0, all = 0;
     for (const Vec3& point :
-         points_of(now.recording.tissue, now.exploration.certainty()->score, 0.0)) {
+         points_of(now.recording.tissue, now.exploration.conclusion().certainty->score, 0.0)) {
       ++all;
       if (std::abs(tissue.interpolate(band.score, tissue.project(point))) <= band.band_score)
         ++inside;

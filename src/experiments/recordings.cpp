@@ -121,7 +121,7 @@ void truth_and_lag(const ExperimentArguments& arguments, const Scene& scene,
     }
     Exploration exploration(forward.tissue, model_of(probe), plan_of(probe));
     exploration.take_up(thinned(all));
-    return exploration.lag()->value_m * 1e3;
+    return exploration.conclusion().lag->value_m * 1e3;
   };
   const double here_mm = lag_mm(0.0);
   figures.push_back({"R3", "lags of the two directions, added up, mm", 2.0 * here_mm, 2.5, 3.2});
@@ -141,8 +141,8 @@ void pokes(const ExperimentArguments& arguments, const Scene& scene, std::vector
   for (const double edge_m : {0.0135, 0.0329}) {
     double sum = 0.0;
     int count = 0;
-    if (episode.exploration.level()) {
-      const Contour contour = episode.exploration.contour();
+    if (episode.exploration.conclusion().level) {
+      const Contour& contour = *episode.exploration.conclusion().contour;
       for (const Vec3& point : points_of(tissue, contour.field, contour.level)) {
         if (std::abs(point.y() - edge_m) > 0.008) continue;
         sum += point.y() - edge_m;

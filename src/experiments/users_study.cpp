@@ -109,7 +109,7 @@ Figures figures_of(const Episode& episode) {
   const double area_m2 = exploration.surface().area();
   const bool found = !episode.estimate.empty();
   Figures row;
-  row.set("readings", static_cast<double>(exploration.palpations().size()))
+  row.set("readings", static_cast<double>(exploration.readings().size()))
       .set("path_mm", episode.path_m * 1e3)
       .set("stop_reason", episode.stop_reason())
       .set("found", found)
@@ -118,9 +118,10 @@ Figures figures_of(const Episode& episode) {
     row.set("missed_mm2", episode.error->missed_m2 * 1e6)
         .set("extra_mm2", episode.error->extra_m2 * 1e6)
         .set("dice", episode.error->dice);
-  if (found && exploration.certainty())
-    row.set("expected_error_mm2", exploration.certainty()->expected.symmetric_difference_m2() * 1e6)
-        .set("half_width_mm", exploration.certainty()->half_width_m * 1e3);
+  if (found && exploration.conclusion().certainty)
+    row.set("expected_error_mm2",
+            exploration.conclusion().certainty->expected.symmetric_difference_m2() * 1e6)
+        .set("half_width_mm", exploration.conclusion().certainty->half_width_m * 1e3);
   return row;
 }
 

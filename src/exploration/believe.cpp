@@ -1,6 +1,7 @@
-// From readings to the field, and whether it shows more than noise.
+#include "exploration/believe.h"
+
+#include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "certainty/contrast.h"
@@ -8,7 +9,7 @@
 #include "exploration/field_fit.h"
 #include "exploration/heavy_tails.h"
 #include "exploration/lag_fit.h"
-#include "palpation/exploration/exploration.h"
+#include "exploration/screened_readings.h"
 #include "palpation/readings/screening.h"
 #include "readings/readings.h"
 
@@ -40,84 +41,107 @@ bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpatio
   return greatest_excess(layout, layout.touched(palpations), readings) > kNeededToFind;
 }
 
-}  // namespace
-
-/// The field by all readings, of which the last ones are `fresh`; returns the evidence for it,
-/// where it is learned. While a reading stands alone, what is used of the others may change: then
-/// nothing grows.
-double Exploration::believe(std::span<const Palpation> all, std::span<const Palpation> fresh) {
-  const FieldModel& field = model_.field;
-  const bool grows = !lone_reading_;
-  if (field.learns() || field.probe.has_lag() || field.probe.screening || field.noise.heavy_tails) {
-    LagFit fit = may_grow(field) && grows
-                     ? LagFit{grow_field(surface_, field, all, belief_, learned_), {}}
-                     : fit_lagged(surface_, field, all, learned_, lag_);
-    belief_ = std::move(fit.field.belief);
-    learned_ = fit.field.learned;
-    if (field.probe.has_lag()) lag_ = fit.lag;
-    if (field.noise.heavy_tails) weigh_for_heavy_tails(all);
-    return fit.field.signal_evidence;
+/// Weights and field in turn; the readings stay where the lag that was found puts them.
+Belief weighed_belief(const Surface& surface, const FieldModel& field, const LagFit& fit,
+                      std::span<const Palpation> palpations) {
+  FieldModel given = field;
+  given.noise.is_relative = false;
+  const std::vector<Palpation> placed =
+      displaced(surface, palpations, fit.lag ? fit.lag->value_m : 0.0);
+  Belief belief = fit.field.belief;
+  double noise_sd = std::sqrt(belief.noise_variance());
+  for (int round = 0; round < kRoundsOfWeighing; ++round) {
+    const WeighedReadings weighed = weighed_for_heavy_tails(belief, placed, noise_sd);
+    noise_sd = field.noise.sd.is_learned() ? weighed.noise_sd : noise_sd;
+    given.noise.sd = noise_sd;
+    belief = given.learns() ? fit_field(surface, given, weighed.palpations).belief
+                            : fixed_field(surface, given, weighed.palpations);
   }
-  belief_ = trend_is_missing() || !grows ? fixed_field(surface_, field, all)
-                                         : belief_.condition_on(fresh);
-  return 0.0;
+  return belief;
 }
 
-/// `evidence`: for the field, where it is learned.
-bool Exploration::shows_contrast(std::span<const Palpation> all, double evidence) const {
-  const FieldModel& field = model_.field;
+/// The field by the readings that are not set aside.
+LagFit fitted(const Surface& surface, const FieldModel& field, std::span<const Palpation> all,
+              ConclusionCache& cache) {
+  if (grows(field, all)) return {grown_field(surface, field, all, cache)};
+  const bool is_given = !field.learns() && !field.probe.has_lag();
+  LagFit fit =
+      is_given ? LagFit{{fixed_field(surface, field, all)}} : fit_lagged(surface, field, all);
+  if (!field.probe.has_lag() || all.empty()) fit.lag.reset();
+  if (field.noise.heavy_tails && !all.empty())
+    fit.field.belief = weighed_belief(surface, field, fit, all);
+  return fit;
+}
+
+/// The field by the readings that a screen leaves. Where it depends on a lag that is to be learned,
+/// the readings are screened once more at the one that was found.
+LagFit screened_and_fitted(const Surface& surface, const FieldModel& field,
+                           std::vector<Palpation>& all, ConclusionCache& cache) {
+  const std::vector<Palpation> felt = all;
+  all = screened_readings(surface, field, felt, field.probe.lag_m.value_or(LagPrior{}.mean_m));
+  LagFit fit = fitted(surface, field, all, cache);
+  if (!field.probe.screening || !field.probe.lag_m.is_learned() || !fit.lag) return fit;
+  std::vector<Palpation> again = screened_readings(surface, field, felt, fit.lag->value_m);
+  if (std::ranges::equal(again, all, {}, &Palpation::set_aside, &Palpation::set_aside)) return fit;
+  all = std::move(again);
+  return fitted(surface, field, all, cache);
+}
+
+bool shows_contrast(const Surface& surface, const FieldModel& field, const FieldFit& fit,
+                    std::span<const Palpation> all) {
+  const Belief& belief = fit.belief;
   std::vector<Palpation> flat = field.trend.is_linear
-                                    ? belief_.detrended_palpations()
+                                    ? belief.detrended_palpations()
                                     : std::vector<Palpation>(all.begin(), all.end());
   if (field.noise.heavy_tails) flat = drawn_in(std::move(flat));
+  double evidence = fit.signal_evidence;
   if (!field.learns()) {
-    evidence = evidence_of_fixed(belief_, flat);
+    evidence = evidence_of_fixed(belief, flat);
   } else if (field.noise.heavy_tails) {
-    evidence = fit_field(surface_, field, flat, learned_).signal_evidence;
+    evidence = fit_field(surface, field, flat).signal_evidence;
   }
-  if (a_disk_stands_out(Layout(belief_.prior()), flat)) return true;
+  if (a_disk_stands_out(Layout(belief.prior()), flat)) return true;
   // Values alone are no contrast where noise may have heavy tails: what is drawn in gathers at both
   // ends.
   return field.noise.heavy_tails ? shows_field(evidence)
                                  : palpation::shows_contrast(used_readings(flat), evidence);
 }
 
-/// Asked anew after every batch: what ten readings of noise once seemed to show, more readings
-/// there take back. Nor is it contrast what one of many readings shows alone: where the others show
-/// it, and that one is nothing like them, it is set aside.
-void Exploration::judge_contrast(std::vector<Palpation>& all, double evidence) {
-  const FieldModel& field = model_.field;
-  const std::optional<LoneReading> lone =
-      lone_palpation(field.trend.is_linear ? belief_.detrended_palpations() : all);
-  if (lone && model_.needs_contrast()) {
-    const auto with_it = std::tuple(belief_, learned_, lag_);
-    all[lone->number].set_aside = kStandsAlone;
-    evidence = believe(all, {});
-    contrast_seen_ = shows_contrast(all, evidence);
-    if (!contrast_seen_ || lone->spans <= kFarAlone) {
-      all[lone->number].set_aside.clear();
-      std::tie(belief_, learned_, lag_) = with_it;
-    }
-  } else if (model_.needs_contrast()) {
-    contrast_seen_ = shows_contrast(all, evidence);
-  }
-  lone_reading_ = lone ? std::optional(all[lone->number]) : std::nullopt;
+bool lacks_trend(const FieldModel& field, const Belief& belief) {
+  return field.trend.is_linear && !belief.prior().has_slope();
 }
 
-/// Weights and field in turn; the readings stay where the lag that was found puts them.
-void Exploration::weigh_for_heavy_tails(std::span<const Palpation> palpations) {
-  const FieldModel& field = model_.field;
-  FieldModel given = field;
-  given.noise.is_relative = false;
-  const std::vector<Palpation> placed = displaced(surface_, palpations, lag_ ? lag_->value_m : 0.0);
-  double noise_sd = std::sqrt(belief_.noise_variance());
-  for (int round = 0; round < kRoundsOfWeighing; ++round) {
-    const WeighedReadings weighed = weighed_for_heavy_tails(belief_, placed, noise_sd);
-    noise_sd = field.noise.sd.is_learned() ? weighed.noise_sd : noise_sd;
-    given.noise.sd = noise_sd;
-    belief_ = given.learns() ? fit_field(surface_, given, weighed.palpations, learned_).belief
-                             : fixed_field(surface_, given, weighed.palpations);
+}  // namespace
+
+/// What ten readings of noise once seemed to show, more readings there take back. Nor is it
+/// contrast what one of many readings shows alone: where the others show it, and that one is
+/// nothing like them, it is set aside.
+Believed believe(const Surface& surface, const Model& model, std::vector<Palpation> all,
+                 ConclusionCache& cache) {
+  const FieldModel& field = model.field;
+  LagFit fit = screened_and_fitted(surface, field, all, cache);
+  Evidence evidence{.contrast_seen = !model.needs_contrast(),
+                    .trend_is_missing = lacks_trend(field, fit.field.belief)};
+  const auto result = [&] {
+    return Believed{std::move(all), std::move(fit.field.belief), fit.lag, std::move(evidence)};
+  };
+  if (all.empty() || evidence.trend_is_missing) return result();
+  const std::optional<LoneReading> lone =
+      lone_palpation(field.trend.is_linear ? fit.field.belief.detrended_palpations() : all);
+  if (lone && model.needs_contrast()) {
+    std::vector<Palpation> others = all;
+    others[lone->number].set_aside = kStandsAlone;
+    LagFit without = fitted(surface, field, others, cache);
+    evidence.contrast_seen = shows_contrast(surface, field, without.field, others);
+    if (evidence.contrast_seen && lone->spans > kFarAlone) {
+      all = std::move(others);
+      fit = std::move(without);
+    }
+  } else if (model.needs_contrast()) {
+    evidence.contrast_seen = shows_contrast(surface, field, fit.field, all);
   }
+  if (lone) evidence.lone_reading = all[lone->number];
+  return result();
 }
 
 }  // namespace palpation

@@ -2,26 +2,24 @@
 
 #include <algorithm>
 
+#include "geometry/settled_point.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
-namespace {
-
-/// The same palpation where the planner knows it: at a vertex if it was made at one that both have,
-/// else at the closest place.
-Palpation as_planned(const Exploration& planner, const CoarseMesh& coarse, const Surface& surface,
-                     Palpation palpation) {
+std::vector<Palpation> as_planned(const Exploration& planner, const CoarseMesh& coarse,
+                                  const Surface& surface, std::span<const Palpation> palpations) {
   const Surface& planned_on = planner.surface();
-  const int vertex = surface.vertex_at(palpation.where);
-  const auto found = std::ranges::lower_bound(coarse.vertices, vertex);
-  const bool is_on_both = vertex >= 0 && found != coarse.vertices.end() && *found == vertex;
-  palpation.where = is_on_both
-                        ? planned_on.at_vertex(static_cast<int>(found - coarse.vertices.begin()))
-                        : planned_on.project(surface.position(palpation.where));
-  return palpation;
+  std::vector<Palpation> planned(palpations.begin(), palpations.end());
+  for (Palpation& palpation : planned) {
+    const int vertex = surface.vertex_at(palpation.where);
+    const auto found = std::ranges::lower_bound(coarse.vertices, vertex);
+    const bool is_on_both = vertex >= 0 && found != coarse.vertices.end() && *found == vertex;
+    palpation.where = is_on_both
+                          ? planned_on.at_vertex(static_cast<int>(found - coarse.vertices.begin()))
+                          : planned_on.project(surface.position(palpation.where));
+  }
+  return planned;
 }
-
-}  // namespace
 
 std::vector<Palpation> run_coarsely(Exploration& planner, const CoarseMesh& coarse,
                                     const Surface& surface, const Probe& probe,
@@ -34,17 +32,15 @@ std::vector<Palpation> run_coarsely(Exploration& planner, const CoarseMesh& coar
   std::vector<Palpation> felt;
   std::optional<SurfacePoint> here;
   for (std::vector<int> stops = planner.next(); !stops.empty(); stops = planner.next()) {
-    if (way_step_m == 0.0) planner.foresee();
     for (int& stop : stops) stop = coarse.vertices[static_cast<std::size_t>(stop)];
     Tour tour = travel(surface, stops, here, probe, way_step_m);
-    std::vector<Palpation> planned;
     for (Palpation& palpation : tour.palpations) {
       palpation.batch = planner.batch();
-      planned.push_back(as_planned(planner, coarse, surface, palpation));
+      palpation.where = settled_point(surface, palpation.where);
     }
     here = surface.at_vertex(stops.back());
     felt.insert(felt.end(), tour.palpations.begin(), tour.palpations.end());
-    planner.record(planned);
+    planner.record(as_planned(planner, coarse, surface, tour.palpations));
     if (after_batch) after_batch(tour);
   }
   return felt;

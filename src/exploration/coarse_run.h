@@ -20,6 +20,11 @@ std::vector<Palpation> run_coarsely(Exploration& planner, const CoarseMesh& coar
                                     const std::function<void(const Tour&)>& after_batch = {},
                                     double way_step_m = 0.0);
 
+/// The same palpations where the planner knows them: at a vertex if they were made at one that both
+/// have, else at the closest place.
+std::vector<Palpation> as_planned(const Exploration& planner, const CoarseMesh& coarse,
+                                  const Surface& surface, std::span<const Palpation> palpations);
+
 /// The vertices of the coarse mesh that are among these of the fine one; both rising.
 std::vector<int> on_coarse(const CoarseMesh& coarse, std::span<const int> vertices);
 

@@ -132,6 +132,7 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field,
   options.length_m = field.kernel.length_m.given();
   options.signal_sd = field.kernel.signal_sd.given();
   options.noise_sd = field.noise.sd.given();
+  if (grows(field, palpations)) options.rounding_nats = field.economy.rebuild_gain;
   // A field of zero mean around the readings' mean, if they are standardized: what is learned is in
   // reading units all the same.
   const bool centred = field.standardize && field.trend.constant.sd == 0.0;
@@ -152,44 +153,33 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field,
   believed.standardize = centred;
   const double ratio = learned.values.noise_sd / learned.values.signal_sd;
   if (ratio * ratio < kSurelyEnoughForSingle) believed.single_precision = false;
-  return {Belief(prior, believed),
-          learned.values,
-          learned.signal_evidence,
-          true,
-          shifted.size() < palpations.size(),
-          learned.gain};
+  return {Belief(prior, believed), learned.values, learned.signal_evidence, true,
+          shifted.size() < palpations.size()};
 }
 
 FieldFit fit_field(const Surface& surface, const FieldModel& field,
-                   std::span<const Palpation> palpations, const Hyperparameters& start) {
-  return believe(surface, field, palpations, learn_field(surface, field, palpations, start));
+                   std::span<const Palpation> palpations) {
+  return belief_of(surface, field, palpations, learn_field(surface, field, palpations));
 }
 
-bool restates_known_readings(const FieldModel& field) {
-  return field.probe.has_lag() || field.probe.screening || field.noise.heavy_tails ||
-         field.trend.is_linear;
+bool grows(const FieldModel& field, std::span<const Palpation> palpations) {
+  const bool restates_known_readings = field.probe.has_lag() || field.probe.screening ||
+                                       field.noise.heavy_tails || field.trend.is_linear;
+  if (restates_known_readings) return false;
+  return !field.learns() || (field.economy.rebuild_gain > 0.0 && field.trend.constant.sd > 0.0 &&
+                             std::ranges::none_of(palpations, is_on_the_way));
 }
 
-bool may_grow(const FieldModel& field) {
-  return field.learns() && field.economy.rebuild_gain > 0.0 && field.trend.constant.sd > 0.0 &&
-         !restates_known_readings(field);
+FieldFit grown_field(const Surface& surface, const FieldModel& field,
+                     std::span<const Palpation> palpations, ConclusionCache& cache) {
+  if (!field.learns()) return {cache.grown(unlearned(surface, field), palpations)};
+  const LearnedField taught = learn_field(surface, field, palpations);
+  return {cache.grown(taught.blank, palpations), taught.signal_evidence};
 }
 
-FieldFit grow_field(const Surface& surface, const FieldModel& field,
-                    std::span<const Palpation> palpations, const Belief& in_force,
-                    const Hyperparameters& learned) {
-  const LearnedField taught = learn_field(surface, field, palpations, learned);
-  const bool was_taught = learned.signal_sd > 0.0;
-  if (!was_taught || taught.gain >= field.economy.rebuild_gain ||
-      std::ranges::any_of(palpations, is_on_the_way))
-    return believe(surface, field, palpations, taught);
-  return {in_force.condition_on(palpations.subspan(in_force.palpations().size())), learned,
-          taught.signal_evidence};
-}
-
-FieldFit believe(const Surface& surface, const FieldModel& field,
-                 std::span<const Palpation> palpations, const LearnedField& taught) {
-  const auto belief_of = [&](const LearnedField& by) {
+FieldFit belief_of(const Surface& surface, const FieldModel& field,
+                   std::span<const Palpation> palpations, const LearnedField& taught) {
+  const auto conditioned = [&](const LearnedField& by) {
     if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way))
       return by.blank.condition_on(palpations);
     const double length_m = kernel_of(field.kernel).length_m;
@@ -198,13 +188,13 @@ FieldFit believe(const Surface& surface, const FieldModel& field,
         merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));
   };
   try {
-    return {belief_of(taught), taught.learned, taught.signal_evidence};
+    return {conditioned(taught), taught.signal_evidence};
   } catch (const NumericalError&) {
     // Less noise than parts the readings that were left out: all of them together say so.
     if (!taught.from_some) throw;
     const LearnedField by_all =
         learn_field(surface, field, palpations, taught.learned, palpations.size());
-    return {belief_of(by_all), by_all.learned, by_all.signal_evidence};
+    return {conditioned(by_all), by_all.signal_evidence};
   }
 }
 

@@ -3,7 +3,8 @@
 
 #include <span>
 
-#include "palpation/exploration/exploration.h"
+#include "palpation/belief/hyperparameters.h"
+#include "palpation/exploration/conclusion.h"
 
 namespace palpation {
 
@@ -34,46 +35,40 @@ struct LearnedField {
                                  ///< constant, or around a plane
   bool taught = false;
   bool from_some = false;  ///< not from all readings
-  double gain = 0.0;       ///< of log posterior over that at the start
 
   Hyperparameters in_force() const;
 };
 
-/// The hyperparameters that the readings teach, searched from `start`; from fewer than two places,
-/// or readings that are all alike, nothing is learned. Of readings on the way only every so many
-/// counts where there are more than `most_places` in all.
+/// The hyperparameters that the readings teach, searched from the priors' medians and, where there
+/// is one, from `start`; from fewer than two places, or readings that are all alike, nothing is
+/// learned. Of readings on the way only every so many counts where there are more than
+/// `most_places` in all.
 LearnedField learn_field(const Surface& surface, const FieldModel& field,
-                         std::span<const Palpation> palpations, const Hyperparameters& start,
+                         std::span<const Palpation> palpations, const Hyperparameters& start = {},
                          std::size_t most_places = kMostToLearnFrom);
 
 struct FieldFit {
   Belief belief;
-  Hyperparameters learned;
   double signal_evidence = 0.0;
 };
 
 /// The belief that knows them too, those on the way merged within three tenths of the length that a
 /// field is likely to have. Where readings that did not teach are too close together for the noise
 /// that was learned, all teach.
-FieldFit believe(const Surface& surface, const FieldModel& field,
-                 std::span<const Palpation> palpations, const LearnedField& taught);
+FieldFit belief_of(const Surface& surface, const FieldModel& field,
+                   std::span<const Palpation> palpations, const LearnedField& taught);
 
 /// Both.
 FieldFit fit_field(const Surface& surface, const FieldModel& field,
-                   std::span<const Palpation> palpations, const Hyperparameters& start);
+                   std::span<const Palpation> palpations);
 
-/// Whether readings that are known already count otherwise once others come, hyperparameters apart.
-bool restates_known_readings(const FieldModel& field);
+/// Whether a belief in these readings grows by what is felt: neither hyperparameters that are
+/// always the best (Economy::rebuild_gain) nor anything else that others teach moves readings that
+/// are known already.
+bool grows(const FieldModel& field, std::span<const Palpation> palpations);
 
-/// Whether a belief of this field may grow by what is felt, under hyperparameters that are nearly
-/// the best (Economy::rebuild_gain).
-bool may_grow(const FieldModel& field);
-
-/// As fit_field, of a field that may grow: what was learned before stays, and the belief in force
-/// grows by the last of the readings, unless other hyperparameters gain enough, or some readings
-/// were made on the way.
-FieldFit grow_field(const Surface& surface, const FieldModel& field,
-                    std::span<const Palpation> palpations, const Belief& in_force,
-                    const Hyperparameters& learned);
+/// The belief of a field that grows, from what is known of it already.
+FieldFit grown_field(const Surface& surface, const FieldModel& field,
+                     std::span<const Palpation> palpations, ConclusionCache& cache);
 
 }  // namespace palpation

@@ -38,21 +38,18 @@ LearnedField learned_at(const Surface& surface, const FieldModel& field,
 }  // namespace
 
 LagFit fit_lagged(const Surface& surface, const FieldModel& field,
-                  std::span<const Palpation> palpations, const Hyperparameters& start,
-                  const std::optional<Lag>& before) {
+                  std::span<const Palpation> palpations) {
   const bool learns_lag = field.probe.lag_m.is_learned();
-  double lag_m = field.probe.lag_m.value_or(before ? before->value_m : LagPrior{}.mean_m);
+  double lag_m = field.probe.lag_m.value_or(LagPrior{}.mean_m);
   std::optional<Lag> lag = Lag{.value_m = field.probe.lag_m.value_or(0.0)};
-  LearnedField taught = learned_at(surface, field, palpations, start, lag_m);
+  LearnedField taught = learned_at(surface, field, palpations, {}, lag_m);
   for (int round = 0; learns_lag && round < kMostRounds; ++round) {
     lag = learn_lag(for_lag(taught.blank.prior()), palpations, taught.in_force());
     if (!lag || std::abs(lag->value_m - lag_m) <= kAtRest_m) break;
     lag_m = lag->value_m;
     taught = learned_at(surface, field, palpations, taught.learned, lag_m);
   }
-  FieldFit fit = believe(surface, field, displaced(surface, palpations, lag_m), taught);
-  if (!field.learns()) fit.learned = start;
-  return {std::move(fit), lag};
+  return {belief_of(surface, field, displaced(surface, palpations, lag_m), taught), lag};
 }
 
 }  // namespace palpation

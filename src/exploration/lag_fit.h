@@ -14,10 +14,9 @@ struct LagFit {
 };
 
 /// `palpations` as they were made. A lag to be learned is profiled with the field's hyperparameters
-/// held, then these are learned anew, and again until it rests; `before` is the lag to start from.
+/// held, then these are learned anew, and again until it rests, from the mean of its prior on.
 /// Without a lag the same as fit_field.
 LagFit fit_lagged(const Surface& surface, const FieldModel& field,
-                  std::span<const Palpation> palpations, const Hyperparameters& start,
-                  const std::optional<Lag>& before);
+                  std::span<const Palpation> palpations);
 
 }  // namespace palpation

@@ -23,6 +23,7 @@ Tour travel(const Surface& surface, std::span<const int> stops,
   std::optional<SurfacePoint> here = from;
   const auto touch = [&](const SurfacePoint& where, const Vec3& heading, TouchKind kind) {
     std::optional<Palpation> felt = probe(where, heading);
+    if (!felt && kind == TouchKind::Stop) tour.palpations.push_back(missed_at(where));
     if (!felt) return;
     felt->kind = kind;
     if (felt->travel.isZero(0.0)) felt->travel = heading;
@@ -60,7 +61,6 @@ void run(Exploration& exploration, const Probe& probe,
          const std::function<void(const Tour&)>& after_batch, double way_step_m) {
   std::optional<SurfacePoint> here;
   for (std::vector<int> stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
-    if (way_step_m == 0.0) exploration.foresee();
     Tour tour = travel(exploration.surface(), stops, here, probe, way_step_m);
     for (Palpation& palpation : tour.palpations) palpation.batch = exploration.batch();
     here = exploration.surface().at_vertex(stops.back());

@@ -6,12 +6,10 @@
 namespace palpation {
 
 std::vector<Palpation> screened_readings(const Surface& surface, const FieldModel& field,
-                                         std::span<const Palpation> recorded,
-                                         const std::optional<Lag>& before) {
+                                         std::span<const Palpation> recorded, double lag_m) {
   std::vector<Palpation> result(recorded.begin(), recorded.end());
-  if (!field.probe.screening) return result;
+  if (!field.probe.screening || recorded.empty()) return result;
   if (!field.probe.has_lag()) return screened(surface, recorded);
-  const double lag_m = field.probe.lag_m.value_or(before ? before->value_m : LagPrior{}.mean_m);
   std::vector<Palpation> moved = displaced(surface, recorded, lag_m);
   for (std::size_t i = 0; i < moved.size(); ++i) {
     moved[i].travel.setZero();

@@ -12,9 +12,9 @@
 namespace palpation {
 namespace {
 
-/// Batches over which the expected error must have stood still: one alone may have gone to the
-/// plateaus.
-constexpr std::size_t kStill = 3;
+/// Over as many batches as are looked at the expected error must have stood still: one alone may
+/// have gone to the plateaus.
+constexpr std::size_t kStill = kErrorsLookedAt - 1;
 
 }  // namespace
 

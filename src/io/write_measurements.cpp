@@ -10,6 +10,15 @@
 namespace palpation {
 namespace {
 
+std::string kind_text(TouchKind kind) {
+  if (kind == TouchKind::Missed) return "missed";
+  return kind == TouchKind::Way ? "way" : "stop";
+}
+
+std::string reading_text(const Palpation& palpation) {
+  return palpation.kind == TouchKind::Missed ? std::string() : text_of(palpation.reading);
+}
+
 std::string noise_text(double variance) {
   return std::isnan(variance) ? std::string() : text_of(variance);
 }
@@ -33,10 +42,10 @@ std::string measurements_csv(const Surface& surface, std::span<const Palpation> 
     std::vector<std::string> cells = {text_of(position.x()),
                                       text_of(position.y()),
                                       text_of(position.z()),
-                                      text_of(palpation.reading),
+                                      reading_text(palpation),
                                       noise_text(palpation.noise_variance),
                                       std::to_string(palpation.batch),
-                                      palpation.kind == TouchKind::Stop ? "stop" : "way",
+                                      kind_text(palpation.kind),
                                       travel(0),
                                       travel(1),
                                       travel(2),

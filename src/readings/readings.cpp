@@ -15,7 +15,7 @@ constexpr Eigen::Index kEnoughForPlane = 15;
 std::vector<double> used_readings(std::span<const Palpation> palpations) {
   std::vector<double> readings;
   for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) readings.push_back(palpation.reading);
+    if (counts(palpation)) readings.push_back(palpation.reading);
   }
   return readings;
 }
@@ -27,7 +27,7 @@ PlacedReadings placed_readings(const Surface& surface, std::span<const Palpation
                             readings.data(), static_cast<Eigen::Index>(readings.size()))};
   Eigen::Index row = 0;
   for (const Palpation& palpation : palpations) {
-    if (palpation.set_aside.empty()) placed.places.row(row++) = surface.position(palpation.where);
+    if (counts(palpation)) placed.places.row(row++) = surface.position(palpation.where);
   }
   return placed;
 }

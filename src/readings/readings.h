@@ -1,4 +1,5 @@
-/// The readings that count, which are those that are not set aside, and how they spread.
+/// The readings that count, which are those that were made and are not set aside, and how they
+/// spread.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 
 namespace palpation {
 
-/// Of the palpations that are not set aside, in their order.
+/// Of the palpations that count, in their order.
 std::vector<double> used_readings(std::span<const Palpation> palpations);
 
 /// The same with their places in space, metres, a row each.

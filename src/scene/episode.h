@@ -59,6 +59,7 @@ struct Episode {
   std::vector<double> batch_cpu_seconds{};  ///< the same, of this thread's processor
   std::optional<std::string> coarse_stop_reason{};
 
+  const Conclusion& conclusion() const { return exploration.conclusion(); }
   /// Why nothing more is to be touched.
   const std::string& stop_reason() const {
     return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason();
@@ -78,6 +79,9 @@ Episode run_episode(const Scene& scene, const Surface& surface, const World& wor
 /// What is believed after measurements that were made elsewhere.
 Episode episode_from(const Scene& scene, const Surface& surface,
                      std::span<const Palpation> palpations);
+
+/// Where to go after those: what a run over the scene would touch next.
+Choice next_of(const Scene& scene, const Surface& surface, const Episode& episode);
 
 Snapshot snapshot(const Episode& episode);
 

@@ -81,11 +81,11 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
     const std::vector<BoundaryCurve> more = boundary_curves(surface_, field, level, kind);
     curves.insert(curves.end(), more.begin(), more.end());
   };
-  if (episode.exploration.level() && episode.exploration.belief().site_count() > 0) {
-    const Contour contour = episode.exploration.contour();
+  if (episode.conclusion().level && episode.conclusion().belief.site_count() > 0) {
+    const Contour& contour = *episode.conclusion().contour;
     add(contour.field, contour.level, CurveKind::Estimate);
   }
-  if (const std::optional<Certainty>& certainty = episode.exploration.certainty()) {
+  if (const std::optional<Certainty>& certainty = episode.conclusion().certainty) {
     add(certainty->score, certainty->band_score, CurveKind::BandInner);
     add(certainty->score, -certainty->band_score, CurveKind::BandOuter);
     add(certainty->score, Certainty::cut_score(scene_.number("band.cut_risk")), CurveKind::Cut);
@@ -103,7 +103,7 @@ void OutputFolder::write(const Episode& episode, const World* world, const json&
   });
   write_boundary(episode, world);
   run_.add(world != nullptr ? kMeasurementsName : kReadingsUsedName,
-           measurements_csv(surface_, episode.exploration.palpations(), foreign));
+           measurements_csv(surface_, episode.exploration.readings(), foreign));
   if (!episode.trace.empty()) run_.add("trace.csv", trace_csv(episode.trace, surface_.area()));
   if (!steps_.empty())
     run_.add("steps.pvd", [&](const fs::path& path) { write_pvd(path, steps_); });

@@ -107,8 +107,8 @@ std::vector<TumourPart> parts_of(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   for (const PolygonWithHoles& polygon : episode.estimate.polygons()) {
     TumourPart& part = parts.emplace_back(measured(polygon, exploration.surface()));
-    if (exploration.certainty())
-      look_inside(part, exploration.surface(), exploration.certainty()->score);
+    if (exploration.conclusion().certainty)
+      look_inside(part, exploration.surface(), exploration.conclusion().certainty->score);
     part.touches_border = has_border_corner(part, exploration.surface());
   }
   return parts;

@@ -30,10 +30,10 @@ constexpr double kNoNoise = 1e-3;  // of the contrast: so little does not limit 
 
 /// What a screen found, and whether the probe kept its contact.
 std::vector<std::string> screening_remarks(const Exploration& exploration) {
-  if (!exploration.is_screened()) return {};
+  if (!exploration.conclusion().model.field.probe.screening) return {};
   std::vector<std::string> remarks;
   for (const std::string& reason : {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier}) {
-    const std::vector<Palpation>& all = exploration.palpations();
+    const std::vector<Palpation>& all = exploration.conclusion().palpations;
     const auto count = std::count_if(all.begin(), all.end(),
                                      [&](const Palpation& one) { return one.set_aside == reason; });
     if (count > 0)
@@ -41,7 +41,7 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
                         reason + ").");
   }
   if (const std::optional<FadingContact> fading =
-          fading_contact(exploration.surface(), exploration.palpations()))
+          fading_contact(exploration.surface(), exploration.conclusion().palpations))
     remarks.push_back("Contact fades towards (" + fixed(fading->towards.x(), 2) + ", " +
                       fixed(fading->towards.y(), 2) + ", " + fixed(fading->towards.z(), 2) +
                       "): healthy tissue reads " + percent(fading->base_fall) +
@@ -63,11 +63,11 @@ std::string reduced_rank_words(const Belief& belief) {
 
 /// A level that is given, and that no reading comes near, decides before anything is felt.
 std::string level_outside_words(const Exploration& exploration) {
-  if (exploration.level()->stddev != 0.0) return "";
+  if (exploration.conclusion().level->stddev != 0.0) return "";
   const std::vector<double> readings = readings_that_count(exploration);
   if (all_equal(readings)) return "";
   const auto [least, greatest] = std::ranges::minmax(readings);
-  const double level = exploration.level()->value;
+  const double level = exploration.conclusion().level->value;
   if (level > least && level < greatest) return "";
   return "The level " + reading_text(level) + " lies " + (level > least ? "above" : "below") +
          " every reading, " + reading_text(least) + " to " + reading_text(greatest) + ": " +
@@ -101,7 +101,7 @@ double perimeter_m(const Region& region) {
 /// How many times as wrong the boundary is expected to be as one of that length by that many
 /// readings can be; nothing where its edge is not known.
 std::optional<double> over_reachable(const Episode& episode) {
-  const std::optional<EdgeBelief>& edge = episode.exploration.edge();
+  const std::optional<EdgeBelief>& edge = episode.conclusion().edge;
   const double length_m = perimeter_m(episode.estimate);
   if (!edge || length_m == 0.0) return std::nullopt;
   const double contrast = std::abs(edge->profile().high - edge->profile().low),
@@ -110,11 +110,11 @@ std::optional<double> over_reachable(const Episode& episode) {
       reference_bound({.perimeter_m = length_m,
                        .slope_per_m = edge->profile().slope_per_m,
                        .noise = noise_sd / contrast,
-                       .readings = episode.exploration.belief().site_count(),
+                       .readings = episode.conclusion().belief.site_count(),
                        .fraction = episode.level_fraction});
   const bool has_noise = noise_sd > kNoNoise * contrast;
   if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
-  return episode.exploration.certainty()->expected.symmetric_difference_m2() /
+  return episode.conclusion().certainty->expected.symmetric_difference_m2() /
          reachable.expected_error_m2;
 }
 
@@ -122,45 +122,46 @@ std::optional<double> over_reachable(const Episode& episode) {
 
 std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
+  const Conclusion& conclusion = episode.conclusion();
   std::vector<std::string> remarks = screening_remarks(exploration);
-  if (exploration.belief().site_count() == 0) return remarks;
-  if (exploration.lone_reading())
-    remarks.push_back(lone_reading_words(exploration.surface(), *exploration.lone_reading()));
-  if (const std::string words = reduced_rank_words(exploration.belief()); !words.empty())
+  if (conclusion.belief.site_count() == 0) return remarks;
+  if (conclusion.evidence.lone_reading)
+    remarks.push_back(lone_reading_words(exploration.surface(), *conclusion.evidence.lone_reading));
+  if (const std::string words = reduced_rank_words(conclusion.belief); !words.empty())
     remarks.push_back(words);
-  if (exploration.lag() && exploration.lag()->at_bound) {
-    remarks.push_back("The lag found, " + fixed(exploration.lag()->value_m * 1e3, 2) +
+  if (conclusion.lag && conclusion.lag->at_bound) {
+    remarks.push_back("The lag found, " + fixed(conclusion.lag->value_m * 1e3, 2) +
                       " mm, is as far as any was looked for: the true one may lie beyond. Give "
                       "field.lag_mm, or touch in more directions.");
   }
-  if (!exploration.level()) {
+  if (!conclusion.level) {
     remarks.push_back(no_level_words(exploration));
     return remarks;
   }
-  if (const double share = exploration.untouched_m2() / exploration.surface().area();
+  if (const double share = conclusion.certainty->untouched_m2 / exploration.surface().area();
       share > kMuchUntouched) {
     remarks.push_back(percent(share) +
                       " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
   }
-  if (exploration.tip_hides_all())
+  if (conclusion.tip_hides_all)
     remarks.push_back(
         "The stiff region is nowhere wider than the probe's tip (field.indenter_radius_mm): "
         "correcting for the tip leaves nothing, but something stiff is there.");
   if (const std::string outside = level_outside_words(exploration); !outside.empty())
     remarks.push_back(outside);
-  const Contour contour = exploration.contour();
+  const Contour& contour = *conclusion.contour;
   for (const std::string& remark :
        remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
     remarks.push_back(remark + '.');
-  const double plane = exploration.belief().prior().has_slope()
+  const double plane = conclusion.belief.prior().has_slope()
                            ? 0.0
-                           : explained_by_plane(exploration.surface(), exploration.palpations());
+                           : explained_by_plane(exploration.surface(), conclusion.palpations);
   if (plane > kMuchPlane)
     remarks.push_back(
         "A plane explains " + percent(plane) +
         " of how the readings differ: if that is a tilt or a drift, set field.trend to linear.");
   const std::vector<TumourPart> parts = parts_of(episode);
-  if (!exploration.edge() && !parts.empty())
+  if (!conclusion.edge && !parts.empty())
     remarks.push_back(
         "The level was not inferred from the tumour's edge: band, cut line and expected error are "
         "the field's alone, and not calibrated.");
@@ -172,7 +173,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
       remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
                         " reaches the border of the tissue, beyond which it may go on.");
   }
-  const std::optional<Certainty>& certainty = exploration.certainty();
+  const std::optional<Certainty>& certainty = conclusion.certainty;
   if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   const double found_m2 = surface_area(exploration.surface(), episode.estimate);

@@ -19,10 +19,10 @@ Healthy healthy_part(const Exploration& exploration) {
   Healthy healthy;
   double area = 0.0;
   for (int vertex = 0; vertex < exploration.surface().vertex_count(); ++vertex) {
-    if (exploration.certainty()->score[vertex] >= 0.0) continue;
+    if (exploration.conclusion().certainty->score[vertex] >= 0.0) continue;
     healthy.vertices.push_back(vertex);
     const double share = exploration.surface().vertex_areas()[vertex];
-    healthy.mean += share * exploration.component().mean[vertex];
+    healthy.mean += share * exploration.conclusion().component.mean[vertex];
     area += share;
   }
   if (area > 0.0) healthy.mean /= area;
@@ -37,34 +37,35 @@ std::optional<double> within(const Surface& surface, const std::optional<double>
 }  // namespace
 
 std::vector<double> readings_that_count(const Exploration& exploration) {
-  return used_readings(exploration.belief().detrended_palpations());
+  return used_readings(exploration.conclusion().belief.detrended_palpations());
 }
 
 double scatter(const Exploration& exploration) {
   const double seen = spread_of(readings_that_count(exploration)).sd;
-  const bool is_given = !exploration.model().field.noise.sd.is_learned();
-  return seen > 0.0 && is_given ? std::max(seen, std::sqrt(exploration.belief().noise_variance()))
-                                : seen;
+  const bool is_given = !exploration.conclusion().model.field.noise.sd.is_learned();
+  return seen > 0.0 && is_given
+             ? std::max(seen, std::sqrt(exploration.conclusion().belief.noise_variance()))
+             : seen;
 }
 
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Surface& surface = exploration.surface();
-  if (exploration.belief().site_count() == 0) return std::nullopt;
-  const Layout layout(exploration.belief().prior());
-  const std::vector<Vec3> places = layout.touched(exploration.belief().palpations());
+  if (exploration.conclusion().belief.site_count() == 0) return std::nullopt;
+  const Layout layout(exploration.conclusion().belief.prior());
+  const std::vector<Vec3> places = layout.touched(exploration.conclusion().belief.palpations());
   Sought sought{.probability = episode.band_probability};
-  if (!exploration.level()) {
+  if (!exploration.conclusion().level) {
     const double noise_sd = scatter(exploration);
     if (noise_sd == 0.0) return std::nullopt;  // a stuck sensor rules nothing out
     if (episode.min_contrast) sought.contrast_to_noise = *episode.min_contrast / noise_sd;
     return within(surface, palpation::diameter_ruled_out_m(layout, places, sought));
   }
   const Healthy healthy = healthy_part(exploration);
-  if (healthy.vertices.empty() || exploration.tip_hides_all()) return std::nullopt;
+  if (healthy.vertices.empty() || exploration.conclusion().tip_hides_all) return std::nullopt;
   const double contrast = episode.min_contrast.value_or(
-      (exploration.level()->value - healthy.mean) / episode.level_fraction);
-  sought.contrast_to_noise = contrast / std::sqrt(exploration.belief().noise_variance());
+      (exploration.conclusion().level->value - healthy.mean) / episode.level_fraction);
+  sought.contrast_to_noise = contrast / std::sqrt(exploration.conclusion().belief.noise_variance());
   if (!(sought.contrast_to_noise > 0.0)) return std::nullopt;
   return within(surface, palpation::diameter_ruled_out_m(layout, places, sought, healthy.vertices));
 }

@@ -57,8 +57,8 @@ json part_json(const TumourPart& part, const Surface& surface) {
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   for (const char* key : {"expected_missed_mm2", "expected_extra_mm2", "band", "cut"})
     summary[key] = nullptr;
-  const std::optional<Certainty>& certainty = episode.exploration.certainty();
-  if (!certainty || episode.exploration.tip_hides_all()) return;
+  const std::optional<Certainty>& certainty = episode.conclusion().certainty;
+  if (!certainty || episode.conclusion().tip_hides_all) return;
   const Surface& surface = episode.exploration.surface();
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
@@ -89,7 +89,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
   const Surface& surface = exploration.surface();
   json parts = json::array();
   for (const TumourPart& part : parts_of(episode)) parts.push_back(part_json(part, surface));
-  const std::optional<Level>& level = exploration.level();
+  const std::optional<Level>& level = episode.conclusion().level;
   const std::vector<std::string> remarks = boundary_remarks(episode);
   warnings.insert(warnings.end(), remarks.begin(), remarks.end());
   json result = {
@@ -99,7 +99,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
       {"options", scene.complete()},
       {"computed", surface.computed()},
       {"vertices", surface.vertex_count()},
-      {"measurements", exploration.palpations().size()},
+      {"measurements", episode.conclusion().palpations.size()},
       {"search_area_mm2", surface.area() * kMm2},
       {"level", level ? json(level->value) : json(nullptr)},
       {"level_sd", level ? maybe(level->stddev) : json(nullptr)},
@@ -109,18 +109,19 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
        episode.trace.empty() ? json(nullptr) : maybe(episode.trace.back().expected_error_m2, kMm2)},
       {"path_mm", episode.path_m * kMm},
       {"learned",
-       {{"length_mm", exploration.belief().prior().kernel().length_m * kMm},
-        {"signal_sd", exploration.belief().signal_sd()},
-        {"noise_sd", std::sqrt(exploration.belief().noise_variance())}}},
-      {"precision", exploration.belief().options().single_precision ? "single" : "double"},
-      {"reduced_rank", reduced_rank_json(exploration.belief())},
+       {{"length_mm", episode.conclusion().belief.prior().kernel().length_m * kMm},
+        {"signal_sd", episode.conclusion().belief.signal_sd()},
+        {"noise_sd", std::sqrt(episode.conclusion().belief.noise_variance())}}},
+      {"precision", episode.conclusion().belief.options().single_precision ? "single" : "double"},
+      {"reduced_rank", reduced_rank_json(episode.conclusion().belief)},
       {"warnings", warnings},
       {"stop_reason", episode.stop_reason().empty() ? json(nullptr) : json(episode.stop_reason())},
       {"chart_hash", surface.chart().hash()}};
   if (field_of(scene).probe.has_lag()) {
-    result["lag_mm"] = exploration.lag() ? json(exploration.lag()->value_m * kMm) : json(nullptr);
+    result["lag_mm"] =
+        episode.conclusion().lag ? json(episode.conclusion().lag->value_m * kMm) : json(nullptr);
     result["lag_sd_mm"] =
-        exploration.lag() ? json(exploration.lag()->stddev_m * kMm) : json(nullptr);
+        episode.conclusion().lag ? json(episode.conclusion().lag->stddev_m * kMm) : json(nullptr);
   }
   const bool found = !episode.estimate.empty();
   const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);

@@ -42,13 +42,13 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
 
 /// What is ruled out where nothing was found.
 std::string nothing_words(const Episode& episode) {
-  if (episode.exploration.trend_is_missing()) return "";
+  if (episode.conclusion().evidence.trend_is_missing) return "";
   const double noise_sd = scatter(episode.exploration);
-  if (!episode.exploration.level() && noise_sd == 0.0) return "";
+  if (!episode.conclusion().level && noise_sd == 0.0) return "";
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
   const std::string contrast =
       episode.min_contrast ? "by " + reading_text(*episode.min_contrast) + " or more"
-      : episode.exploration.level()
+      : episode.conclusion().level
           ? "so that its edge is at that level"
           : "by four times the readings' scatter, " + reading_text(4.0 * noise_sd) + ", or more";
   if (!diameter_m)
@@ -62,16 +62,16 @@ double area_found_m2(const Episode& episode) {
 }
 
 std::string found_words(const Episode& episode) {
-  if (episode.exploration.belief().site_count() == 0)
-    return episode.exploration.palpations().empty()
+  if (episode.conclusion().belief.site_count() == 0)
+    return episode.conclusion().palpations.empty()
                ? "No readings yet, so nothing is known.\n"
                : "All readings are set aside, so nothing is known.\n";
-  if (!episode.exploration.level())
+  if (!episode.conclusion().level)
     return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
   const std::vector<TumourPart> parts = parts_of(episode);
-  const std::string level = "at the level " + reading_text(episode.exploration.level()->value);
+  const std::string level = "at the level " + reading_text(episode.conclusion().level->value);
   if (parts.empty()) {
-    if (episode.exploration.tip_hides_all())
+    if (episode.conclusion().tip_hides_all)
       return "Something stiff was found, but it is nowhere wider than the probe's tip.\n";
     return "Nothing found " + level + ": no tissue is that stiff.\n" + nothing_words(episode);
   }
@@ -79,7 +79,7 @@ std::string found_words(const Episode& episode) {
                       fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in total:\n";
   for (const TumourPart& part : parts) words += part_words(part);
   words +=
-      band_words(*episode.exploration.certainty(), episode.exploration.surface(), episode.cut_risk);
+      band_words(*episode.conclusion().certainty, episode.exploration.surface(), episode.cut_risk);
   if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
     words += "No other tumour that stands out " +
              (episode.min_contrast ? "by " + reading_text(*episode.min_contrast) + " or more"
@@ -102,7 +102,7 @@ std::string stop_words(const std::string& reason) {
 }  // namespace
 
 std::string no_level_words(const Exploration& exploration) {
-  if (exploration.trend_is_missing()) return kTooFewForTrend;
+  if (exploration.conclusion().evidence.trend_is_missing) return kTooFewForTrend;
   const std::vector<double> readings = readings_that_count(exploration);
   if (readings.size() > 1 && all_equal(readings))
     return "Nothing found: all " + std::to_string(readings.size()) + " readings are equal, " +
@@ -170,14 +170,14 @@ std::string batch_words(const Episode& episode) {
         fixed(100.0 * row.error->symmetric_difference_m2 / episode.exploration.surface().area(),
               3) +
         " % wrong";
-  if (!episode.exploration.contrast_seen()) words += ", no contrast yet";
+  if (!episode.conclusion().evidence.contrast_seen) words += ", no contrast yet";
   return words;
 }
 
 std::string episode_words(const Episode& episode) {
-  const std::size_t readings = episode.exploration.palpations().size();
+  const std::size_t readings = episode.conclusion().palpations.size();
   const auto set_aside = static_cast<std::size_t>(
-      std::ranges::count_if(episode.exploration.palpations(),
+      std::ranges::count_if(episode.conclusion().palpations,
                             [](const Palpation& one) { return !one.set_aside.empty(); }));
   std::string words = counted(readings, "reading");
   if (set_aside > 0) words += " (" + std::to_string(set_aside) + " set aside)";

@@ -1,4 +1,5 @@
 // simulate, replay, plan, boundary: a scene, and a world or measurements.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -91,6 +92,29 @@ void run_and_report(const SceneArguments& arguments, const std::string& command,
   output->finish(arguments.quiet);
 }
 
+/// What is taken for granted of measurements that do not say in which batch they were made.
+std::string without_batches(const std::filesystem::path& path, const Scene& scene) {
+  const bool has_initial = scene.integer("plan.initial.count") > 0;
+  const int left = scene.integer("plan.batches") - (has_initial ? 0 : 1);
+  return path.string() + ": there is no column batch: all readings count as one batch, the " +
+         (has_initial ? "initial" : "first") + " one, and " + std::to_string(std::max(left, 0)) +
+         (left == 1 ? " is left." : " are left.");
+}
+
+/// The poses of the next stops, the probe turned as it is after all stops before.
+std::vector<Waypoint> poses_after(const Surface& surface, std::span<const Palpation> before,
+                                  std::span<const SurfacePoint> stops, const Robot& robot) {
+  std::vector<SurfacePoint> all;
+  for (const Palpation& one : before) {
+    if (one.kind != TouchKind::Way) all.push_back(one.where);
+  }
+  const auto made = static_cast<std::ptrdiff_t>(all.size());
+  all.insert(all.end(), stops.begin(), stops.end());
+  std::vector<Waypoint> poses = waypoints(surface, all, robot);
+  poses.erase(poses.begin(), poses.begin() + made);
+  return poses;
+}
+
 }  // namespace
 
 void simulate(const SceneArguments& arguments) {
@@ -138,19 +162,25 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
   std::unique_ptr<OutputFolder> output =
       output_of(arguments, "plan", scene, tissue, measured.warnings);
-  const std::vector<Palpation>& palpations = measured.palpations;
-  const Episode episode = episode_from(scene, tissue.surface, palpations);
-  const std::vector<int> next = episode.exploration.next();
+  if (!measured.has_batches && !measured.palpations.empty()) {
+    const std::string words = without_batches(measurements, scene);
+    tell({words});
+    if (output) output->warn(words);
+  }
+  Episode episode = episode_from(scene, tissue.surface, measured.palpations);
+  const Choice choice = next_of(scene, tissue.surface, episode);
+  episode.coarse_stop_reason = choice.stop_reason;
+  const std::vector<Palpation> before = episode.exploration.readings();
 
   std::vector<SurfacePoint> stops, way;
   std::optional<SurfacePoint> here;
-  if (!palpations.empty()) here = palpations.back().where;
-  for (int stop : next) stops.push_back(tissue.surface.at_vertex(stop));
+  if (!before.empty()) here = before.back().where;
+  for (int stop : choice.stops) stops.push_back(tissue.surface.at_vertex(stop));
   const Tour tour = travel(
-      tissue.surface, next, here,
+      tissue.surface, choice.stops, here,
       [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
   const Robot robot = robot_of(scene);
-  const std::vector<Waypoint> poses = waypoints(tissue.surface, stops, robot);
+  const std::vector<Waypoint> poses = poses_after(tissue.surface, before, stops, robot);
   if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
   if (!output) return;
   output->write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);

@@ -54,10 +54,10 @@ TEST(CoarseRun, OnTheWholeMeshIsTheRun) {
   run(exploration, [&](const SurfacePoint& where, const Vec3&) {
     return std::optional(phantom.touch(where, random));
   });
-  ASSERT_EQ(felt.palpations.size(), exploration.palpations().size());
+  ASSERT_EQ(felt.palpations.size(), exploration.conclusion().palpations.size());
   for (std::size_t i = 0; i < felt.palpations.size(); ++i) {
-    EXPECT_EQ(felt.palpations[i].reading, exploration.palpations()[i].reading);
-    EXPECT_EQ(felt.palpations[i].batch, exploration.palpations()[i].batch);
+    EXPECT_EQ(felt.palpations[i].reading, exploration.conclusion().palpations[i].reading);
+    EXPECT_EQ(felt.palpations[i].batch, exploration.conclusion().palpations[i].batch);
   }
 }
 
@@ -88,8 +88,8 @@ TEST(CoarseRun, EndsWithABoundaryAsGoodAsThatOfThePlanOnTheWholeMesh) {
   for (const double explore_m : {0.0005, 0.001, 0.002}) {
     Exploration concluded(tissue, {}, {.initial = {.count = 0}, .batches = 0});
     concluded.take_up(felt_with(coarsen(tissue, explore_m), tissue, phantom).palpations);
-    ASSERT_TRUE(concluded.level());
-    const Contour contour = concluded.contour();
+    ASSERT_TRUE(concluded.conclusion().level);
+    const Contour& contour = *concluded.conclusion().contour;
     const RegionError error =
         compare(tissue, superlevel_region(tissue, contour.field, contour.level), truth);
     EXPECT_LT(error.symmetric_difference_m2, 8e-6)

@@ -33,8 +33,8 @@ TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
       [&](const Tour& tour) { sizes.push_back(tour.palpations.size()); });
   EXPECT_EQ(sizes, (std::vector<std::size_t>{16, 10, 10, 10}));
   EXPECT_EQ(exploration.stop_reason(), "budget");
-  EXPECT_EQ(exploration.belief().palpations().size(), 46u);
-  EXPECT_EQ(exploration.belief().palpations().back().batch, 3);
+  EXPECT_EQ(exploration.conclusion().belief.palpations().size(), 46u);
+  EXPECT_EQ(exploration.conclusion().belief.palpations().back().batch, 3);
 }
 
 TEST(Exploration, AnswersTheSameUntilSomethingIsRecorded) {
@@ -57,7 +57,7 @@ TEST(Exploration, IsRepeatable) {
                             {.initial = {.design = Design::Random, .seed = 7}, .batches = 4});
     Random random(3);
     run(exploration, probe_of(phantom, random));
-    return exploration.marginals();
+    return exploration.conclusion().marginals;
   };
   EXPECT_TRUE(stops().mean == stops().mean);
 }
@@ -96,14 +96,14 @@ TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
                               {.batches = 5});
       Random random(seed);
       run(exploration, probe_of(healthy, random));
-      EXPECT_FALSE(exploration.level()) << seed;
+      EXPECT_FALSE(exploration.conclusion().level) << seed;
     }
   }
   Exploration over_a_disk(tissue, {.field = given}, {.batches = 5});
   Random random(1);
   const Phantom disk = disk_phantom(tissue, 0.05);
   run(over_a_disk, probe_of(disk, random));
-  EXPECT_TRUE(over_a_disk.level());
+  EXPECT_TRUE(over_a_disk.conclusion().level);
 }
 
 TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
@@ -115,7 +115,7 @@ TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
     Exploration exploration(tissue, {.field = given, .level = {.estimate = LevelEstimate::Range}},
                             {.batches = 0});
     exploration.take_up(bumpy_readings(tissue, 1000, random));
-    EXPECT_TRUE(exploration.level()) << noise_sd;
+    EXPECT_TRUE(exploration.conclusion().level) << noise_sd;
   }
 }
 
@@ -125,11 +125,12 @@ TEST(Exploration, FindsTheDiskAndItsLevel) {
   Exploration exploration(tissue, {}, {.acquisition = straddle(), .batches = 9});
   Random random(2);
   run(exploration, probe_of(phantom, random));
-  EXPECT_TRUE(exploration.contrast_seen());
-  EXPECT_NEAR(exploration.level()->value, 8.0, 0.3);
+  EXPECT_TRUE(exploration.conclusion().evidence.contrast_seen);
+  EXPECT_NEAR(exploration.conclusion().level->value, 8.0, 0.3);
   double wrong = 0.0;
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
-    const bool inside = exploration.marginals().mean[vertex] >= exploration.level()->value;
+    const bool inside =
+        exploration.conclusion().marginals.mean[vertex] >= exploration.conclusion().level->value;
     if (inside != (phantom.truth()[vertex] >= 8.0)) wrong += tissue.vertex_areas()[vertex];
   }
   EXPECT_LT(wrong, 0.10 * 1.227e-4);  // a tenth of the disk's 122.7 mm2
@@ -141,13 +142,13 @@ TEST(Exploration, ExploresByVarianceUntilThereIsContrast) {
   Exploration exploration(tissue, {}, {.batches = 4});
   Random random(1);
   run(exploration, probe_of(healthy, random));
-  EXPECT_FALSE(exploration.contrast_seen());
-  EXPECT_FALSE(exploration.level().has_value());  // the range of noise is no level
+  EXPECT_FALSE(exploration.conclusion().evidence.contrast_seen);
+  EXPECT_FALSE(exploration.conclusion().level.has_value());  // the range of noise is no level
   // Fifty-six touches of 25 x 50 mm, spread evenly, leave no vertex farther than about 4.5 mm from
   // one.
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
     double nearest = 1.0;
-    for (const Palpation& palpation : exploration.belief().palpations()) {
+    for (const Palpation& palpation : exploration.conclusion().belief.palpations()) {
       nearest =
           std::min(nearest, (tissue.position(palpation.where) - tissue.vertex(vertex)).norm());
     }
@@ -187,7 +188,7 @@ TEST(Exploration, StopsWhenNothingIsLeftToTouch) {
   Random random(1);
   run(exploration, probe_of(phantom, random));
   EXPECT_EQ(exploration.stop_reason(), "nothing left to touch");
-  EXPECT_EQ(exploration.belief().palpations().size(), 20u);
+  EXPECT_EQ(exploration.conclusion().belief.palpations().size(), 20u);
 }
 
 TEST(Exploration, StopsAtTheExpectedErrorThatWasAskedFor) {
@@ -205,7 +206,7 @@ TEST(Exploration, TakesUpReadingsMadeElsewhere) {
   Random random(4);
   Exploration exploration(tissue, {}, {.batches = 3});
   exploration.take_up(bumpy_readings(tissue, 30, random));
-  EXPECT_EQ(exploration.belief().palpations().size(), 30u);
+  EXPECT_EQ(exploration.conclusion().belief.palpations().size(), 30u);
   EXPECT_EQ(exploration.next().size(), 10u);
 }
 
@@ -216,7 +217,7 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
   const auto wrong_mm2 = [&](const Exploration& exploration) {
     double wrong = 0.0;
     for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
-      const bool inside = exploration.marginals().mean[vertex] >= 8.0;
+      const bool inside = exploration.conclusion().marginals.mean[vertex] >= 8.0;
       if (inside != (phantom.truth()[vertex] >= 8.0)) wrong += 1e6 * tissue.vertex_areas()[vertex];
     }
     return wrong;
@@ -231,18 +232,18 @@ TEST(Exploration, LearnsTheLagAndKeepsTheReadingsWhereTheyWereMade) {
     return exploration;
   };
   const Exploration ignored = explored(0.0), learned = explored(kLearned), known = explored(0.0015);
-  EXPECT_FALSE(ignored.lag().has_value());
-  ASSERT_TRUE(learned.lag().has_value());
-  EXPECT_NEAR(learned.lag()->value_m, 0.0015, 2.0 * learned.lag()->stddev_m);
-  EXPECT_LT(learned.lag()->stddev_m, 0.0005);
-  EXPECT_EQ(known.lag()->value_m, 0.0015);
+  EXPECT_FALSE(ignored.conclusion().lag.has_value());
+  ASSERT_TRUE(learned.conclusion().lag.has_value());
+  EXPECT_NEAR(learned.conclusion().lag->value_m, 0.0015, 2.0 * learned.conclusion().lag->stddev_m);
+  EXPECT_LT(learned.conclusion().lag->stddev_m, 0.0005);
+  EXPECT_EQ(known.conclusion().lag->value_m, 0.0015);
   EXPECT_LT(wrong_mm2(learned), 0.6 * wrong_mm2(ignored));
   EXPECT_LT(wrong_mm2(known), 0.6 * wrong_mm2(ignored));
-  const Palpation& raw = learned.palpations()[50];
+  const Palpation& raw = learned.conclusion().palpations[50];
   EXPECT_EQ(raw.where.barycentric.maxCoeff(), 1.0);  // a stop is a vertex
-  const Vec3 shift =
-      tissue.position(raw.where) - tissue.position(learned.belief().palpations()[50].where);
-  EXPECT_NEAR((shift - learned.lag()->value_m * raw.travel).norm(), 0.0,
+  const Vec3 shift = tissue.position(raw.where) -
+                     tissue.position(learned.conclusion().belief.palpations()[50].where);
+  EXPECT_NEAR((shift - learned.conclusion().lag->value_m * raw.travel).norm(), 0.0,
               2e-5);  // the lag rests at a fiftieth of a millimetre
 }
 
@@ -258,18 +259,18 @@ Exploration explored_with_tip(double tip_radius_m) {
 
 TEST(RoundTip, TakesTheBoundaryInWithItsBandAndItsExpectedError) {
   const Exploration sharp = explored_with_tip(0.0), round = explored_with_tip(0.002);
-  EXPECT_FALSE(round.tip_hides_all());
+  EXPECT_FALSE(round.conclusion().tip_hides_all);
   const double share = 4.25 / 6.25;  // of the disk's outline, 2 mm farther in
-  EXPECT_NEAR(round.certainty()->expected.symmetric_difference_m2() /
-                  sharp.certainty()->expected.symmetric_difference_m2(),
+  EXPECT_NEAR(round.conclusion().certainty->expected.symmetric_difference_m2() /
+                  sharp.conclusion().certainty->expected.symmetric_difference_m2(),
               share, 0.1);
-  EXPECT_GT(round.certainty()->half_width_m, 0.0);
+  EXPECT_GT(round.conclusion().certainty->half_width_m, 0.0);
 }
 
 TEST(RoundTip, WiderThanATumourSaysThatNothingIsLeftOfIt) {
   const Exploration exploration = explored_with_tip(0.009);
-  EXPECT_TRUE(exploration.tip_hides_all());
-  EXPECT_EQ(exploration.certainty()->half_width_m, 0.0);
+  EXPECT_TRUE(exploration.conclusion().tip_hides_all);
+  EXPECT_EQ(exploration.conclusion().certainty->half_width_m, 0.0);
 }
 
 TEST(Travel, ReadsOnTheWayOncePerMillimetre) {

@@ -31,8 +31,8 @@ std::vector<Hyperparameters> explored(const Surface& tissue, double rebuild_gain
   for (auto stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
     if (foresees) exploration.foresee();
     exploration.record(travel(tissue, stops, std::nullopt, probe, 0.0).palpations);
-    all.push_back(in_force(exploration.belief()));
-    if (check) check(exploration.belief());
+    all.push_back(in_force(exploration.conclusion().belief));
+    if (check) check(exploration.conclusion().belief);
   }
   return all;
 }

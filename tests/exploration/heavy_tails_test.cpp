@@ -28,7 +28,7 @@ double wrong_mm2(bool heavy_tails) {
       if (random.below(12) == 0) palpation.reading += random.below(2) == 0 ? 2.0 : -2.0;
       return std::optional(palpation);
     });
-    const Contour contour = exploration.contour();
+    const Contour& contour = *exploration.conclusion().contour;
     sum += compare(tissue, superlevel_region(tissue, contour.field, contour.level), truth)
                .symmetric_difference_m2 *
            1e6;
@@ -68,7 +68,7 @@ TEST(HeavyTails, MakeNoTumourOfNoise) {
     }
     Exploration exploration(tissue, {.field = {.noise = {.heavy_tails = true}}});
     exploration.take_up(palpations);
-    EXPECT_FALSE(exploration.contrast_seen()) << seed;
+    EXPECT_FALSE(exploration.conclusion().evidence.contrast_seen) << seed;
   }
 }
 

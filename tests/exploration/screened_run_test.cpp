@@ -17,7 +17,7 @@ namespace palpation {
 namespace {
 
 int set_aside_in(const Exploration& exploration) {
-  const std::vector<Palpation>& all = exploration.palpations();
+  const std::vector<Palpation>& all = exploration.conclusion().palpations;
   return static_cast<int>(std::count_if(
       all.begin(), all.end(), [](const Palpation& one) { return !one.set_aside.empty(); }));
 }
@@ -51,7 +51,7 @@ TEST(ScreenedExploration, ASoundProbeLosesNextToNothing) {
             },
             [&](const Tour&) { first = first < 0 ? set_aside_in(exploration) : first; });
         EXPECT_EQ(first, 0) << noise << " " << lag_m;
-        readings += static_cast<int>(exploration.palpations().size());
+        readings += static_cast<int>(exploration.conclusion().palpations.size());
         lost += set_aside_in(exploration);
       }
     }
@@ -77,10 +77,10 @@ TEST(Exploration, FindsNoTumourInOneReadingOfAHundred) {
       const std::vector<Palpation> readings = healthy_but_one(tissue, 100, seed);
       Exploration exploration(tissue, {.field = {.trend = {.is_linear = trend}}});
       exploration.take_up(readings);
-      EXPECT_FALSE(exploration.contrast_seen()) << seed << " " << trend;
-      EXPECT_FALSE(exploration.level()) << seed << " " << trend;
-      ASSERT_TRUE(exploration.lone_reading()) << seed << " " << trend;
-      EXPECT_EQ(tissue.vertex_at(exploration.lone_reading()->where),
+      EXPECT_FALSE(exploration.conclusion().evidence.contrast_seen) << seed << " " << trend;
+      EXPECT_FALSE(exploration.conclusion().level) << seed << " " << trend;
+      ASSERT_TRUE(exploration.conclusion().evidence.lone_reading) << seed << " " << trend;
+      EXPECT_EQ(tissue.vertex_at(exploration.conclusion().evidence.lone_reading->where),
                 tissue.vertex_at(readings[33].where))
           << seed;
     }
@@ -109,10 +109,10 @@ TEST(Exploration, FindsATumourBesideAReadingThatStandsAlone) {
       Exploration exploration(tissue, {.field = field});
       exploration.take_up(std::span(readings).first(100));
       exploration.take_up(std::span(readings).subspan(100));
-      ASSERT_TRUE(exploration.lone_reading()) << wild;
-      EXPECT_EQ(exploration.palpations()[66].set_aside, kStandsAlone);
-      ASSERT_TRUE(exploration.level()) << wild << learned;
-      const Contour contour = exploration.contour();
+      ASSERT_TRUE(exploration.conclusion().evidence.lone_reading) << wild;
+      EXPECT_EQ(exploration.conclusion().palpations[66].set_aside, kStandsAlone);
+      ASSERT_TRUE(exploration.conclusion().level) << wild << learned;
+      const Contour& contour = *exploration.conclusion().contour;
       EXPECT_NEAR(1e6 * superlevel_area(tissue, contour.field, contour.level), tumour_mm2,
                   0.1 * tumour_mm2)
           << wild << learned;
@@ -128,8 +128,8 @@ TEST(Exploration, FindsATumourThatASecondReadingConfirms) {
   readings.back().reading = 8.6;
   Exploration exploration(tissue);
   exploration.take_up(readings);
-  EXPECT_TRUE(exploration.contrast_seen());
-  EXPECT_FALSE(exploration.lone_reading());
+  EXPECT_TRUE(exploration.conclusion().evidence.contrast_seen);
+  EXPECT_FALSE(exploration.conclusion().evidence.lone_reading);
 }
 
 TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
@@ -138,11 +138,11 @@ TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
   for (int vertex = 0; vertex < 20; ++vertex) hung.push_back(touch(tissue, 26 * vertex, 7.0));
   Exploration exploration(tissue, {.field = screened_field()});
   exploration.take_up(hung);
-  ASSERT_EQ(exploration.palpations().size(), 20u);
-  for (const Palpation& palpation : exploration.palpations())
+  ASSERT_EQ(exploration.conclusion().palpations.size(), 20u);
+  for (const Palpation& palpation : exploration.conclusion().palpations)
     EXPECT_EQ(palpation.set_aside, kFrozen);
-  EXPECT_EQ(exploration.belief().site_count(), 0);
-  EXPECT_FALSE(exploration.level().has_value());
+  EXPECT_EQ(exploration.conclusion().belief.site_count(), 0);
+  EXPECT_FALSE(exploration.conclusion().level.has_value());
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ std::string reason_of_a_run(const StopRule& stop, double noise, int batches = 30
     return std::optional(phantom.touch(where, random));
   });
   if (stop.band_m > 0.0 && exploration.stop_reason() == "band") {
-    EXPECT_LE(exploration.certainty()->half_width_m, stop.band_m);
+    EXPECT_LE(exploration.conclusion().certainty->half_width_m, stop.band_m);
   }
   if (exploration.stop_reason() != "budget") {
     EXPECT_LT(exploration.batch(), batches + 1);

@@ -22,7 +22,8 @@ Exploration explored(const Surface& tissue, const Phantom& phantom, const FieldM
 double wrong_mm2(const Exploration& exploration, const Phantom& phantom) {
   double wrong = 0.0;
   for (int vertex = 0; vertex < exploration.surface().vertex_count(); ++vertex) {
-    const bool inside = exploration.component().mean[vertex] >= exploration.level()->value;
+    const bool inside =
+        exploration.conclusion().component.mean[vertex] >= exploration.conclusion().level->value;
     if (inside != (phantom.truth()[vertex] >= phantom.true_level()))
       wrong += 1e6 * exploration.surface().vertex_areas()[vertex];
   }
@@ -62,8 +63,10 @@ TEST(Trend, ServesFieldsOfFixedHyperparametersToo) {
 TEST(Trend, IsNoTumour) {
   const Surface tissue = plane(26, 51);
   const Phantom healthy(tissue, {}, {.noise = 0.05, .bias = 1.0});
-  EXPECT_FALSE(explored(tissue, healthy, {.trend = {.is_linear = true}}, {}, 4).contrast_seen());
-  EXPECT_TRUE(explored(tissue, healthy, {}, {}, 4).contrast_seen());
+  EXPECT_FALSE(explored(tissue, healthy, {.trend = {.is_linear = true}}, {}, 4)
+                   .conclusion()
+                   .evidence.contrast_seen);
+  EXPECT_TRUE(explored(tissue, healthy, {}, {}, 4).conclusion().evidence.contrast_seen);
 }
 
 TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
@@ -73,11 +76,11 @@ TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
   Exploration exploration(tissue, {.field = {.trend = {.is_linear = true}}, .safe_start = false},
                           {.batches = 3});
   exploration.take_up(std::span(readings).first(14));
-  EXPECT_TRUE(exploration.trend_is_missing());
-  EXPECT_FALSE(exploration.level().has_value());
+  EXPECT_TRUE(exploration.conclusion().evidence.trend_is_missing);
+  EXPECT_FALSE(exploration.conclusion().level.has_value());
   exploration.take_up(std::span(readings).last(1));
-  EXPECT_FALSE(exploration.trend_is_missing());
-  EXPECT_TRUE(exploration.level().has_value());
+  EXPECT_FALSE(exploration.conclusion().evidence.trend_is_missing);
+  EXPECT_TRUE(exploration.conclusion().level.has_value());
 }
 
 TEST(Trend, LeavesTheWholeFieldToItsMarginals) {
@@ -85,13 +88,13 @@ TEST(Trend, LeavesTheWholeFieldToItsMarginals) {
   const Phantom tilted = tilted_disk(tissue, 1.0);
   const Exploration with = explored(tissue, tilted, {.trend = {.is_linear = true}}, {}, 3),
                     without = explored(tissue, tilted, {}, {}, 3);
-  EXPECT_TRUE(with.component().variance == with.marginals().variance);
+  EXPECT_TRUE(with.conclusion().component.variance == with.conclusion().marginals.variance);
   // What is taken out is the slope: 2 over 50 mm, known to a quarter from so few readings around a
   // tumour.
-  const Eigen::VectorXd out = with.marginals().mean - with.component().mean;
+  const Eigen::VectorXd out = with.conclusion().marginals.mean - with.conclusion().component.mean;
   EXPECT_NEAR(out.maxCoeff() - out.minCoeff(), 2.0, 0.5);
-  EXPECT_TRUE(without.component().mean == without.marginals().mean);
-  EXPECT_TRUE(without.component().variance == without.marginals().variance);
+  EXPECT_TRUE(without.conclusion().component.mean == without.conclusion().marginals.mean);
+  EXPECT_TRUE(without.conclusion().component.variance == without.conclusion().marginals.variance);
 }
 
 }  // namespace

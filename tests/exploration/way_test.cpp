@@ -22,7 +22,8 @@ double wrong_mm2(double way_step_m) {
   run(exploration, probe, {}, way_step_m);
   double wrong = 0.0;
   for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
-    const bool inside = exploration.component().mean[vertex] >= exploration.level()->value;
+    const bool inside =
+        exploration.conclusion().component.mean[vertex] >= exploration.conclusion().level->value;
     if (inside != (phantom.truth()[vertex] >= 8.0)) wrong += 1e6 * tissue.vertex_areas()[vertex];
   }
   return wrong;

@@ -100,7 +100,7 @@ void add_tables(Cases& cases) {
   refused("a line of 100,000 letters", second("0.01,0.012,0," + std::string(100000, '7')),
           {":3: a line of more than 65536 bytes"});
   refused("an unknown kind", "x,y,z,reading,kind\n0.01,0.012,0,7,poke\n",
-          {":2: column kind: \"poke\" must be stop, way or empty"});
+          {":2: column kind: \"poke\" must be stop, way, missed or empty"});
   refused("a broken batch", "x,y,z,reading,batch\n0.01,0.012,0,7,1.5\n",
           {":2: column batch: \"1.5\" must be empty, or a whole number from 0 to 1000000"});
   refused("a negative batch", "x,y,z,reading,batch\n0.01,0.012,0,7,-1\n",

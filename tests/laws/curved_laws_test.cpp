@@ -70,7 +70,7 @@ Result explored(const TriangleMesh& mesh, int centre) {
     result.picks.push_back(where);
     return std::optional(phantom.touch(where, unused));
   });
-  const Region found = superlevel_region(tissue, exploration.marginals().mean, 8.0);
+  const Region found = superlevel_region(tissue, exploration.conclusion().marginals.mean, 8.0);
   const Region truth = superlevel_region(tissue, phantom.truth(), 8.0);
   result.area = surface_area(tissue, found);
   result.truth = surface_area(tissue, truth);

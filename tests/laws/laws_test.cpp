@@ -55,7 +55,7 @@ Result explored(const TriangleMesh& mesh, double scale = 1.0,
     result.stops.push_back(back * (tissue.position(where) / scale));
     return std::optional(phantom.touch(where, unused));
   });
-  const Region found = superlevel_region(tissue, exploration.marginals().mean, 8.0);
+  const Region found = superlevel_region(tissue, exploration.conclusion().marginals.mean, 8.0);
   result.area = found.area() / (scale * scale);
   result.error = compare(tissue, found, superlevel_region(tissue, phantom.truth(), 8.0))
                      .symmetric_difference_m2 /
@@ -134,8 +134,8 @@ TEST(Laws, ThePlanarSceneComputesNothingItDoesNotNeed) {
         return std::optional(phantom.touch(where, random));
       },
       {}, 0.001);
-  const Region found =
-      superlevel_region(tissue, exploration.marginals().mean, exploration.level()->value);
+  const Region found = superlevel_region(tissue, exploration.conclusion().marginals.mean,
+                                         exploration.conclusion().level->value);
   compare(tissue, found, superlevel_region(tissue, phantom.truth(), 8.0));
   EXPECT_TRUE(tissue.computed().empty());
 }

@@ -106,10 +106,10 @@ std::vector<Palpation> random_measurements(const Surface& surface, Random& rando
 /// The first law that the outcome breaks, or nothing.
 std::string broken_law(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
-  const Marginals& marginals = exploration.marginals();
+  const Marginals& marginals = exploration.conclusion().marginals;
   if (!marginals.mean.allFinite() || !marginals.variance.allFinite()) return "the field is finite";
   if (marginals.variance.minCoeff() < 0.0) return "variances are not negative";
-  if (exploration.level() && !std::isfinite(exploration.level()->value))
+  if (exploration.conclusion().level && !std::isfinite(exploration.conclusion().level->value))
     return "the level is finite";
   if (episode.estimate.area() > exploration.surface().area() * (1.0 + 1e-12))
     return "a tumour is no larger than the tissue";

@@ -122,7 +122,7 @@ TEST(Threads, ExploreSideBySide) {
           return std::optional(phantom.touch(where, random));
         },
         {}, 0.001);
-    levels[i] = exploration.level() ? exploration.level()->value : 0.0;
+    levels[i] = exploration.conclusion().level ? exploration.conclusion().level->value : 0.0;
   });
   for (int i = 1; i < kThreads; ++i) EXPECT_EQ(levels[i], levels[0]);
 }

@@ -93,7 +93,7 @@ TEST(Measured, S10ReadingsThatAreAllAlikeHoldNoTumour) {
           {"field.length_mm=3", "field.signal_sd=1", "field.noise=0.1"},
           {"field.trend=zero"}}) {
       const Episode episode = bounded(grid([&](double) { return reading; }), overrides);
-      EXPECT_FALSE(episode.exploration.level().has_value()) << reading;
+      EXPECT_FALSE(episode.conclusion().level.has_value()) << reading;
       EXPECT_TRUE(episode.estimate.empty()) << reading;
       EXPECT_NE(episode_words(episode).find("Nothing found"), std::string::npos);
       EXPECT_FALSE(episode.exploration.next().empty()) << "there is more to touch";
@@ -112,8 +112,8 @@ TEST(Measured, S10NoiseThatDrownsEverythingLeavesNoLevel) {
   const Episode episode = bounded(grid([](double reading) { return reading; }),
                                   {"field.noise=1e30", "field.length_mm=3", "field.signal_sd=1"});
   EXPECT_TRUE(episode.estimate.empty());
-  EXPECT_NEAR(episode.exploration.marginals().variance.maxCoeff(),
-              episode.exploration.marginals().variance.minCoeff(), 1e-9);
+  EXPECT_NEAR(episode.conclusion().marginals.variance.maxCoeff(),
+              episode.conclusion().marginals.variance.minCoeff(), 1e-9);
 }
 
 // The area is that of the same readings without an offset, but for what learning leaves open (1e-5

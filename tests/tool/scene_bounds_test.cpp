@@ -103,7 +103,7 @@ void expect_sound(const std::string& name, const json& given) {
     const Tissue tissue = tissue_of(scene);
     const Episode episode =
         run_episode(scene, tissue.surface, simulated_world(scene, tissue.surface));
-    const Marginals& marginals = episode.exploration.marginals();
+    const Marginals& marginals = episode.conclusion().marginals;
     EXPECT_TRUE(marginals.mean.allFinite() && marginals.variance.allFinite()) << name;
     EXPECT_GE(marginals.variance.minCoeff(), 0.0) << name;
     EXPECT_LE(episode.estimate.area(), tissue.surface.area() * (1.0 + 1e-12)) << name;

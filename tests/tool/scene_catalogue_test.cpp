@@ -61,9 +61,9 @@ Outcome simulated(const SceneFolder& folder, const SceneCase& one) {
     const Episode episode = run_episode(scene, tissue.surface, world);
     outcome.warnings = tissue.warnings;
     outcome.warnings.insert(outcome.warnings.end(), world.warnings.begin(), world.warnings.end());
-    EXPECT_TRUE(episode.exploration.marginals().mean.allFinite()) << one.name;
-    EXPECT_TRUE(episode.exploration.marginals().variance.allFinite()) << one.name;
-    EXPECT_GE(episode.exploration.marginals().variance.minCoeff(), 0.0) << one.name;
+    EXPECT_TRUE(episode.conclusion().marginals.mean.allFinite()) << one.name;
+    EXPECT_TRUE(episode.conclusion().marginals.variance.allFinite()) << one.name;
+    EXPECT_GE(episode.conclusion().marginals.variance.minCoeff(), 0.0) << one.name;
     EXPECT_LE(episode.estimate.area(), tissue.surface.area() * (1.0 + 1e-12)) << one.name;
   } catch (const std::exception& error) {
     outcome.code = exit_code_of(error);

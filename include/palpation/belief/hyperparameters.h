@@ -31,6 +31,10 @@ struct LearnOptions {
   std::optional<double> noise_sd{};   ///< fixed
   double length_median_m = 0.0035;    ///< of the length's prior
   double length_spread = 0.4;         ///< standard deviation of log length
+  /// The values are rounded to the coarsest grid of their logarithms that costs at most so many
+  /// nats of log posterior: more readings then often teach the very same ones. 0: they are the
+  /// best.
+  double rounding_nats = 0.0;
   bool likelihood_alone =
       false;  ///< no priors, a signal of any size, one start: what other programs do
 };

@@ -22,7 +22,8 @@ struct Certainty {
                               ///< band_score }, the outer { score = -band_score }
   double half_width_m =
       0.0;  ///< of the band along the surface, the mean over the boundary; 0 where there is none
-  ExpectedError expected;  ///< wrong area of the region { score >= 0 }
+  ExpectedError expected;     ///< wrong area of the region { score >= 0 }
+  double untouched_m2 = 0.0;  ///< area too far from any reading for the boundary's depth to tell
 
   /// Phi(score).
   Field probability_inside() const;
@@ -42,20 +43,21 @@ Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double pr
 /// What a probe with a round tip feels early, taken back (erosion.h): the score of the boundary
 /// that lies a radius farther in, with the band's width along it. What is expected to be wrong
 /// changes as the boundary's length does.
-void take_back_tip(Certainty& certainty, const Surface& surface, double radius_m);
+Certainty less_tip(Certainty certainty, const Surface& surface, double radius_m);
 
 /// Where contact fades (contact.h) a tumour reads less than its plateau elsewhere, by up to what
 /// healthy tissue's reading falls, in proportion to the way. `sd` is what the score was divided by,
 /// at the vertices, and `whole_loss` by how much the boundary would be off, in the same unit, were
 /// all amplitude lost. The doubt counts as one more standard deviation: band and expected error
 /// grow with it.
-void doubt_fading_contact(Certainty& certainty, const Surface& surface, const FadingContact& fading,
-                          const Field& sd, double whole_loss);
+Certainty doubted_where_contact_fades(Certainty certainty, const Surface& surface,
+                                      const FadingContact& fading, const Field& sd,
+                                      double whole_loss);
 
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than
 /// the field is of it, and counts among what is expected to be wrong. Far is twice the radius of
-/// the smallest tumour of 0.5 cm2, 8 mm. Returns the area of such places, m2.
-double doubt_untouched(Certainty& certainty, const Belief& belief, const Marginals& marginals,
-                       const Level& level);
+/// the smallest tumour of 0.5 cm2, 8 mm.
+Certainty doubted_where_untouched(Certainty certainty, const Belief& belief,
+                                  const Marginals& marginals, const Level& level);
 
 }  // namespace palpation

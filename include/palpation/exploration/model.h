@@ -52,10 +52,11 @@ struct ProbeModel {
 struct Economy {
   double reduced_rank_tolerance = 0.0;  ///< as BeliefOptions has it
   bool single_precision = false;        ///< as BeliefOptions has it
-  /// Nats of log posterior that other hyperparameters must gain before the field is built anew with
-  /// them; until then it grows by the fresh readings alone. 0: always the best ones. Only where
-  /// nothing but the hyperparameters moves old readings: no lag, screening, heavy tails or trend, a
-  /// constant that is not zero, and touches at stops.
+  /// Nats of log posterior that learned hyperparameters may miss of the best ones: they are rounded
+  /// (LearnOptions::rounding_nats), so that readings that teach the same again let the field grow
+  /// by themselves alone. 0: always the best ones. Only where nothing but the hyperparameters moves
+  /// old readings: no lag, screening, heavy tails or trend, a constant that is not zero, and
+  /// touches at stops.
   double rebuild_gain = 0.0;
 };
 

@@ -1,6 +1,7 @@
 /// When enough is known, before the batches are done.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "palpation/certainty/certainty.h"
@@ -24,6 +25,9 @@ void check(const StopRule& rule);
 /// Never more than now.
 double expected_error_after(const Surface& surface, const Belief& belief, const Certainty& now,
                             const Level& level, std::span<const int> vertices);
+
+/// Of the batches so far, how many `gains_too_little` looks at.
+inline constexpr std::size_t kErrorsLookedAt = 4;
 
 /// Whether the rule's least gain is missed. `errors_m2`: expected after each batch so far, the last
 /// one now.

@@ -1,18 +1,19 @@
 /// The measurements that a person or a robot hands in, and that the tool hands out:
 /// measurements.csv.
 ///
-/// Columns: x,y,z [m], reading, noise_variance (empty: the field's noise), batch, kind (stop or
-/// way), tx,ty,tz (unit direction of travel, or empty), set_aside (why the reading is not used, or
-/// empty). As input x,y,z,reading is enough; unknown columns are kept (`foreign`). The order of
-/// rows means nothing but the place of the last one, where the probe is taken to be.
+/// Columns: x,y,z [m], reading, noise_variance (empty: the field's noise), batch, kind (stop, way,
+/// or missed: could not be touched, without a reading), tx,ty,tz (unit direction of travel, or
+/// empty), set_aside (why the reading is not used, or empty). As input x,y,z,reading is enough;
+/// unknown columns are kept (`foreign`). The order of rows is that in which they were made: batch
+/// after batch, and the probe is where the last one was.
 ///
 /// Each position goes to the closest point of the surface, from at most 5 mm above or below it and
 /// 1 mm beside its border. Places within a nanometre of an earlier row's are that row's place:
 /// readings there are repeats, and if they are without noise and differ, they contradict each
-/// other. Rows that repeat an earlier one, place and reading alike to every digit, are set aside,
-/// unless places that were touched again mostly read otherwise. Readings are at most 1e30 in size
-/// and, where they differ, do so by 1e-30 at least; a noise variance is 0, or 1e-60 to 1e60: what
-/// is computed from these stays within the range of doubles.
+/// other. Rows that repeat an earlier one of their batch, place, reading and direction alike to
+/// every digit, are set aside, unless places that were touched again mostly read otherwise.
+/// Readings are at most 1e30 in size and, where they differ, do so by 1e-30 at least; a noise
+/// variance is 0, or 1e-60 to 1e60: what is computed from these stays within the range of doubles.
 #pragma once
 
 #include <filesystem>
@@ -33,6 +34,7 @@ struct ForeignColumns {
 
 struct MeasurementsFile {
   std::vector<Palpation> palpations;  ///< one a row, in the order of the rows
+  bool has_batches = false;           ///< there is a column that tells them
   int places = 0;                     ///< distinct ones, of the readings that are not set aside
   ForeignColumns foreign;             ///< such as a robot's own
   /// Plain sentences: positions more than 0.1 mm off the surface, places within a nanometre of

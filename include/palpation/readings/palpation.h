@@ -8,7 +8,12 @@
 
 namespace palpation {
 
-enum class TouchKind { Stop, Way };  ///< at a planned stop, or on the way between two
+enum class TouchKind {
+  Stop,   ///< at a planned stop
+  Way,    ///< on the way between two
+  Missed  ///< a planned stop that could not be touched: it tells where not to go again, and nothing
+          ///< else
+};
 
 struct Palpation {
   SurfacePoint where;
@@ -21,5 +26,16 @@ struct Palpation {
   Vec3 travel = Vec3::Zero();  ///< unit direction of travel, or zero if unknown
   std::string set_aside{};     ///< why the reading is not used; empty if it is
 };
+
+inline Palpation missed_at(const SurfacePoint& where) {
+  return {.where = where,
+          .reading = std::numeric_limits<double>::quiet_NaN(),
+          .kind = TouchKind::Missed};
+}
+
+/// Whether it is a reading, and one that is used.
+inline bool counts(const Palpation& palpation) {
+  return palpation.set_aside.empty() && palpation.kind != TouchKind::Missed;
+}
 
 }  // namespace palpation

@@ -1,0 +1,98 @@
+/// All that was inferred from the readings so far: a value.
+///
+///     const Conclusion conclusion = conclude(tissue, model, readings);
+///
+/// The field by the readings (Garg et al. 2016, equations 1 and 2), whether it shows more than
+/// noise, the level at the tumour's edge (equation 4), the boundary and how sure it is.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "palpation/belief/belief.h"
+#include "palpation/belief/lag.h"
+#include "palpation/belief/level.h"
+#include "palpation/certainty/certainty.h"
+#include "palpation/certainty/edge_belief.h"
+#include "palpation/exploration/model.h"
+
+namespace palpation {
+
+/// The boundary is where the field, one value per vertex, reaches the level.
+struct Contour {
+  Field field;
+  double level = 0.0;
+};
+
+/// Whether the readings tell of a tumour at all.
+struct Evidence {
+  bool contrast_seen = false;
+  bool trend_is_missing = false;  ///< a trend is modelled, but too few places are touched yet to
+                                  ///< tell a tumour from a tilt
+  /// A reading that lies farther from all others than they from each other (lone_reading), the
+  /// trend apart: what it alone shows is no contrast, and where the others show some and it lies
+  /// ten times as far out, it is set aside (kStandsAlone).
+  std::optional<Palpation> lone_reading{};
+
+  /// Whether level and boundary may be concluded.
+  bool allows_boundary() const { return contrast_seen && !trend_is_missing; }
+};
+
+struct Conclusion {
+  Model model;  ///< that it was concluded under
+  /// The readings as they were made, with the reason where one is set aside.
+  std::vector<Palpation> palpations;
+  /// Knows the same readings, where a lag is modelled at the places where they belong, and those on
+  /// the way that are next to each other as one.
+  Belief belief;
+  /// The whole field: its variance is what touches are planned by.
+  Marginals marginals;
+  /// What level and boundary are of: the mean without the slope, and without what a round tip feels
+  /// early, with the variance of the whole field; equal to `marginals` where neither is modelled.
+  /// The variance without the slope would count as unsure what level and slope trade between them:
+  /// it overstates the error.
+  Marginals component;
+  Evidence evidence;
+  /// Nothing where none is modelled, or it is to be learned and no reading tells.
+  std::optional<Lag> lag;
+  /// As it is estimated; nothing before the readings show contrast, nor while they are all alike,
+  /// unless it is known: the range of noise is no level.
+  std::optional<Level> level;
+  /// What is known of the boundary in depths; nothing unless the level is inferred from its edge,
+  /// and one is seen.
+  std::optional<EdgeBelief> edge;
+  /// The boundary: of the depth where `edge` knows it, of the component else; what a round tip
+  /// feels early is taken back. Nothing where there is no level.
+  std::optional<Contour> contour;
+  /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the
+  /// tip is taken back is nothing.
+  bool tip_hides_all = false;
+  /// How sure the boundary is; nothing where there is no level or no reading.
+  std::optional<Certainty> certainty;
+};
+
+/// Beliefs that were made on the way to a conclusion, for the next one to grow by its fresh
+/// readings alone. It changes nothing but the time: what is concluded with it is what is concluded
+/// without, to the bit. Copies share.
+class ConclusionCache {
+ public:
+  /// The belief of this prior and these options that knows the palpations. Grows batch by batch, by
+  /// their numbers: so it is the same however much of it was known before.
+  Belief grown(const Belief& blank, std::span<const Palpation> palpations);
+  /// Does the work for touches at these places that no reading changes (Belief::foresee).
+  void foresee(std::span<const SurfacePoint> places);
+
+ private:
+  std::shared_ptr<const Belief> last_;
+};
+
+/// Where nothing is felt yet, the prior's; a given level is known even then. Depends on the
+/// arguments alone; readings that could not be made (TouchKind::Missed) tell nothing. Reasons why
+/// readings are set aside that are this function's own are judged anew. Throws InvalidInput as
+/// check(Model), Prior and BeliefOptions say, NumericalError where no field can be fitted.
+Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
+                    ConclusionCache* cache = nullptr);
+
+}  // namespace palpation

@@ -1,0 +1,136 @@
+#include "exploration/batch_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exploration/field_fit.h"
+#include "palpation/geometry/distance.h"
+#include "readings/readings.h"
+
+namespace palpation {
+namespace {
+
+/// While no contrast is seen: the part of a batch that looks again where readings were high, and
+/// how noisy they are taken to be then, as a part of their standard deviation. Half of the variance
+/// noise is what tells a tumour's few readings from a fluke least hastily.
+constexpr double kSecondLooks = 0.3;
+constexpr double kDoubt = 0.7;
+
+/// A batch in the making.
+struct Batching {
+  const Conclusion& conclusion;
+  const Plan& plan;
+  std::span<const int> candidates;
+  BatchOptions options;
+
+  const Surface& surface() const { return conclusion.belief.prior().surface(); }
+  const FieldModel& field() const { return conclusion.model.field; }
+};
+
+/// What will be felt at these stops, and on the way to them, if all is as it is believed to be.
+std::vector<Palpation> suppositions(const Batching& batch, const Belief& belief,
+                                    std::span<const int> stops) {
+  const Surface& surface = batch.surface();
+  const Field& mean = batch.conclusion.marginals.mean;
+  std::vector<Palpation> supposed;
+  std::vector<Vec3> places;
+  if (batch.options.from) places.push_back(surface.position(*batch.options.from));
+  for (const int stop : stops) {
+    for (const Supposed& reading :
+         supposed_on_the_way(belief, places, stop, batch.options.way_reading_m)) {
+      supposed.push_back({.where = surface.at_vertex(reading.vertex),
+                          .reading = mean[reading.vertex],
+                          .noise_variance = reading.noise_variance});
+    }
+    supposed.push_back({.where = surface.at_vertex(stop), .reading = mean[stop]});
+    places.push_back(surface.vertex(stop));
+  }
+  return supposed;
+}
+
+/// The candidates that keep their distance from the stops.
+std::vector<int> apart_from(const Batching& batch, std::span<const int> stops) {
+  std::vector<int> others(batch.candidates.begin(), batch.candidates.end());
+  std::vector<int> taken(stops.begin(), stops.end());
+  for (const int stop : stops) {
+    const std::vector<int> near =
+        vertices_near(batch.surface(), stop, batch.options.least_spacing_m);
+    taken.insert(taken.end(), near.begin(), near.end());
+  }
+  std::sort(taken.begin(), taken.end());
+  std::erase_if(others,
+                [&](int vertex) { return std::binary_search(taken.begin(), taken.end(), vertex); });
+  return others;
+}
+
+/// These stops, and as many others as the batch still takes by the acquisition (equation 3), of a
+/// belief that supposes the stops touched.
+std::vector<int> with_others(const Batching& batch, std::vector<int> stops, Belief believed) {
+  BatchOptions options = batch.options;
+  if (!stops.empty()) {
+    believed = believed.condition_on(suppositions(batch, believed, stops));
+    options.size -= static_cast<int>(stops.size());
+  }
+  const std::vector<int> rest =
+      choose_batch(believed, acquisition_in_force(batch.conclusion, batch.plan),
+                   batch.conclusion.level.value_or(Level{}), apart_from(batch, stops), options)
+          .vertices;
+  stops.insert(stops.end(), rest.begin(), rest.end());
+  return stops;
+}
+
+/// No contrast is seen yet: spread over the tissue, and a second look where readings were high.
+std::vector<int> searching_stops(const Batching& batch) {
+  const FieldModel& field = batch.field();
+  const std::vector<Palpation>& known = batch.conclusion.belief.palpations();
+  const std::vector<double> readings = used_readings(known);
+  const Belief blank = unlearned(batch.surface(), field);
+  std::vector<int> stops;
+  if (batch.conclusion.model.safe_start && field.learns() && readings.size() > 1 &&
+      !all_equal(readings)) {
+    Kernel kernel = kernel_of(field.kernel);
+    kernel.signal_sd = spread_of(readings).sd;
+    const Belief doubting(blank.prior().with(kernel), {.noise_sd = kDoubt * kernel.signal_sd});
+    BatchOptions options = batch.options;
+    options.size = static_cast<int>(std::floor(kSecondLooks * options.size));
+    stops = choose_batch(doubting.condition_on(known), ucb(0.5), Level{}, batch.candidates, options)
+                .vertices;
+  }
+  return with_others(batch, std::move(stops), blank.condition_on(known));
+}
+
+/// The field of one large tumour is smooth; a second, small one would hide between touches that are
+/// spread by its length. Look for it with the length that was likely beforehand, where that is
+/// shorter.
+Belief searching_belief(const Conclusion& conclusion) {
+  const Belief& belief = conclusion.belief;
+  const KernelModel& model = conclusion.model.field.kernel;
+  Kernel kernel = belief.prior().kernel();
+  if (!model.length_m.is_learned() || kernel.length_m <= model.length_median_m) return belief;
+  kernel.length_m = model.length_median_m;
+  return Belief(belief.prior().with(kernel), belief.options()).condition_on(belief.palpations());
+}
+
+}  // namespace
+
+Acquisition acquisition_in_force(const Conclusion& conclusion, const Plan& plan) {
+  return conclusion.evidence.allows_boundary() && conclusion.level ? plan.acquisition
+                                                                   : Acquisition(evr());
+}
+
+std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, int batches,
+                              std::span<const int> candidates, const BatchOptions& options) {
+  const Batching batch{conclusion, plan, candidates, options};
+  if (!conclusion.evidence.contrast_seen) return searching_stops(batch);
+  if (!conclusion.edge) return with_others(batch, {}, conclusion.belief);
+  // Search first, then refine: from half the share to half as much again over the plan's batches.
+  const double progress = static_cast<double>(batches) / std::max(plan.batches, 1);
+  const int count = static_cast<int>(
+      std::lround(std::min(plan.edge_share * (0.5 + progress), 1.0) * options.size));
+  return with_others(batch,
+                     conclusion.edge->most_telling(candidates, count, options.least_spacing_m,
+                                                   conclusion.marginals.variance),
+                     searching_belief(conclusion));
+}
+
+}  // namespace palpation

@@ -1,0 +1,24 @@
+/// From readings to the field, and whether it shows more than noise.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "palpation/exploration/conclusion.h"
+
+namespace palpation {
+
+/// What readings make of the field.
+struct Believed {
+  std::vector<Palpation> palpations;  ///< as they were made, with the reason where set aside
+  Belief belief;
+  std::optional<Lag> lag;
+  Evidence evidence;
+};
+
+/// `all`: readings that were made, none of them missed.
+Believed believe(const Surface& surface, const Model& model, std::vector<Palpation> all,
+                 ConclusionCache& cache);
+
+}  // namespace palpation

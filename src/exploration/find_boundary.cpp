@@ -1,0 +1,101 @@
+#include "exploration/find_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certainty/contrast.h"
+#include "palpation/certainty/edge_profile.h"
+#include "palpation/certainty/level_estimate.h"
+#include "readings/contact.h"
+#include "readings/readings.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kRounding = 1e-13;
+
+/// Whether the mean has a range: that of rounding is none, and to cut it would make tumours of
+/// noise.
+bool has_range(const Marginals& marginals) {
+  const double least = marginals.mean.minCoeff(), greatest = marginals.mean.maxCoeff();
+  const double scale =
+      std::max({std::abs(least), std::abs(greatest), std::sqrt(marginals.variance.maxCoeff())});
+  return greatest - least > kRounding * scale;
+}
+
+/// The profile of the readings across the edge (equation 4), and what it tells of the boundary.
+BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& belief,
+                      const Marginals& component) {
+  const double fraction = model.level.fraction;
+  BoundaryFit fit{.level = level_from_edge(surface, belief, component, fraction)};
+  // The profile may have settled on noise: the middle of the readings' own two plateaus is a second
+  // start.
+  std::vector<double> first_levels = {fit.level->value};
+  if (const auto plateaus = two_plateaus(used_readings(belief.detrended_palpations())))
+    first_levels.push_back(plateaus->low + fraction * (plateaus->high - plateaus->low));
+  const double noise_log_sd =
+      model.field.noise.sd.is_learned() ? learned_noise_log_sd(belief.site_count()) : 0.0;
+  fit.edge = EdgeBelief::around(belief, component, first_levels, fraction, {}, noise_log_sd);
+  if (fit.edge) fit.level = fit.edge->level();
+  // Where contact fades no profile fits: its plateau may run away, and with it the level. The
+  // mean's range is left: its least is felt all over healthy tissue, its greatest is as unsure a
+  // plateau as it was for the profile.
+  const double least = component.mean.minCoeff(), greatest = component.mean.maxCoeff();
+  if (fit.level->value > least && fit.level->value < greatest) return fit;
+  fit = {.level = level_from_range(component, fraction)};
+  fit.level->stddev = fraction * ShapePrior{}.plateau_error * (greatest - least);
+  return fit;
+}
+
+/// A sigmoid's steepest rise is a quarter of slope times contrast.
+Certainty with_fading_contact(Certainty certainty, const Surface& surface, const Model& model,
+                              const Believed& believed, const Marginals& component,
+                              const BoundaryFit& boundary) {
+  const std::optional<FadingContact> fading = fading_contact(surface, believed.palpations);
+  if (!fading) return certainty;
+  const double fraction = model.level.fraction;
+  if (boundary.edge) {
+    return doubted_where_contact_fades(std::move(certainty), surface, *fading,
+                                       boundary.edge->offset_sd(),
+                                       4.0 * fraction / boundary.edge->profile().slope_per_m);
+  }
+  const double level_sd = boundary.level->stddev.value_or(0.0),
+               contrast = component.mean.maxCoeff() - component.mean.minCoeff();
+  const Field sd = (component.variance.array() + level_sd * level_sd).sqrt();
+  return doubted_where_contact_fades(std::move(certainty), surface, *fading, sd,
+                                     fraction * contrast);
+}
+
+}  // namespace
+
+BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
+                          const Marginals& component) {
+  if (model.level.known) return {.level = Level{*model.level.known, 0.0}};
+  const Belief& belief = believed.belief;
+  const bool is_flat = belief.site_count() == 0 || !believed.evidence.allows_boundary() ||
+                       all_equal(used_readings(believed.palpations)) || !has_range(component);
+  if (is_flat) return {};
+  if (model.level.estimate == LevelEstimate::Range)
+    return {.level = level_from_range(component, model.level.fraction)};
+  return from_edge(surface, model, belief, component);
+}
+
+Certainty certainty_of(const Surface& surface, const Model& model, const Believed& believed,
+                       const Marginals& component, const BoundaryFit& boundary) {
+  const ProbeModel& probe = model.field.probe;
+  Certainty certainty = boundary.edge
+                            ? certainty_of(surface, *boundary.edge, model.band_probability)
+                            : certainty_of(surface, believed.belief, component, *boundary.level,
+                                           model.band_probability);
+  if (probe.screening)
+    certainty =
+        with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);
+  if (probe.indenter_radius_m > 0.0)
+    certainty = less_tip(std::move(certainty), surface, probe.indenter_radius_m);
+  if (boundary.edge)
+    certainty =
+        doubted_where_untouched(std::move(certainty), believed.belief, component, *boundary.level);
+  return certainty;
+}
+
+}  // namespace palpation

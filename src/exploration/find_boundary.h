@@ -1,0 +1,26 @@
+/// From the field to the tumour's boundary.
+#pragma once
+
+#include <optional>
+
+#include "exploration/believe.h"
+
+namespace palpation {
+
+/// The level, and where it is inferred from the tumour's edge what is known of that.
+struct BoundaryFit {
+  std::optional<Level> level{};
+  std::optional<EdgeBelief> edge{};
+};
+
+/// Of the readings' range or edge, or as it is known. `component`: what the level cuts, at the
+/// vertices.
+BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
+                          const Marginals& component);
+
+/// How sure that is, what fades, what a tip feels early and what is far from any reading included.
+/// Needs a level.
+Certainty certainty_of(const Surface& surface, const Model& model, const Believed& believed,
+                       const Marginals& component, const BoundaryFit& boundary);
+
+}  // namespace palpation

@@ -1,0 +1,88 @@
+#include "scene/episode_steps.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/setup.h"
+
+namespace palpation::tool {
+namespace {
+
+RegionError error_of(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  if (!episode.plain_truth || !exploration.conclusion().level)
+    return compare(exploration.surface(), episode.estimate, *episode.truth);
+  const Contour& contour = *exploration.conclusion().contour;
+  return compare(exploration.surface(), Superlevel{contour.field, contour.level},
+                 *episode.plain_truth);
+}
+
+}  // namespace
+
+Reach within_reach(const Scene& scene, const Surface& surface, Reach reach) {
+  const std::optional<std::vector<int>> reached = reachable_of(scene, surface);
+  if (!reached) return reach;
+  if (reach.vertices.empty()) {
+    reach.vertices = *reached;
+    return reach;
+  }
+  std::erase_if(reach.vertices, [&](int vertex) {
+    return !std::binary_search(reached->begin(), reached->end(), vertex);
+  });
+  if (reach.vertices.empty()) scene.refuse("robot", "reaches no tissue that can be felt");
+  return reach;
+}
+
+Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach given_reach) {
+  Reach reach = within_reach(scene, surface, std::move(given_reach));
+  return Episode{
+      .exploration = Exploration(surface, model_of(scene), std::move(plan), std::move(reach)),
+      .cut_risk = scene.number("band.cut_risk"),
+      .band_probability = scene.number("band.probability"),
+      .level_fraction = scene.number("level.fraction"),
+      .min_contrast = scene.has("plan.min_contrast")
+                          ? std::optional(scene.number("plan.min_contrast"))
+                          : std::nullopt};
+}
+
+Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
+  const Stopwatch starting;
+  Episode episode = started(scene, surface, std::move(plan), world.reach);
+  episode.truth = superlevel_region(surface, world.truth, world.true_level);
+  episode.truth_is = world.truth_is;
+  if (scene.word("error.arithmetic") == "plain")
+    episode.plain_truth = Superlevel{world.truth, world.true_level};
+  episode.start_seconds = starting.seconds();
+  return episode;
+}
+
+void restate(Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  TraceRow row;
+  row.batch = exploration.batch() - 1;
+  row.measurements = static_cast<int>(exploration.conclusion().palpations.size());
+  row.path_m = episode.path_m;
+  if (exploration.conclusion().belief.site_count() > 0) {
+    episode.estimate = Region();
+    if (exploration.conclusion().level) {
+      const Level level = *exploration.conclusion().level;
+      row.level = level.value;
+      if (!exploration.conclusion().tip_hides_all)
+        row.expected_error_m2 =
+            exploration.conclusion().certainty->expected.symmetric_difference_m2();
+      const Contour& contour = *exploration.conclusion().contour;
+      episode.estimate = superlevel_region(exploration.surface(), contour.field, contour.level);
+    }
+    if (episode.truth) episode.error = error_of(episode);
+    row.error = episode.error;
+  }
+  episode.trace.push_back(row);
+}
+
+void note_time(Episode& episode, BatchStopwatch& stopwatch) {
+  episode.batch_seconds.push_back(stopwatch.wall.seconds());
+  episode.batch_cpu_seconds.push_back(stopwatch.cpu.seconds());
+  stopwatch = BatchStopwatch();
+}
+
+}  // namespace palpation::tool
