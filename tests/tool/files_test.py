@@ -17,7 +17,7 @@ import time
 import unittest
 
 PALPATE = pathlib.Path(sys.argv[1]).resolve()
-PATIENCE_S = 60
+PATIENCE_S = 240
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [12, 12]}},
