@@ -170,7 +170,7 @@ View zoomed_to(const View& whole, const Outcome& outcome, const std::vector<std:
   if (!whole.flat || !(lowest.x() <= highest.x())) return whole;
   const auto window = [](double low, double high, double& from, double& length) {
     const double wanted = std::min(length, kRoom * (high - low) + kLeastRoom_mm);
-    from = std::clamp(0.5 * (low + high - wanted), from, from + length - wanted);
+    from = std::clamp(0.5 * (low + high - wanted), from, from + (length - wanted));
     length = wanted;
   };
   View part = whole;

@@ -65,6 +65,20 @@ TEST(ZoomedTo, IsTheWholeWhereThereIsNoSuchCurve) {
   EXPECT_EQ(zoomed_to(whole, outcome, {"truth"}).width_mm, whole.width_mm);
 }
 
+TEST(ZoomedTo, IsTheWholeWhereTheCurveFillsItWhateverIsRounded) {
+  Outcome outcome = outcome_on_rectangle(0.06, 0.05);
+  const View whole = view_of(outcome, std::nullopt);
+  outcome.curves = {{"estimate", {{0, 0, 0}, {0.06, 0, 0}, {0.06, 0.05, 0}, {0, 0.05, 0}}}};
+  for (int nth = 1; nth < 300; ++nth) {
+    View shifted = whole;
+    shifted.left_mm = -0.0173 * nth;
+    shifted.width_mm = 60.0 + 0.0311 * nth;
+    const View part = zoomed_to(shifted, outcome, {"estimate"});
+    EXPECT_EQ(part.left_mm, shifted.left_mm);
+    EXPECT_EQ(part.width_mm, shifted.width_mm);
+  }
+}
+
 TEST(Dashes, AreAsLongAsTheirGapsAndGoAroundCorners) {
   // Ten along x, then ten along y, in dashes of four: 0-4, 8-12 (around the corner), 16-20.
   const auto pieces = dashes({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, 4.0);
