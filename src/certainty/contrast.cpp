@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -13,6 +14,7 @@ constexpr double kEnoughSignal = 5.0;
 constexpr double kEnoughContrast = 5.0;
 constexpr std::size_t kFewReadings = 10;
 constexpr std::size_t kManyReadings = 30;
+constexpr std::size_t kFewOf = 20;
 constexpr int kRounds = 60;
 constexpr std::array kHighShares = {0.01, 0.05, 0.1, 0.2, 0.35};
 /// Noise below this part of the readings' variance is no noise: the ratio would grow without bound.
@@ -94,19 +96,33 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings) {
   return best;
 }
 
-std::optional<LoneReading> lone_reading(std::span<const double> readings) {
-  if (readings.size() < kManyReadings) return std::nullopt;
-  std::vector<std::size_t> order(readings.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return readings[a] < readings[b]; });
-  const auto at = [&](std::size_t rank) { return readings[order[rank]]; };
-  const std::size_t last = order.size() - 1;
-  const double above = at(last) - at(last - 1), below = at(1) - at(0);
-  if (const double span = at(last - 1) - at(0); above > span)
-    return LoneReading{order[last], above / span};
-  if (const double span = at(last) - at(1); below > span)
-    return LoneReading{order[0], below / span};
+std::size_t few_of(std::size_t readings) { return std::max<std::size_t>(readings / kFewOf, 1); }
+
+std::optional<ReadingsApart> readings_apart(std::span<const double> readings, std::size_t most) {
+  const std::size_t count = readings.size();
+  if (count < kManyReadings) return std::nullopt;
+  std::vector<std::size_t> rising(count);
+  std::iota(rising.begin(), rising.end(), std::size_t{0});
+  std::ranges::stable_sort(rising, {}, [&](std::size_t i) { return readings[i]; });
+  const auto at = [&](std::size_t rank) { return readings[rising[rank]]; };
+
+  // The others are neighbours in value: those from `first` to `last`.
+  for (std::size_t few = std::min(most, count - 2); few > 0; --few) {
+    std::optional<ReadingsApart> best;
+    for (std::size_t first = 0; first <= few; ++first) {
+      const std::size_t last = first + count - few - 1;
+      const double span = at(last) - at(first);
+      double gap = std::numeric_limits<double>::infinity();
+      if (first > 0) gap = std::min(gap, at(first) - at(first - 1));
+      if (last + 1 < count) gap = std::min(gap, at(last + 1) - at(last));
+      if (!(gap > span) || (best && !(gap / span > best->spans))) continue;
+      best = ReadingsApart{{rising.begin(), rising.begin() + first}, gap / span};
+      best->numbers.insert(best->numbers.end(), rising.begin() + last + 1, rising.end());
+    }
+    if (!best) continue;
+    std::ranges::sort(best->numbers);
+    return best;
+  }
   return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace palpation {
 
@@ -26,15 +27,18 @@ bool shows_field(double signal_evidence);
 /// shows in where they are. Noise alone passes in fewer than one run in a hundred.
 bool shows_contrast(std::span<const double> readings, double signal_evidence);
 
-/// The one reading that lies farther from all others than they lie from each other: a fault, or the
-/// one touch that hit something.
-struct LoneReading {
-  std::size_t number = 0;
-  double spans = 0.0;  ///< how far from the nearest other, over how far the others lie from each
-                       ///< other: above 1, may be infinite
+/// Few readings that lie farther from all others than those lie from each other: faults, or the
+/// few touches that hit something.
+struct ReadingsApart {
+  std::vector<std::size_t> numbers{};  ///< rising
+  double spans = 0.0;  ///< how far the nearest of them is from the others, over how far those lie
+                       ///< from each other: above 1, may be infinite
 };
 
-/// Nothing for fewer than thirty readings, where a tumour may well have been hit but once.
-std::optional<LoneReading> lone_reading(std::span<const double> readings);
+/// As many as there are, `most` of them at most. Nothing for fewer than thirty readings, where a
+/// tumour may well have been hit but once.
+std::optional<ReadingsApart> readings_apart(std::span<const double> readings, std::size_t most);
+/// One in twenty; but one is always few.
+std::size_t few_of(std::size_t readings);
 
 }  // namespace palpation

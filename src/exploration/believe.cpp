@@ -22,16 +22,53 @@ constexpr std::size_t kFewReadings = 10;
 /// What lies farther from others than so many times their span is no plateau of which they felt the
 /// edge.
 constexpr double kFarAlone = 10.0;
+constexpr std::ptrdiff_t kWitnesses = 3;  // nearest readings
 
-/// Of the palpations that are not set aside.
-std::optional<LoneReading> lone_palpation(std::span<const Palpation> palpations) {
-  std::optional<LoneReading> lone = lone_reading(used_readings(palpations));
-  if (!lone) return std::nullopt;
-  std::size_t number = 0;
-  for (std::size_t used = 0; !palpations[number].set_aside.empty() || used < lone->number; ++number)
-    used += palpations[number].set_aside.empty();
-  lone->number = number;
-  return lone;
+/// Whether one of the readings nearest to one of these is another of these.
+bool confirm_each_other(const Surface& surface, std::span<const Palpation> palpations,
+                        std::span<const std::size_t> these) {
+  if (these.size() < 2) return false;
+  const auto place = [&](std::size_t i) { return surface.position(palpations[i].where); };
+  for (const std::size_t here : these) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t i = 0; i < palpations.size(); ++i) {
+      if (i != here && counts(palpations[i]))
+        others.emplace_back((place(i) - place(here)).squaredNorm(), i);
+    }
+    const auto most = others.begin() + std::min(kWitnesses, std::ssize(others));
+    std::partial_sort(others.begin(), most, others.end());
+    if (std::any_of(others.begin(), most, [&](const auto& near) {
+          return std::ranges::binary_search(these, near.second);
+        }))
+      return true;
+  }
+  return false;
+}
+
+/// The most readings that stand apart, in numbers of palpations, of those that are not set aside,
+/// by so many spans at least. What is felt twice side by side is no fault.
+std::optional<ReadingsApart> palpations_apart(const Surface& surface,
+                                              std::span<const Palpation> palpations,
+                                              double least_spans) {
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    if (palpations[i].set_aside.empty()) used.push_back(i);
+  }
+  const std::vector<double> readings = used_readings(palpations);
+  for (std::size_t most = few_of(readings.size()); most > 0; --most) {
+    std::optional<ReadingsApart> apart = readings_apart(readings, most);
+    if (!apart) return std::nullopt;
+    most = apart->numbers.size();
+    for (std::size_t& number : apart->numbers) number = used[number];
+    if (apart->spans > least_spans && !confirm_each_other(surface, palpations, apart->numbers))
+      return apart;
+  }
+  return std::nullopt;
+}
+
+std::vector<Palpation> without(std::vector<Palpation> palpations, const ReadingsApart& apart) {
+  for (const std::size_t number : apart.numbers) palpations[number].set_aside = kStandsAlone;
+  return palpations;
 }
 
 /// A smooth field is slow to believe in a few readings of many; a disk is not.
@@ -80,7 +117,7 @@ LagFit screened_and_fitted(const Surface& surface, const FieldModel& field,
   const std::vector<Palpation> felt = all;
   all = screened_readings(surface, field, felt, field.probe.lag_m.value_or(LagPrior{}.mean_m));
   LagFit fit = fitted(surface, field, all, cache);
-  if (!field.probe.screening || !field.probe.lag_m.is_learned() || !fit.lag) return fit;
+  if (!field.probe.lag_m.is_learned() || !fit.lag) return fit;
   std::vector<Palpation> again = screened_readings(surface, field, felt, fit.lag->value_m);
   if (std::ranges::equal(again, all, {}, &Palpation::set_aside, &Palpation::set_aside)) return fit;
   all = std::move(again);
@@ -114,8 +151,8 @@ bool lacks_trend(const FieldModel& field, const Belief& belief) {
 }  // namespace
 
 /// What ten readings of noise once seemed to show, more readings there take back. Nor is it
-/// contrast what one of many readings shows alone: where the others show it, and that one is
-/// nothing like them, it is set aside.
+/// contrast what few of many readings show, each alone: where the others show it, and those are
+/// nothing like them, they are set aside.
 Believed believe(const Surface& surface, const Model& model, std::vector<Palpation> all,
                  ConclusionCache& cache) {
   const FieldModel& field = model.field;
@@ -126,21 +163,25 @@ Believed believe(const Surface& surface, const Model& model, std::vector<Palpati
     return Believed{std::move(all), std::move(fit.field.belief), fit.lag, std::move(evidence)};
   };
   if (all.empty() || evidence.trend_is_missing) return result();
-  const std::optional<LoneReading> lone =
-      lone_palpation(field.trend.is_linear ? fit.field.belief.detrended_palpations() : all);
-  if (lone && model.needs_contrast()) {
-    std::vector<Palpation> others = all;
-    others[lone->number].set_aside = kStandsAlone;
-    LagFit without = fitted(surface, field, others, cache);
-    evidence.contrast_seen = shows_contrast(surface, field, without.field, others);
-    if (evidence.contrast_seen && lone->spans > kFarAlone) {
-      all = std::move(others);
-      fit = std::move(without);
+  const std::vector<Palpation> flat =
+      field.trend.is_linear ? fit.field.belief.detrended_palpations() : all;
+  const std::optional<ReadingsApart> apart = palpations_apart(surface, flat, 1.0);
+  if (apart && model.needs_contrast()) {
+    const std::vector<Palpation> others = without(all, *apart);
+    evidence.contrast_seen =
+        shows_contrast(surface, field, fitted(surface, field, others, cache).field, others);
+    const std::optional<ReadingsApart> far =
+        evidence.contrast_seen ? palpations_apart(surface, flat, kFarAlone) : std::nullopt;
+    if (far) {
+      all = without(std::move(all), *far);
+      fit = fitted(surface, field, all, cache);
     }
   } else if (model.needs_contrast()) {
     evidence.contrast_seen = shows_contrast(surface, field, fit.field, all);
   }
-  if (lone) evidence.lone_reading = all[lone->number];
+  if (apart) {
+    for (const std::size_t number : apart->numbers) evidence.standing_alone.push_back(all[number]);
+  }
   return result();
 }
 

@@ -13,9 +13,10 @@ namespace {
 /// Whether a reading was set aside for a reason that this model judges anew.
 bool is_judged_anew(const Palpation& palpation, const Model& model) {
   const std::string& reason = palpation.set_aside;
+  if (reason == kNoContact || reason == kOutlier) return true;
   if (reason == kStandsAlone) return model.needs_contrast();
-  const auto reasons = {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier};
-  return model.field.probe.screening && std::ranges::find(reasons, reason) != reasons.end();
+  const auto of_rows = {kJammed, kFrozen, kStartUp, kBaseStep};
+  return model.field.probe.screening && std::ranges::find(of_rows, reason) != of_rows.end();
 }
 
 /// Those that were made, as they were made.

@@ -70,8 +70,9 @@ void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpatio
       table.name() + ": " +
       (count == 1 ? "1 reading stands" : std::to_string(count) + " readings stand") +
       " more than 1000 times as far out as the middle half of all readings is wide, in line " +
-      lines + (count > 5 ? " and others" : "") + (count == 1 ? ". It counts" : ". They count") +
-      " like the others; if the probe slipped, say so in the column set_aside.");
+      lines + (count > 5 ? " and others" : "") +
+      ". Only what others contradict is left out; if the probe slipped, say so in the column "
+      "set_aside.");
 }
 
 void check_range(const CsvTable& table, const std::vector<Palpation>& palpations) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "readings/lost_contact.h"
 #include "readings/outliers.h"
 #include "readings/readings.h"
 #include "readings/robust.h"
@@ -77,13 +78,33 @@ void find_gross(Screen& screen) {
   }
 }
 
+void find_implausible(Screen& screen, double length_m) {
+  find_gross(screen);
+  for (std::size_t i : lost_contact(screen.palpations, screen.places))
+    screen.set_aside(i, kNoContact);
+  for (std::size_t i : outliers(screen.palpations, screen.places, length_m))
+    screen.set_aside(i, kOutlier);
+}
+
+std::vector<Vec3> places_of(const Surface& surface, std::span<const Palpation> palpations) {
+  std::vector<Vec3> places;
+  for (const Palpation& palpation : palpations) places.push_back(surface.position(palpation.where));
+  return places;
+}
+
 }  // namespace
+
+std::vector<Palpation> plausible(const Surface& surface, std::span<const Palpation> palpations,
+                                 double length_m) {
+  std::vector<Palpation> result(palpations.begin(), palpations.end());
+  Screen screen{result, places_of(surface, palpations)};
+  find_implausible(screen, length_m);
+  return result;
+}
 
 std::vector<Palpation> screened(const Surface& surface, std::span<const Palpation> palpations) {
   std::vector<Palpation> result(palpations.begin(), palpations.end());
-  Screen screen{result, {}};
-  for (const Palpation& palpation : result)
-    screen.places.push_back(surface.position(palpation.where));
+  Screen screen{result, places_of(surface, palpations)};
   const std::vector<Pass> rows = rows_among(passes_of(screen.places), screen.places);
   find_frozen(screen);
   if (!rows.empty()) {
@@ -96,8 +117,7 @@ std::vector<Palpation> screened(const Surface& surface, std::span<const Palpatio
     find_transitions(screen, rows);
     find_base_steps(screen, rows);
   }
-  find_gross(screen);
-  for (std::size_t i : outliers(result, screen.places)) screen.set_aside(i, kOutlier);
+  find_implausible(screen, kShortLength_m);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "boundary/level_remarks.h"
 #include "certainty/contrast.h"
@@ -17,6 +18,7 @@
 namespace palpation::tool {
 namespace {
 
+constexpr std::size_t kPlacesNamed = 3;
 constexpr double kMuchUntouched = 0.05;  // of the tissue
 constexpr double kMuchPlane =
     0.5;  // of the readings' variance; a tumour over one half of the tissue gives three quarters
@@ -28,18 +30,28 @@ constexpr double kLargeShare = 0.25;
 constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
 constexpr double kNoNoise = 1e-3;  // of the contrast: so little does not limit what they reach
 
+/// How many readings were set aside for a reason, and where the first of them are.
+std::string set_aside_words(const Exploration& exploration, const std::string& reason) {
+  std::size_t count = 0;
+  std::string places;
+  for (const Palpation& one : exploration.conclusion().palpations) {
+    if (one.set_aside != reason || ++count > kPlacesNamed) continue;
+    places += (places.empty() ? "" : ", ") + reading_text(one.reading) + " at " +
+              place_words(exploration.surface().position(one.where), 1);
+  }
+  if (count == 0) return "";
+  return counted(count, "reading") + " set aside (" + reason + "): " + places +
+         (count > kPlacesNamed ? ", ..." : ".");
+}
+
 /// What a screen found, and whether the probe kept its contact.
 std::vector<std::string> screening_remarks(const Exploration& exploration) {
-  if (!exploration.conclusion().model.field.probe.screening) return {};
   std::vector<std::string> remarks;
   for (const std::string& reason : {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier}) {
-    const std::vector<Palpation>& all = exploration.conclusion().palpations;
-    const auto count = std::count_if(all.begin(), all.end(),
-                                     [&](const Palpation& one) { return one.set_aside == reason; });
-    if (count > 0)
-      remarks.push_back(counted(static_cast<std::size_t>(count), "reading") + " set aside (" +
-                        reason + ").");
+    if (std::string words = set_aside_words(exploration, reason); !words.empty())
+      remarks.push_back(std::move(words));
   }
+  if (!exploration.conclusion().model.field.probe.screening) return remarks;
   if (const std::optional<FadingContact> fading =
           fading_contact(exploration.surface(), exploration.conclusion().palpations))
     remarks.push_back("Contact fades towards (" + fixed(fading->towards.x(), 2) + ", " +
@@ -74,15 +86,22 @@ std::string level_outside_words(const Exploration& exploration) {
          (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
 }
 
-std::string lone_reading_words(const Surface& surface, const Palpation& lone) {
-  return "One reading, " + reading_text(lone.reading) + " at " +
-         place_words(surface.position(lone.where), 1) +
-         ", lies farther from all others than they lie from each other" +
-         (lone.set_aside == kStandsAlone
-              ? ", and is set aside: touch there again to confirm it (field.screening finds more "
-                "such readings)."
-              : ": touch there again, or take it out if it is a fault (field.screening sets aside "
-                "what readings around it contradict).");
+std::string standing_alone_words(const Surface& surface, const std::vector<Palpation>& alone) {
+  std::string words;
+  for (const Palpation& one : alone) {
+    words += (words.empty() ? "" : ", ") + reading_text(one.reading) + " at " +
+             place_words(surface.position(one.where), 1);
+  }
+  const bool is_one = alone.size() == 1;
+  words = (is_one ? "One reading, " + words + ", lies farther from all others than they lie"
+                  : counted(alone.size(), "reading") + ", " + words +
+                        ", lie farther from all others than those lie") +
+          " from each other";
+  return words + (alone.front().set_aside == kStandsAlone
+                      ? std::string(", and ") + (is_one ? "is" : "are") +
+                            " set aside: touch there again to confirm."
+                      : std::string(": touch there again, or take ") + (is_one ? "it" : "them") +
+                            " out if " + (is_one ? "it is a fault." : "they are faults."));
 }
 
 double perimeter_m(const Region& region) {
@@ -118,15 +137,15 @@ std::optional<double> over_reachable(const Episode& episode) {
          reachable.expected_error_m2;
 }
 
-}  // namespace
+using Remarks = std::vector<std::string>;
 
-std::vector<std::string> boundary_remarks(const Episode& episode) {
-  const Exploration& exploration = episode.exploration;
-  const Conclusion& conclusion = episode.conclusion();
-  std::vector<std::string> remarks = screening_remarks(exploration);
-  if (conclusion.belief.site_count() == 0) return remarks;
-  if (conclusion.evidence.lone_reading)
-    remarks.push_back(lone_reading_words(exploration.surface(), *conclusion.evidence.lone_reading));
+/// Of the readings, and of the field that they make.
+Remarks field_remarks(const Exploration& exploration) {
+  const Conclusion& conclusion = exploration.conclusion();
+  Remarks remarks;
+  if (!conclusion.evidence.standing_alone.empty())
+    remarks.push_back(
+        standing_alone_words(exploration.surface(), conclusion.evidence.standing_alone));
   if (const std::string words = reduced_rank_words(conclusion.belief); !words.empty())
     remarks.push_back(words);
   if (conclusion.lag && conclusion.lag->at_bound) {
@@ -134,11 +153,15 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
                       " mm, is as far as any was looked for: the true one may lie beyond. Give "
                       "field.lag_mm, or touch in more directions.");
   }
-  if (!conclusion.level) {
-    remarks.push_back(no_level_words(exploration));
-    return remarks;
-  }
-  if (const double share = conclusion.certainty->untouched_m2 / exploration.surface().area();
+  return remarks;
+}
+
+/// Of what the level cuts out.
+Remarks level_remarks(const Exploration& exploration) {
+  const Surface& surface = exploration.surface();
+  const Conclusion& conclusion = exploration.conclusion();
+  Remarks remarks;
+  if (const double share = conclusion.certainty->untouched_m2 / surface.area();
       share > kMuchUntouched) {
     remarks.push_back(percent(share) +
                       " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
@@ -151,37 +174,51 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
     remarks.push_back(outside);
   const Contour& contour = *conclusion.contour;
   for (const std::string& remark :
-       remarks_on_level_set(exploration.surface(), contour.field, contour.level).words())
+       remarks_on_level_set(surface, contour.field, contour.level).words())
     remarks.push_back(remark + '.');
   const double plane = conclusion.belief.prior().has_slope()
                            ? 0.0
-                           : explained_by_plane(exploration.surface(), conclusion.palpations);
+                           : explained_by_plane(surface, conclusion.palpations);
   if (plane > kMuchPlane)
     remarks.push_back(
         "A plane explains " + percent(plane) +
         " of how the readings differ: if that is a tilt or a drift, set field.trend to linear.");
-  const std::vector<TumourPart> parts = parts_of(episode);
-  if (!conclusion.edge && !parts.empty())
+  return remarks;
+}
+
+Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>& parts) {
+  if (parts.empty()) return {};
+  Remarks remarks;
+  if (!conclusion.edge)
     remarks.push_back(
         "The level was not inferred from the tumour's edge: band, cut line and expected error are "
         "the field's alone, and not calibrated.");
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string part =
+        "Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size());
     if (parts[i].probability < kSure)
-      remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
-                        " is tumour with probability " + percent(parts[i].probability) + " only.");
+      remarks.push_back(part + " is tumour with probability " + percent(parts[i].probability) +
+                        " only.");
     if (parts[i].touches_border)
-      remarks.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
-                        " reaches the border of the tissue, beyond which it may go on.");
+      remarks.push_back(part + " reaches the border of the tissue, beyond which it may go on.");
   }
   const std::optional<Certainty>& certainty = conclusion.certainty;
-  if (!parts.empty() && certainty && certainty->score.maxCoeff() < certainty->band_score)
+  if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
-  const double found_m2 = surface_area(exploration.surface(), episode.estimate);
-  if (found_m2 > kMuchStiff * exploration.surface().area())
+  return remarks;
+}
+
+/// Of how much of what was found may be wrong.
+Remarks area_remarks(const Episode& episode, bool has_parts) {
+  const Surface& surface = episode.exploration.surface();
+  const std::optional<Certainty>& certainty = episode.conclusion().certainty;
+  const double found_m2 = surface_area(surface, episode.estimate);
+  Remarks remarks;
+  if (found_m2 > kMuchStiff * surface.area())
     remarks.push_back(
         "More than half of the tissue counts as stiff: where a tumour reads less than healthy "
         "tissue, change the readings' sign.");
-  if (!parts.empty() && certainty &&
+  if (has_parts && certainty &&
       certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
     remarks.push_back("The area expected to be wrong is " +
                       percent(certainty->expected.symmetric_difference_m2() / found_m2) +
@@ -193,6 +230,26 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
                       fixed(*times, 0) +
                       " times the least that so many readings with so little noise allow: more "
                       "batches would help.");
+  return remarks;
+}
+
+}  // namespace
+
+std::vector<std::string> boundary_remarks(const Episode& episode) {
+  const Exploration& exploration = episode.exploration;
+  const Conclusion& conclusion = episode.conclusion();
+  Remarks remarks = screening_remarks(exploration);
+  const auto add = [&](Remarks&& more) { std::ranges::move(more, std::back_inserter(remarks)); };
+  if (conclusion.belief.site_count() == 0) return remarks;
+  add(field_remarks(exploration));
+  if (!conclusion.level) {
+    remarks.push_back(no_level_words(exploration));
+    return remarks;
+  }
+  add(level_remarks(exploration));
+  const std::vector<TumourPart> parts = parts_of(episode);
+  add(part_remarks(conclusion, parts));
+  add(area_remarks(episode, !parts.empty()));
   return remarks;
 }
 

@@ -204,9 +204,9 @@ std::vector<SceneKey> make_scene_keys() {
             "noise is Student's t with four degrees of freedom: readings far from the field weigh "
             "less, none is set aside"),
       truth("field.screening", false,
-            "jams, hangs, lost contact, start-ups, base steps between rows and outliers are found "
-            "and set aside, with the reason in "
-            "measurements.csv"),
+            "faults of scans are found, too, and set aside with the reason in measurements.csv: "
+            "jams, hangs, start-ups, base steps between rows; lost contact here and there and "
+            "what readings around contradict are found without it"),
       by_default(0.0, number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
                                       "how far behind the probe's travel its readings belong; 0: "
                                       "readings belong where they are made; "

@@ -33,20 +33,38 @@ TEST(ShowsContrast, IsSeldomFooledByNoise) {
   EXPECT_LE(fooled, 5);
 }
 
-TEST(LoneReading, LiesFartherFromAllOthersThanTheyFromEachOther) {
+using Numbers = std::vector<std::size_t>;
+
+TEST(ReadingsApart, LieFartherFromAllOthersThanThoseFromEachOther) {
   Random random(4);
   std::vector<double> readings = noise(40, 0.1, random);
-  EXPECT_FALSE(lone_reading(readings));
+  EXPECT_FALSE(readings_apart(readings, few_of(readings.size())));
   readings[17] = 9.0;
-  EXPECT_EQ(lone_reading(readings)->number, 17u);
+  EXPECT_EQ(readings_apart(readings, few_of(readings.size()))->numbers, Numbers{17});
   readings[17] = 4.0;
-  EXPECT_EQ(lone_reading(readings)->number, 17u);
-  readings[18] = 4.1;  // two are no longer alone
-  EXPECT_FALSE(lone_reading(readings));
+  EXPECT_EQ(readings_apart(readings, few_of(readings.size()))->numbers, Numbers{17});
+  readings[8] = 40.0;  // behind which the other would hide
+  EXPECT_EQ(readings_apart(readings, few_of(readings.size()))->numbers, (Numbers{8, 17}));
+  EXPECT_EQ(readings_apart(readings, 1)->numbers, Numbers{8});
+  readings[21] = 1.0;  // three of forty are not few
+  EXPECT_EQ(few_of(readings.size()), 2u);
+  EXPECT_EQ(readings_apart(readings, 2)->numbers, Numbers{8});
   std::vector<double> few = noise(29, 0.1, random);
   few[3] = 9.0;
-  EXPECT_FALSE(lone_reading(few));
-  EXPECT_FALSE(lone_reading(std::vector<double>(40, 7.0)));
+  EXPECT_FALSE(readings_apart(few, few_of(few.size())));
+  EXPECT_FALSE(readings_apart(std::vector<double>(40, 7.0), 2));
+}
+
+TEST(ReadingsApart, IsAsFarOutAsTheNearestOfThem) {
+  std::vector<double> readings(60, 0.0);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    readings[i] = 0.01 * static_cast<double>(i % 11);
+  readings[7] = 30.1;
+  readings[9] = -5.0;
+  readings[50] = 1000.0;
+  const std::optional<ReadingsApart> apart = readings_apart(readings, few_of(readings.size()));
+  EXPECT_EQ(apart->numbers, (Numbers{7, 9, 50}));
+  EXPECT_NEAR(apart->spans, 50.0, 1e-9);
 }
 
 TEST(TwoPlateaus, FindsThemWhereNoiseIsAQuarterOfTheirDistance) {

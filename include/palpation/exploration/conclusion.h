@@ -31,10 +31,10 @@ struct Evidence {
   bool contrast_seen = false;
   bool trend_is_missing = false;  ///< a trend is modelled, but too few places are touched yet to
                                   ///< tell a tumour from a tilt
-  /// A reading that lies farther from all others than they from each other (lone_reading), the
-  /// trend apart: what it alone shows is no contrast, and where the others show some and it lies
-  /// ten times as far out, it is set aside (kStandsAlone).
-  std::optional<Palpation> lone_reading{};
+  /// Readings that lie farther from all others than those from each other (readings_apart), the
+  /// trend apart, and none of them beside another: what they alone show is no contrast, and where
+  /// the others show some and these lie ten times as far out, they are set aside (kStandsAlone).
+  std::vector<Palpation> standing_alone{};
 
   /// Whether level and boundary may be concluded.
   bool allows_boundary() const { return contrast_seen && !trend_is_missing; }

@@ -42,8 +42,10 @@ struct ProbeModel {
   Learnable lag_m = 0.0;           ///< how late readings come (lag.h)
   double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early:
                                    ///< boundary and band lie that much inwards
-  bool screening = false;  ///< readings that are no tissue are set aside (screening.h), judged anew
-                           ///< after every batch
+  /// Faults of rows are looked for, too (screened of screening.h). What is implausible by itself
+  /// (plausible) is set aside in any case, unless heavy tails weigh it. Judged anew after every
+  /// batch.
+  bool screening = false;
 
   bool has_lag() const { return lag_m != Learnable(0.0); }
 };

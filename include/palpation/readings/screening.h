@@ -11,8 +11,9 @@
 ///   - a scan's row crosses more tissue than tumour, so that its lower readings are the healthy
 ///   tissue's, alike from row to row;
 ///   - rows that start from rest all start in the same way;
-///   - a reading is like those around it, the more so the nearer they are, if they were made in the
-///   same direction of travel.
+///   - a reading is like those around it, the more so the nearer they are, and the more alike the
+///   directions of travel;
+///   - contact is lost here and there, not over the one part of the tissue that is soft.
 /// All scales are those of the readings themselves. The rules about rows hold only for scans: rows
 /// that each cross most of the tissue; the others for any readings. A stiff place that was felt
 /// once is no outlier: its neighbours are too far away to contradict it.
@@ -39,7 +40,17 @@ inline const std::string kBaseStep = "base step: its row lies apart from the row
 inline const std::string kStandsAlone =
     "stands alone: farther from all other readings than they from each other";  ///< Exploration's
 
-/// The same readings, in the order in which they were made, with what is no tissue set aside. What
+/// As fine as anything is felt with a tip of 4.5 mm.
+inline constexpr double kShortLength_m = 0.0035;
+
+/// The same readings, with those set aside that no tissue gives whatever the order in which they
+/// were made: far below all others, or contradicted by those around them. What was set aside
+/// before stays so and tells nothing. `length_m`: over which stiffness changes, at least.
+std::vector<Palpation> plausible(const Surface& surface, std::span<const Palpation> palpations,
+                                 double length_m = kShortLength_m);
+
+/// The same readings, in the order in which they were made, with what is no tissue set aside:
+/// faults of rows and of the sensor's time first, then as `plausible`. What
 /// was set aside before stays so and tells nothing. The same readings without reasons give the same
 /// answer, however often.
 std::vector<Palpation> screened(const Surface& surface, std::span<const Palpation> palpations);

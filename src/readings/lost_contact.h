@@ -1,0 +1,20 @@
+/// Touches that lost contact: far below all others, here and there.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "palpation/readings/palpation.h"
+
+namespace palpation {
+
+/// The lowest readings, a quarter of all at most, where the gap between them and the others is
+/// wider than the others span, the highest twentieth apart, and the places of at least half of them
+/// are contradicted: of the four readings nearest to such a place at least two are others. What
+/// lies low in one piece is tissue: what a tumour that fills most of it leaves. `places`: of the
+/// palpations. Numbers of palpations, rising; none of fewer than ten readings.
+std::vector<std::size_t> lost_contact(std::span<const Palpation> palpations,
+                                      std::span<const Vec3> places);
+
+}  // namespace palpation

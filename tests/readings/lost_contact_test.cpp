@@ -1,0 +1,62 @@
+#include "readings/lost_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "palpation/base/random.h"
+
+namespace palpation {
+namespace {
+
+using Numbers = std::vector<std::size_t>;
+
+/// A lattice of healthy readings with a tumour in the middle.
+struct Lattice {
+  std::vector<Vec3> places{};
+  std::vector<Palpation> palpations{};
+
+  explicit Lattice(double tumour_m) {
+    Random random(3);
+    for (int row = 0; row < 8; ++row) {
+      for (int column = 0; column < 8; ++column) {
+        places.emplace_back(0.003 * column, 0.003 * row, 0.0);
+        const bool is_stiff = (places.back() - Vec3(0.0105, 0.0105, 0.0)).norm() < tumour_m;
+        palpations.emplace_back();
+        palpations.back().reading = (is_stiff ? 9.0 : 7.0) + 0.1 * random.normal();
+      }
+    }
+  }
+};
+
+TEST(LostContact, IsFarBelowAllOthersHereAndThere) {
+  Lattice felt(0.005);
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), Numbers{});
+  const Numbers lost{0, 5, 13, 14, 27, 40, 63};
+  for (const std::size_t i : lost) felt.palpations[i].reading = 0.0;
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), lost);
+  felt.palpations[33].reading = 4000.0;  // one that is wild hides none of them
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), lost);
+}
+
+// Healthy tissue that a tumour leaves at one end lies in one piece.
+TEST(LostContact, IsNotTheOneEndOfTheTissueThatIsSoft) {
+  Lattice felt(1.0);
+  for (std::size_t i = 0; i < 16; ++i) felt.palpations[i].reading = 3.0;
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), Numbers{});
+}
+
+TEST(LostContact, IsNotAskedOfFewReadingsNorOfThoseThatTellNothing) {
+  const Lattice felt(0.005);
+  std::vector<Palpation> few(felt.palpations.begin(), felt.palpations.begin() + 9);
+  few[4].reading = 0.0;
+  EXPECT_EQ(lost_contact(few, felt.places), Numbers{});
+  std::vector<Palpation> told = felt.palpations;
+  told[7].reading = 0.0;
+  told[7].set_aside = "the probe slipped";
+  told[9].kind = TouchKind::Missed;
+  EXPECT_EQ(lost_contact(told, felt.places), Numbers{});
+}
+
+}  // namespace
+}  // namespace palpation
