@@ -23,11 +23,12 @@ FLOORS = [
     ["decision", "certainty", "world"],
     ["exploration"],
     ["io"],
+    ["results"],
     ["scene"],
     ["tool", "experiments", "draw"],
 ]
 FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
-PROGRAMS = {"scene", "tool", "experiments", "draw"}  # no public headers, and nothing is installed
+PROGRAMS = {"results", "scene", "tool", "experiments", "draw"}  # no public headers, and nothing is installed
 ROOFS = {"src/tool/main.cpp"}  # a program's main puts the siblings of its floor together
 
 # Third party: how its headers are spelled, and the folders whose sources may use it. Boost also comes with CGAL, as the language of its graphs.

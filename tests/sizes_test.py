@@ -37,7 +37,6 @@ EXCEPTIONS = {
     ("src/experiments/experiment_command.h", "options", "ExperimentArguments"): 11,
     ("src/geometry/surface_state.h", "class", "State"): 25,
     ("src/scene/episode.h", "class", "Episode"): 19,
-    ("src/scene/tissue.cpp", "file", ""): 313,
     ("src/tool/commands.h", "class", "MeshArguments"): 17,
     ("src/tool/commands.h", "options", "MeshArguments"): 17,
     ("src/tool/surface_command.h", "options", "SurfaceArguments"): 11,

@@ -56,6 +56,7 @@
 #include "palpation/io/atomic_file.h"
 #include "palpation/io/boundary_file.h"
 #include "palpation/io/contacts.h"
+#include "palpation/io/coordinates.h"
 #include "palpation/io/csv.h"
 #include "palpation/io/measurements.h"
 #include "palpation/io/read_boundary.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "palpation/io/read_mesh.h"
+#include "palpation/io/coordinates.h"
 
 namespace palpation {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/mesh_source.h"
+#include "io/vtp_told.h"
 #include "palpation/base/types.h"
 #include "palpation/io/read_mesh.h"
 
@@ -28,6 +29,7 @@ struct PolygonSoup {
   std::vector<Vec3> points;       ///< in the file's unit, finite
   std::vector<double> height_sd;  ///< of each point, in the same unit; or none
   std::vector<MeshWarning> warnings;
+  ToldCoordinates told;  ///< of a VTP
   PlaceKind place_kind = PlaceKind::None;
   int first_number = 0;  ///< what the format calls its first vertex and face: 0 or 1
 

@@ -7,8 +7,10 @@
 
 #include "io/join_lines.h"
 #include "io/landing.h"
+#include "io/length_scale.h"
 #include "io/mesh_source.h"
 #include "io/vtp_file.h"
+#include "io/vtp_told.h"
 #include "palpation/base/error.h"
 #include "palpation/geometry/chart_place.h"
 #include "palpation/io/atomic_file.h"
@@ -64,6 +66,9 @@ Lines lines_of(const MeshSource& source) {
       for (const int corner : corners) line.push_back(first + corner);
     });
   }
+  const LengthUnit unit = told_coordinates(source, file).unit.value_or(LengthUnit::Metre);
+  for (Vec3& point : made.points)
+    point = point.unaryExpr([unit](double value) { return to_metres(value, unit); });
   return made;
 }
 

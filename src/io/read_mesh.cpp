@@ -144,6 +144,10 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
   if (soup.points.empty()) source.fail("the " + soup.format + " holds no vertices");
   if (soup.face_count() == 0) source.fail("the " + soup.format + " holds no faces");
   warn_of_extension(source, soup);
+  if (soup.told.unit && *soup.told.unit != unit)
+    source.fail("its field data say that its lengths are in " +
+                std::string(name_of(*soup.told.unit)) + " (UNIT), but it is to be read in " +
+                name_of(unit) + ": give the file's own unit");
   if (repair.weld_equal_vertices) {
     const std::int64_t welded = weld_equal_points(soup);
     if (welded > 0)
@@ -164,37 +168,28 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
   Field height_sd =
       Eigen::Map<Field>(soup.height_sd.data(), static_cast<Eigen::Index>(soup.height_sd.size()))
           .unaryExpr([unit](double value) { return to_metres(value, unit); });
-  return {in_metres(soup, triangles, unit), std::move(soup.warnings), std::move(soup.format),
-          std::move(height_sd), equal};
+  return {in_metres(soup, triangles, unit),
+          std::move(soup.warnings),
+          std::move(soup.format),
+          std::move(height_sd),
+          equal,
+          soup.told.frame.value_or(Frame::Mesh)};
 }
-
-struct NamedUnit {
-  const char* name;
-  LengthUnit unit;
-};
-constexpr std::array<NamedUnit, 3> kUnits = {
-    {{"mm", LengthUnit::Millimetre}, {"cm", LengthUnit::Centimetre}, {"m", LengthUnit::Metre}}};
 
 /// The units under which the size would be that of tissue, as a question.
 std::string suggestion(double extent_m_as_read, LengthUnit unit) {
   const double extent = extent_m_as_read * units_per_metre(unit);
   std::string names;
-  for (const NamedUnit& named : kUnits) {
-    const double size_m = extent / units_per_metre(named.unit);
+  for (const LengthUnit other :
+       {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre}) {
+    const double size_m = extent / units_per_metre(other);
     if (size_m >= kSmallestTissue && size_m <= kLargestTissue)
-      names += (names.empty() ? "" : " or ") + std::string(named.name);
+      names += (names.empty() ? "" : " or ") + std::string(name_of(other));
   }
   return names.empty() ? "no known unit makes it so" : "is its unit " + names + "?";
 }
 
 }  // namespace
-
-LengthUnit length_unit(const std::string& name) {
-  for (const NamedUnit& named : kUnits) {
-    if (name == named.name) return named.unit;
-  }
-  throw InvalidInput("length_unit: \"" + name + "\" must be mm, cm or m");
-}
 
 MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit, const MeshRepair& repair) {
   MeshFile file = read_mesh_of_any_size(path, unit, repair);

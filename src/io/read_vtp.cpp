@@ -27,6 +27,10 @@ PolygonSoup read_vtp(const MeshSource& source) {
   VtpFile file(source);
   PolygonSoup soup;
   soup.format = "VTP";
+  soup.told = told_coordinates(source, file);
+  for (const std::string& words : soup.told.not_understood)
+    soup.warn("Its field data say " + words + ", which is not understood.",
+              "Known are UNIT mm, cm or m, and FRAME or SPACE RAS or LPS.");
   std::int64_t others = 0;
   for (const VtpPiece& piece : file.pieces()) {
     const auto first = static_cast<std::int64_t>(soup.points.size());

@@ -27,7 +27,9 @@ std::vector<std::int64_t> ends_of(const MeshSource& source, VtpNumbers& numbers,
 }  // namespace
 
 VtpFile::VtpFile(const MeshSource& source)
-    : source_(source), pieces_(read_vtp_structure(source, layout_)), numbers_(source, layout_) {
+    : source_(source),
+      pieces_(read_vtp_structure(source, layout_, field_texts_)),
+      numbers_(source, layout_) {
   for (const VtpPiece& piece : pieces_) check_arrays(piece);
 }
 

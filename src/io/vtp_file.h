@@ -26,6 +26,8 @@ class VtpFile {
   VtpFile& operator=(const VtpFile&) = delete;
 
   const std::vector<VtpPiece>& pieces() const { return pieces_; }
+  /// Of the field data, those arrays that hold one text each.
+  const std::vector<VtpArray>& field_texts() const { return field_texts_; }
   VtpNumbers& numbers() { return numbers_; }
 
   /// Appends the finite positions of a piece's points. Throws IoError.
@@ -39,6 +41,7 @@ class VtpFile {
 
   const MeshSource& source_;
   VtpLayout layout_;
+  std::vector<VtpArray> field_texts_;
   std::vector<VtpPiece> pieces_;
   VtpNumbers numbers_;
 };

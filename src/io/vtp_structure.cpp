@@ -13,12 +13,13 @@ namespace {
 
 // Each takes more memory than bytes in the file. VTK writes one for each process that worked on it.
 constexpr std::size_t kMostPieces = 10'000;
+constexpr std::size_t kMostFieldTexts = 1'000;
 
 /// Walks through the elements of a file and notes what its arrays say.
 class StructureReader {
  public:
-  StructureReader(const MeshSource& source, VtpLayout& layout)
-      : source_(source), layout_(layout), xml_(source) {}
+  StructureReader(const MeshSource& source, VtpLayout& layout, std::vector<VtpArray>& field_texts)
+      : source_(source), layout_(layout), field_texts_(field_texts), xml_(source) {}
 
   std::vector<VtpPiece> read() {
     const std::optional<XmlTag> root = xml_.enter_child();
@@ -99,9 +100,27 @@ class StructureReader {
     while (const std::optional<XmlTag> child = xml_.enter_child()) {
       if (child->name == "Piece") {
         take_piece(*child);
+      } else if (child->name == "FieldData") {
+        take_field_data();
       } else {
         xml_.skip_content();
       }
+    }
+  }
+
+  /// Other programs keep anything here; texts alone may say what coordinates are.
+  void take_field_data() {
+    while (const std::optional<XmlTag> child = xml_.enter_child()) {
+      const bool is_text = child->attribute("type").value_or("") == "String" &&
+                           child->attribute("NumberOfTuples").value_or("1") == "1" &&
+                           field_texts_.size() < kMostFieldTexts;
+      if (!is_text) {
+        xml_.skip_content();
+        continue;
+      }
+      VtpArray array = vtp_array(source_, *child);
+      array.text = text_of_array();
+      field_texts_.push_back(std::move(array));
     }
   }
 
@@ -205,6 +224,7 @@ class StructureReader {
 
   const MeshSource& source_;
   VtpLayout& layout_;
+  std::vector<VtpArray>& field_texts_;
   XmlCursor xml_;
   std::vector<VtpPiece> pieces_;
   bool has_poly_data_ = false;
@@ -212,8 +232,9 @@ class StructureReader {
 
 }  // namespace
 
-std::vector<VtpPiece> read_vtp_structure(const MeshSource& source, VtpLayout& layout) {
-  return StructureReader(source, layout).read();
+std::vector<VtpPiece> read_vtp_structure(const MeshSource& source, VtpLayout& layout,
+                                         std::vector<VtpArray>& field_texts) {
+  return StructureReader(source, layout, field_texts).read();
 }
 
 }  // namespace palpation

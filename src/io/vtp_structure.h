@@ -30,8 +30,10 @@ struct VtpPiece {
   std::int64_t cells() const { return verts.count + lines.count + strips.count + polys.count; }
 };
 
-/// Walks through the elements of a file. Notes in `layout` how its numbers are written. Throws
-/// IoError naming the byte.
-std::vector<VtpPiece> read_vtp_structure(const MeshSource& source, VtpLayout& layout);
+/// Walks through the elements of a file. Notes in `layout` how its numbers are written, and in
+/// `field_texts` the arrays of the field data that say they hold one text. Throws IoError naming
+/// the byte.
+std::vector<VtpPiece> read_vtp_structure(const MeshSource& source, VtpLayout& layout,
+                                         std::vector<VtpArray>& field_texts);
 
 }  // namespace palpation

@@ -1,11 +1,7 @@
 #include "palpation/io/write_vtp.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -13,11 +9,11 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
 #include <set>
 
+#include "io/vtk_polydata.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
 
@@ -25,58 +21,6 @@ namespace palpation {
 namespace {
 
 namespace fs = std::filesystem;
-
-void remember_message(vtkObject*, unsigned long, void* message, void* text) {
-  if (text != nullptr) *static_cast<std::string*>(message) = static_cast<const char*>(text);
-}
-
-void ignore_message(vtkObject*, unsigned long, void*, void*) {}
-
-// Whoever listens to an object's messages keeps VTK from printing them.
-void listen(vtkObject& speaker, void (*callback)(vtkObject*, unsigned long, void*, void*),
-            std::string& message) {
-  vtkNew<vtkCallbackCommand> listener;
-  listener->SetCallback(callback);
-  listener->SetClientData(&message);
-  speaker.AddObserver(vtkCommand::ErrorEvent, listener);
-  speaker.AddObserver(vtkCommand::WarningEvent, listener);
-}
-
-// VTK's error code is the system's last error, which on a full disk is that of cleaning up, so the
-// message counts. It comes on several lines, after the place in VTK's source and the object that
-// speaks.
-std::string reason_of(const std::string& message) {
-  const std::size_t object_end = message.find("): ");
-  if (object_end == std::string::npos) return "the disk is full or failing";
-  const std::size_t begin = object_end + 3;
-  return message.substr(begin, message.find('\n', begin) - begin);
-}
-
-// VTK's writer reports success even where the file could not be opened: what counts is the error
-// code. Its messages are caught, or it would print them.
-void write_polydata(const fs::path& path, vtkPolyData& polydata) {
-  write_atomically(path, [&](const fs::path& temporary) {
-    std::string message;
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    listen(*writer, remember_message, message);
-    listen(*writer->GetExecutive(), ignore_message, message);
-    writer->SetInputData(&polydata);
-    writer->SetFileName(temporary.c_str());
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToLZ4();
-    const int written = writer->Write();
-    if (written == 1 && writer->GetErrorCode() == vtkErrorCode::NoError && message.empty()) return;
-    throw WriteError(path.string() + ": not written: " + reason_of(message));
-  });
-}
-
-vtkSmartPointer<vtkPoints> vtk_points(vtkIdType count) {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  return points;
-}
 
 vtkSmartPointer<vtkPolyData> triangles_of(const Surface& surface) {
   const vtkSmartPointer<vtkPoints> points = vtk_points(surface.vertex_count());
@@ -91,14 +35,6 @@ vtkSmartPointer<vtkPolyData> triangles_of(const Surface& surface) {
   result->SetPoints(points);
   result->SetPolys(triangles);
   return result;
-}
-
-vtkSmartPointer<vtkDoubleArray> array_of(const std::string& name, const Field& field) {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name.c_str());
-  array->SetNumberOfTuples(field.size());
-  std::copy(field.begin(), field.end(), array->GetPointer(0));
-  return array;
 }
 
 void check_fields(const Surface& surface,
@@ -188,16 +124,17 @@ std::string name_of(CurveKind kind) {
 }
 
 void write_surface_vtp(const fs::path& path, const Surface& surface,
-                       const std::vector<std::pair<std::string, Field>>& fields) {
+                       const std::vector<std::pair<std::string, Field>>& fields, Frame frame) {
   check_fields(surface, fields);
   const vtkSmartPointer<vtkPolyData> polydata = triangles_of(surface);
   for (const auto& [name, field] : fields)
     polydata->GetPointData()->AddArray(array_of(name, field));
+  tell_coordinates(*polydata, LengthUnit::Metre, frame);
   write_polydata(path, *polydata);
 }
 
 void write_boundary_vtp(const fs::path& path, const Surface& surface,
-                        std::span<const BoundaryCurve> curves) {
+                        std::span<const BoundaryCurve> curves, Frame frame) {
   check_curves(surface, curves);
   const vtkSmartPointer<vtkPoints> points = vtk_points(0);
   vtkNew<vtkCellArray> lines;
@@ -217,6 +154,7 @@ void write_boundary_vtp(const fs::path& path, const Surface& surface,
   cells->AddArray(int_array("part", curves, [](const BoundaryCurve& curve) { return curve.part; }));
   cells->AddArray(
       int_array("hole", curves, [](const BoundaryCurve& curve) { return curve.hole ? 1 : 0; }));
+  tell_coordinates(*polydata, LengthUnit::Metre, frame);
   write_polydata(path, *polydata);
 }
 

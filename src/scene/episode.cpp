@@ -192,9 +192,13 @@ Snapshot snapshot(const Episode& episode) {
                acquisition_field(exploration.conclusion(), exploration.plan()),
                {},
                {},
+               {},
                {}};
   if (exploration.conclusion().belief.prior().has_slope())
     now.mean_detrended = exploration.conclusion().component.mean;
+  if (const std::optional<Contour>& contour = exploration.conclusion().contour;
+      contour && exploration.conclusion().level && exploration.conclusion().belief.site_count() > 0)
+    now.above_level = contour->field.array() - contour->level;
   if (exploration.conclusion().certainty) {
     now.score = exploration.conclusion().certainty->score;
     now.probability_inside = exploration.conclusion().certainty->probability_inside();

@@ -34,6 +34,7 @@ struct Snapshot {
   Field mean, stddev, acquisition;
   Field score{}, probability_inside{};  ///< of certainty.h; empty while there is no level
   Field mean_detrended{};               ///< empty where no trend is modelled
+  Field above_level{};  ///< what the boundary is the zero line of; empty while there is none
 };
 
 struct Episode {

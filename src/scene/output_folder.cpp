@@ -45,6 +45,7 @@ NamedFields fields_of(const Episode& episode, const World* world) {
   const Snapshot now = snapshot(episode);
   NamedFields fields{{"mean", now.mean}, {"stddev", now.stddev}, {"acquisition", now.acquisition}};
   if (now.mean_detrended.size() > 0) fields.emplace_back("mean_detrended", now.mean_detrended);
+  if (now.above_level.size() > 0) fields.emplace_back("above_level", now.above_level);
   if (now.score.size() > 0) {
     fields.emplace_back("score", now.score);
     fields.emplace_back("probability_inside", now.probability_inside);
@@ -60,18 +61,21 @@ NamedFields fields_of(const Episode& episode, const World* world) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const Destination& destination, const Scene& scene,
-                           const Surface& surface)
-    : run_(destination.folder, request_of(destination, scene)), scene_(scene), surface_(surface) {}
+OutputFolder::OutputFolder(const Destination& destination, const Scene& scene, const Tissue& tissue)
+    : run_(destination.folder, request_of(destination, scene)),
+      scene_(scene),
+      surface_(tissue.surface),
+      frame_(tissue.frame) {}
 
 void OutputFolder::write_step(const Episode& episode, const World* world) {
   std::string number = std::to_string(episode.exploration.batch() - 1);
   number.insert(0, number.size() < 3 ? 3 - number.size() : 0, '0');
   const std::string name = "step_" + number + ".vtp";
   run_.add_step(name, [&](const fs::path& path) {
-    write_surface_vtp(path, surface_, fields_of(episode, world));
+    write_surface_vtp(path, surface_, fields_of(episode, world), frame_);
   });
   steps_.push_back("steps/" + name);
+  run_.add_growing(kStepsListName, [&](const fs::path& path) { write_pvd(path, steps_); });
 }
 
 void OutputFolder::write_boundary(const Episode& episode, const World* world) {
@@ -92,21 +96,21 @@ void OutputFolder::write_boundary(const Episode& episode, const World* world) {
   }
   if (world != nullptr) add(world->truth, world->true_level, CurveKind::Truth);
   run_.add("boundary.vtp",
-           [&](const std::filesystem::path& path) { write_boundary_vtp(path, surface_, curves); });
+           [&](const fs::path& path) { write_boundary_vtp(path, surface_, curves, frame_); });
 }
 
 void OutputFolder::write(const Episode& episode, const World* world, const json& timings,
                          const ForeignColumns& foreign) {
   check_interrupt();
   run_.add("surface.vtp", [&](const fs::path& path) {
-    write_surface_vtp(path, surface_, fields_of(episode, world));
+    write_surface_vtp(path, surface_, fields_of(episode, world), frame_);
   });
   write_boundary(episode, world);
   run_.add(world != nullptr ? kMeasurementsName : kReadingsUsedName,
            measurements_csv(surface_, episode.exploration.readings(), foreign));
   if (!episode.trace.empty()) run_.add("trace.csv", trace_csv(episode.trace, surface_.area()));
   if (!steps_.empty())
-    run_.add("steps.pvd", [&](const fs::path& path) { write_pvd(path, steps_); });
+    run_.add(kStepsListName, [&](const fs::path& path) { write_pvd(path, steps_); });
   run_.add(kTimingsName, document(timings));
   run_.add(kSummaryName, document(summary_of(episode, scene_, warnings_)));
 }

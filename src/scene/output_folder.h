@@ -10,6 +10,7 @@
 #include "palpation/io/measurements.h"
 #include "scene/episode.h"
 #include "scene/run_folder.h"
+#include "scene/tissue.h"
 
 namespace palpation::tool {
 
@@ -24,11 +25,11 @@ class OutputFolder {
  public:
   /// Once all is read that the command was given: the run's question is made of that. Throws as
   /// RunFolder does.
-  OutputFolder(const Destination& destination, const Scene& scene, const Surface& surface);
+  OutputFolder(const Destination& destination, const Scene& scene, const Tissue& tissue);
 
   void warn(const std::string& words) { warnings_.push_back(words); }
 
-  /// steps/step_NNN.vtp for the state after a batch; steps.pvd lists them when the rest is written.
+  /// steps/step_NNN.vtp for the state after a batch, and steps.pvd, which lists those so far.
   void write_step(const Episode& episode, const World* world);
 
   /// waypoints.csv and path.csv: the stops, and the places between them. Before write().
@@ -54,6 +55,7 @@ class OutputFolder {
   RunFolder run_;
   const Scene& scene_;
   Surface surface_;
+  Frame frame_;
   std::vector<std::string> warnings_;
   std::vector<std::string> steps_;
 };

@@ -12,11 +12,12 @@ inline constexpr const char* kMeasurementsName = "measurements.csv";
 inline constexpr const char* kReadingsUsedName = "readings_used.csv";
 inline constexpr const char* kTimingsName = "timings.json";
 inline constexpr const char* kStepsName = "steps";
+inline constexpr const char* kStepsListName = "steps.pvd";
 
 /// In the order in which they land: without the last one a folder is not finished.
 inline constexpr std::array kRunFiles = {
     "waypoints.csv",   "path.csv",     kMeasurementsName, kReadingsUsedName, "trace.csv",
-    "boundary.wkt",    "boundary.vtp", "surface.vtp",     "steps.pvd",       "picture.png",
+    "boundary.wkt",    "boundary.vtp", "surface.vtp",     kStepsListName,    "picture.png",
     "convergence.png", kTimingsName,   kSummaryName};
 
 /// "step_007.vtp"

@@ -27,6 +27,9 @@ fs::path made(fs::path folder) {
 
 bool is_in_steps(const std::string& name) { return name.starts_with("steps/"); }
 
+/// What lands before the run is whole.
+bool lands_early(const std::string& name) { return is_in_steps(name) || name == kStepsListName; }
+
 /// Not through a link.
 std::optional<struct ::stat> status_of(const fs::path& path) {
   struct ::stat status {};
@@ -106,7 +109,7 @@ void RunFolder::look_around() {
     throw IoError(folder_.string() + ": holds a run of palpate " + earlier->command + " (" +
                   earlier->state +
                   ") of another question: replace it by --overwrite, or give another folder");
-  alone_ = std::ranges::all_of(earlier_, [](const auto& file) { return is_in_steps(file.first); });
+  alone_ = std::ranges::all_of(earlier_, [](const auto& file) { return lands_early(file.first); });
 }
 
 /// What an earlier run wrote, and nobody changed.
@@ -181,6 +184,17 @@ void RunFolder::add_step(const std::string& name, const Write& write) {
   make_folder(folder_ / kStepsName);
   move_in(full);
   sync_folder(folder_ / kStepsName);
+}
+
+void RunFolder::add_growing(const std::string& name, const Write& write) {
+  if (!alone_) return;
+  stage(name, write);
+  const std::unique_lock lock(guard_);
+  refuse_what_is_not_ours(name);
+  enter(name);
+  record(record_.state);
+  move_in(name);
+  sync_folder(folder_);
 }
 
 void RunFolder::enter(const std::string& name) {

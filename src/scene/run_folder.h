@@ -50,6 +50,9 @@ class RunFolder {
   void add(const std::string& name, const std::string& content);
   /// A step, "step_007.vtp".
   void add_step(const std::string& name, const Write& write);
+  /// A file of the set that says how far the run came: where steps land one by one, it lands with
+  /// them, again and again; else once, with the others.
+  void add_growing(const std::string& name, const Write& write);
   /// Takes what `make` leaves, of these names, in the folder where the set waits to land.
   void add_made(const std::vector<std::string>& names, const Write& make);
   /// All at once, or as good as: the summary comes last.

@@ -123,6 +123,12 @@ std::vector<SceneKey> make_scene_keys() {
            "is none to where palpate runs"),
       word("surface.unit", {"mm", "cm", "m"}, nullptr,
            "of the mesh's coordinates; needed with surface.mesh"),
+      word("surface.frame", {"RAS", "LPS"}, nullptr,
+           "whose frame the mesh's coordinates are in, where it is a patient's: x to the right, y "
+           "to "
+           "the front, z to the head (RAS), or x to the left, y to the back, z to the head (LPS); "
+           "3D "
+           "Slicer must know; nobody guesses it"),
       word("surface.off_tissue", {"leave-out", "refuse"}, "leave-out",
            "measurements more than 5 mm above or below the tissue, or 1 mm beside its border: left "
            "out and told, or their file is refused; a file all of which lies off is refused"),

@@ -9,56 +9,17 @@
 
 #include "palpation/base/error.h"
 #include "palpation/geometry/clearance.h"
-#include "palpation/geometry/make_plane.h"
 #include "palpation/geometry/patch.h"
-#include "palpation/io/read_mesh.h"
 #include "scene/mesh_words.h"
 #include "scene/setup.h"
+#include "scene/tissue_mesh.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
 
-constexpr double kLeastTissue_mm = 1.0;
-constexpr int kMostVertices = 4'000'000;
 constexpr double kMostTriangles = 8e6;
 constexpr double kMostLengthRatio = 1e6;
-
-TriangleMesh plane_of(const Scene& scene) {
-  const std::vector<double> size_mm = scene.numbers("surface.plane.size_mm");
-  const std::vector<double> vertices = scene.numbers("surface.plane.vertices");
-  if (std::max(size_mm[0], size_mm[1]) < kLeastTissue_mm)
-    scene.refuse_value("surface.plane.size_mm", "1 mm at least along one side, as tissue is");
-  if (vertices[0] * vertices[1] > kMostVertices)
-    scene.refuse_value("surface.plane.vertices", "at most 4 million in all");
-  Random unused(0);
-  return make_plane({.size_m = Vec2(size_mm[0], size_mm[1]) / 1000.0,
-                     .columns = static_cast<int>(vertices[0]),
-                     .rows = static_cast<int>(vertices[1])},
-                    unused);
-}
-
-/// Relative to the scene; a path that leads nowhere from there, as one given by --set may, is
-/// relative to where the tool runs.
-std::filesystem::path mesh_path(const Scene& scene) {
-  const std::filesystem::path given = scene.word("surface.mesh"),
-                              beside_scene = scene.folder() / given;
-  std::error_code none;
-  return !std::filesystem::exists(beside_scene, none) && std::filesystem::exists(given, none)
-             ? given
-             : beside_scene;
-}
-
-TriangleMesh mesh_of(const Scene& scene, std::vector<std::string>& warnings) {
-  if (scene.gives("surface.plane.size_mm")) return plane_of(scene);
-  if (!scene.gives("surface.mesh"))
-    scene.refuse("surface.mesh",
-                 "is needed: the file of the tissue's mesh (or surface.plane.size_mm)");
-  const MeshFile file = read_mesh(mesh_path(scene), length_unit(scene.word("surface.unit")),
-                                  {.weld_equal_vertices = scene.truth("surface.weld")});
-  for (const MeshWarning& warning : file.warnings) warnings.push_back(warning.text);
-  return file.mesh;
-}
 
 /// A mesh that is no surface is the fault of its file.
 Surface surface_of(const Scene& scene, TriangleMesh mesh) {
@@ -297,8 +258,9 @@ std::string stretch_warning(const Scene& scene, const Surface& surface) {
 Tissue tissue_of(const Scene& scene) {
   check_all(scene);
   std::vector<std::string> warnings = scene.warnings();
-  TriangleMesh mesh = patched_and_refined(scene, mesh_of(scene, warnings));
-  Tissue tissue{surface_of(scene, std::move(mesh)), std::move(warnings)};
+  MeshOfScene whole = mesh_of(scene, warnings);
+  TriangleMesh mesh = patched_and_refined(scene, std::move(whole.mesh));
+  Tissue tissue{surface_of(scene, std::move(mesh)), std::move(warnings), whole.frame};
   check_chart(scene, tissue.surface);
   check_size(scene, tissue.surface);
   warn_of_reach(scene, tissue);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "palpation/geometry/surface.h"
+#include "palpation/io/coordinates.h"
 #include "scene/scene.h"
 
 namespace palpation::tool {
@@ -12,6 +13,7 @@ namespace palpation::tool {
 struct Tissue {
   Surface surface;
   std::vector<std::string> warnings;  ///< of the reader
+  Frame frame = Frame::Mesh;          ///< as scene or mesh file say; they must agree
 };
 
 /// Reads, cuts and refines the scene's mesh. Throws IoError, InvalidMesh, and InvalidInput that

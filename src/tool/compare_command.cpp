@@ -91,8 +91,7 @@ void compare_boundaries(const SceneArguments& arguments, const std::filesystem::
   tell(warnings);
   std::optional<OutputFolder> output;
   if (!arguments.out.empty())
-    output.emplace(Destination{arguments.out, "compare", arguments.overwrite}, scene,
-                   tissue.surface);
+    output.emplace(Destination{arguments.out, "compare", arguments.overwrite}, scene, tissue);
   const RegionError error = compare(tissue.surface, estimate, truth);
   if (!arguments.quiet)
     std::fputs(error_words(error, tissue.surface.area(),

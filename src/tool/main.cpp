@@ -11,6 +11,7 @@
 #include "scene/interrupt.h"
 #include "scene/scene_schema.h"
 #include "tool/commands.h"
+#include "tool/export_command.h"
 #include "tool/mesh_options.h"
 #include "tool/option_checks.h"
 #include "tool/readings_options.h"
@@ -221,6 +222,7 @@ int run_tool(int count, char** words) {
   add_info_command(app, arguments);
   add_mesh_command(app, arguments.mesh, arguments.surface);
   add_readings_command(app);
+  add_export_command(app);
   add_experiment_command(app, arguments);
   add_help_command(app);
   for (CLI::App* command : app.get_subcommands({}))

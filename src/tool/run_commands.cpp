@@ -31,7 +31,7 @@ std::unique_ptr<OutputFolder> output_of(const SceneArguments& arguments, const s
                                         const std::vector<std::string>& warnings) {
   if (arguments.out.empty()) return nullptr;
   auto output = std::make_unique<OutputFolder>(
-      Destination{arguments.out, command, arguments.overwrite}, scene, tissue.surface);
+      Destination{arguments.out, command, arguments.overwrite}, scene, tissue);
   for (const std::string& warning : tissue.warnings) output->warn(warning);
   for (const std::string& warning : warnings) output->warn(warning);
   return output;

@@ -8,6 +8,7 @@ usage: files_test.py PALPATE [Files.test_...]        needs Python 3 and nothing 
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -358,6 +359,11 @@ class Files(unittest.TestCase):
             self.assertEqual({name for name in names_in(self.out) if "step" not in name}, {"run.json"})
             for path in (self.out / "steps").iterdir():
                 self.assertRegex(path.name, r"^step_\d{3}\.vtp$")
+            listed = re.findall(r'file="steps/(.*?)"', (self.out / "steps.pvd").read_text())
+            there = sorted(path.name for path in (self.out / "steps").iterdir())
+            self.assertIn(listed, (there, there[:-1]), "the list grows as the run goes")
+            self.ends(0, *self.plan(), "--overwrite")  # what an interrupted run left is replaced
+            self.assertEqual(names_in(self.out), PLANNED)
             shutil.rmtree(self.out)
 
     def test_long_arithmetic_is_ended_too(self):

@@ -7,6 +7,7 @@ usage: robustness_test.py PALPATE        needs Python 3 and nothing else
 import json
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -207,7 +208,10 @@ class Robustness(unittest.TestCase):
             self.assertRegex(words, "(cannot write|not written): ")
             self.assertFalse((out / "summary.json").exists(), "a run that failed has no summary")
             for path in out.rglob("*"):
-                if path.is_file() and path.name != "run.json":
+                if path.name == "steps.pvd":  # as far as the run came
+                    listed = re.findall(r'file="(.*?)"', path.read_text())
+                    self.assertTrue(listed and all((out / step).exists() for step in listed), listed)
+                elif path.is_file() and path.name != "run.json":
                     self.assertEqual(path.read_bytes(), (good / path.relative_to(out)).read_bytes(), path)
 
     def test_too_little_memory_ends_with_4(self):

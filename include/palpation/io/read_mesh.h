@@ -15,13 +15,9 @@
 #include <vector>
 
 #include "palpation/geometry/triangle_mesh.h"
+#include "palpation/io/coordinates.h"
 
 namespace palpation {
-
-enum class LengthUnit { Millimetre, Centimetre, Metre };
-
-/// "mm", "cm" or "m"; throws InvalidInput for anything else.
-LengthUnit length_unit(const std::string& name);
 
 /// What was repaired or looks odd in a file.
 struct MeshWarning {
@@ -36,6 +32,7 @@ struct MeshFile {
   Field height_sd{};   ///< of each vertex along the normal, metres, where a PLY has that property:
                        ///< how sure its surface is (belief/height.h); else empty
   std::int64_t equal_vertices = 0;  ///< at the same place as another: MeshRepair would join them
+  Frame frame = Frame::Mesh;        ///< what the field data of a VTP say
 };
 
 /// What is repaired only on request.
@@ -48,7 +45,8 @@ struct MeshRepair {
 /// and 2 m across. Topology is left to Surface. Polygons have at most 256 corners, and more than
 /// 250,000 triangles at least one vertex for three of them. Numbers that follow the coordinates of
 /// a vertex (weight, colour, normal) are ignored, as are other properties and arrays once their
-/// lengths agree. Throws IoError with path, line or byte, element, value and rule.
+/// lengths agree, but for what the field data of a VTP say of its coordinates: one that says
+/// another unit is refused. Throws IoError with path, line or byte, element, value and rule.
 MeshFile read_mesh(const std::filesystem::path& path, LengthUnit unit,
                    const MeshRepair& repair = {});
 

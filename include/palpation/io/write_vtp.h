@@ -1,9 +1,10 @@
 /// Files for ParaView and VTK: the tissue with its fields, the boundaries as closed lines, and a
 /// list of steps to play.
 ///
-/// Lengths are metres, numbers are doubles, nothing is rounded. Files are written under a temporary
-/// name and renamed. All functions throw WriteError with path and reason if that fails; the old
-/// file then stays.
+/// Lengths are metres, numbers are doubles, nothing is rounded. The field data of every file say
+/// so: texts UNIT ("m") and FRAME (coordinates.h). Files are written under a temporary name and
+/// renamed. All functions throw WriteError with path and reason if that fails; the old file then
+/// stays.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +15,7 @@
 
 #include "palpation/base/types.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/io/coordinates.h"
 
 namespace palpation {
 
@@ -40,14 +42,15 @@ struct BoundaryCurve {
 /// The triangles of the surface, with one array at the points for each field. Throws InvalidInput
 /// unless every field has one value a vertex and a name of its own.
 void write_surface_vtp(const std::filesystem::path& path, const Surface& surface,
-                       const std::vector<std::pair<std::string, Field>>& fields);
+                       const std::vector<std::pair<std::string, Field>>& fields,
+                       Frame frame = Frame::Mesh);
 
 /// One closed polyline for each curve, with the cell arrays `kind` (int), `kind_name` (text),
 /// `part` (int) and `hole` (int, 0 or 1). No curves make a valid file without lines. Throws
 /// InvalidInput if a curve has fewer than two points, or a point outside the surface's bounding box
 /// (widened by a millionth of its diameter).
 void write_boundary_vtp(const std::filesystem::path& path, const Surface& surface,
-                        std::span<const BoundaryCurve> curves);
+                        std::span<const BoundaryCurve> curves, Frame frame = Frame::Mesh);
 
 /// A ParaView collection: one file for each step, in order, at times 0, 1, 2, ... Names are
 /// relative to the collection's folder.

@@ -1,0 +1,112 @@
+#include "results/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "results/clip.h"
+
+namespace palpation::results {
+namespace {
+
+constexpr const char* kBeyond = "beyond_search";
+
+/// Readings that count, in cubes; the nearest is exact up to the cubes' width, which it never
+/// exceeds.
+class Readings {
+ public:
+  explicit Readings(const std::vector<Touch>& touches) {
+    for (const Touch& touch : touches)
+      if (touch.counts()) cubes_[cube_of(touch.place)].push_back(touch.place);
+  }
+
+  double nearest_m(const Vec3& place) const {
+    const auto [x, y, z] = cube_of(place);
+    double least = kWidth_m;
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (const auto found = cubes_.find({x + i, y + j, z + k}); found != cubes_.end())
+            for (const Vec3& reading : found->second)
+              least = std::min(least, (reading - place).norm());
+    return least;
+  }
+
+ private:
+  using Cube = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  static constexpr double kWidth_m = 2.0 * kSearched_m;
+
+  static Cube cube_of(const Vec3& place) {
+    const auto step = [](double value) {
+      return static_cast<std::int64_t>(std::floor(std::clamp(value, -1e6, 1e6) / kWidth_m));
+    };
+    return {step(place.x()), step(place.y()), step(place.z())};
+  }
+
+  std::map<Cube, std::vector<Vec3>> cubes_;
+};
+
+}  // namespace
+
+std::vector<std::string> shown_fields() {
+  return {"mean",  "stddev",      "probability_inside", "mean_detrended",
+          "score", "above_level", "acquisition",        "truth"};
+}
+
+VtpShape tumour_of(const Run& run) {
+  if (run.tissue.field("above_level") != nullptr)
+    return clipped(model_of(run.tissue, shown_fields()), "above_level", 0.0, Side::AtLeast);
+  if (run.tissue.field("score") != nullptr)  // of runs before there was above_level
+    return clipped(model_of(run.tissue, shown_fields()), "score", 0.0, Side::AtLeast);
+  return {};
+}
+
+VtpShape band_of(const Run& run) {
+  const std::optional<double> score = run.number({"band", "score"});
+  if (!score || run.tissue.field("score") == nullptr) return {};
+  const VtpShape outer =
+      clipped(model_of(run.tissue, shown_fields()), "score", -*score, Side::AtLeast);
+  return clipped(outer, "score", *score, Side::AtMost);
+}
+
+std::vector<double> beyond_search(const Run& run) {
+  const Readings readings(run.touches);
+  std::vector<double> beyond;
+  for (Eigen::Index i = 0; i < run.tissue.mesh.vertices.rows(); ++i)
+    beyond.push_back(readings.nearest_m(run.tissue.mesh.vertices.row(i)) - kSearched_m);
+  return beyond;
+}
+
+VtpShape not_searched_of(const Run& run) {
+  VtpShape whole = model_of(run.tissue, shown_fields());
+  whole.point_fields.emplace_back(kBeyond, beyond_search(run));
+  VtpShape part = clipped(whole, kBeyond, 0.0, Side::AtLeast);
+  part.point_fields.pop_back();
+  return part;
+}
+
+VtpShape lines_of(const std::vector<Curve>& curves, const std::vector<std::string>& kinds) {
+  VtpShape model;
+  std::vector<double> parts, holes;
+  std::vector<std::string> names;
+  for (const Curve& curve : curves) {
+    if (std::ranges::find(kinds, curve.kind) == kinds.end() || curve.points.empty()) continue;
+    const int first = static_cast<int>(model.points.size());
+    std::vector<int>& line = model.lines.emplace_back();
+    for (const Vec3& point : curve.points) {
+      line.push_back(static_cast<int>(model.points.size()));
+      model.points.push_back(point);
+    }
+    line.push_back(first);
+    parts.push_back(curve.part);
+    holes.push_back(curve.is_hole ? 1.0 : 0.0);
+    names.push_back(curve.kind);
+  }
+  model.cell_fields = {{"part", parts}, {"hole", holes}};
+  model.cell_texts = {{"kind_name", names}};
+  return model;
+}
+
+}  // namespace palpation::results

@@ -1,0 +1,81 @@
+/// A run as its folder tells of it: what was found, felt and planned, from the files alone.
+///
+/// Places are metres in the mesh's frame. What a file does not say is absent, never a guess.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpation/geometry/triangle_mesh.h"
+#include "palpation/io/coordinates.h"
+
+namespace palpation::results {
+
+/// A row of measurements.csv or readings_used.csv.
+struct Touch {
+  int number = 0;  ///< from 1, in the order of the rows
+  Vec3 place = Vec3::Zero();
+  std::optional<double> reading;  ///< none of a stop that could not be touched
+  int batch = 0;
+  std::string kind;       ///< stop, way or missed
+  std::string set_aside;  ///< why it is not used; empty: it is
+
+  bool is_missed() const { return kind == "missed"; }
+  bool counts() const { return !is_missed() && set_aside.empty(); }
+};
+
+/// A closed line of boundary.vtp; the first point is not repeated.
+struct Curve {
+  std::string kind;  ///< estimate, truth, band_inner, band_outer or cut
+  int part = 0;
+  bool is_hole = false;
+  std::vector<Vec3> points;
+};
+
+/// The tissue with its fields at the vertices, by their names in the file.
+struct Tissue {
+  TriangleMesh mesh;
+  std::map<std::string, Field> fields;
+  std::optional<Frame> frame;  ///< as the file says
+
+  /// Null where there is none of that name.
+  const Field* field(const std::string& name) const;
+};
+
+struct Run {
+  std::filesystem::path folder;
+  Tissue tissue;  ///< as it was believed last: of a run that did not end, after its last batch
+  std::vector<Curve> curves;
+  std::vector<Touch> touches;
+  std::vector<Vec3> next_stops;  ///< of a plan
+  nlohmann::json summary;        ///< null of a run that did not end
+  std::vector<std::filesystem::path> steps;
+
+  /// What lies under nested keys of the summary, or null.
+  const nlohmann::json& told(std::initializer_list<const char*> keys) const;
+  std::optional<double> number(std::initializer_list<const char*> keys) const;
+  /// Empty where nobody says.
+  std::string reading_unit() const;
+  /// As the tissue's file says, else the scene.
+  Frame frame() const;
+};
+
+/// Reads surface.vtp, or the last of the steps of a run that did not end; and where they exist
+/// boundary.vtp, measurements, waypoints.csv and summary.json. Throws IoError where there is
+/// neither surface nor step, or a file is malformed.
+Run read_run(const std::filesystem::path& folder);
+
+/// Of a surface.vtp, or a step.
+Tissue read_tissue(const std::filesystem::path& path);
+std::vector<Curve> read_curves(const std::filesystem::path& path);
+std::vector<Touch> read_touches(const std::filesystem::path& path);
+/// readings_used.csv, or else measurements.csv: where a plan's or a boundary's own exists, the
+/// measurements beside it are what it was given.
+std::filesystem::path touches_in(const std::filesystem::path& folder);
+
+}  // namespace palpation::results
