@@ -2,6 +2,7 @@
 #pragma once
 
 #include "palpation/base/error.h"
+#include "palpation/base/interruption.h"
 #include "palpation/base/learnable.h"
 #include "palpation/base/parallel.h"
 #include "palpation/base/random.h"

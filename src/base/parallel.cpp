@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "palpation/base/error.h"
+#include "palpation/base/interruption.h"
 
 namespace palpation {
 namespace {
@@ -27,6 +28,7 @@ void set_thread_count(int count) {
 int thread_count() { return allowed_threads; }
 
 void for_ranges(int count, int grain, const std::function<void(int, int)>& work) {
+  check_interruption();
   const int pieces = (count + grain - 1) / grain;
   const int threads = inside_range ? 1 : std::min(thread_count(), pieces);
   if (threads <= 1) {
@@ -40,6 +42,7 @@ void for_ranges(int count, int grain, const std::function<void(int, int)>& work)
     inside_range = true;
     for (int piece = next_piece++; piece < pieces; piece = next_piece++) {
       try {
+        check_interruption();
         work(piece * grain, std::min(count, (piece + 1) * grain));
       } catch (...) {
         const std::lock_guard lock(failure_guard);

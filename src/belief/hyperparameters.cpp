@@ -13,6 +13,7 @@
 #include "belief/noise_alone.h"
 #include "belief/sites.h"
 #include "palpation/base/error.h"
+#include "palpation/base/interruption.h"
 #include "readings/readings.h"
 #include "readings/rounding.h"
 
@@ -113,6 +114,7 @@ void scale(Objective& objective, std::vector<double>& x, const std::vector<doubl
 /// Whatever the optimizer returns, the objective knows the best point it saw.
 void climb(Objective& objective, std::vector<double> x, const std::vector<double>& lower,
            const std::vector<double>& upper) {
+  check_interruption();  // here, where nothing that is thrown passes through the optimizer
   if (objective.slot[1] >= 0 && objective.slot[2] >= 0) scale(objective, x, lower, upper);
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimizer(
       nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(x.size())), &nlopt_destroy);
