@@ -219,8 +219,11 @@ std::string to_wkt(const Region& region) {
 }
 
 BoundaryFile read_wkt(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  const MeshSource source{path, bytes};
+  return parse_wkt(read_file(path), path.string());
+}
+
+BoundaryFile parse_wkt(const std::string& text, const std::string& name) {
+  const MeshSource source{name, text};
   const std::vector<PlacedPolygon> placed = WktParser(source).parse();
   try {
     const std::vector<PolygonWithHoles> polygons = polygons_of(placed);

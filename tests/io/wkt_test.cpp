@@ -33,6 +33,12 @@ TEST(ReadWkt, ReadsSeveralPolygonsInAnyCaseAndSpacing) {
   EXPECT_EQ(region.polygons().size(), 2u);
 }
 
+TEST(ParseWkt, ReadsTextAsItsFileWouldBeReadAndNamesIt) {
+  EXPECT_EQ(parse_wkt("POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", "clipboard").region.area(), 1.0);
+  EXPECT_EQ(io_error_of([] { parse_wkt("POINT (1 2)", "clipboard"); }).find("clipboard, byte 0: "),
+            0u);
+}
+
 TEST(ReadWkt, ReadsNothing) {
   EXPECT_TRUE(region_of("MULTIPOLYGON EMPTY").empty());
   EXPECT_TRUE(region_of("POLYGON EMPTY").empty());

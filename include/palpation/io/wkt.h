@@ -17,5 +17,7 @@ std::string to_wkt(const Region& region);
 /// IoError with the byte: for other text, coordinates beyond 1e9 m, what Region has against a
 /// polygon, and polygons without any area, which are more likely a slip than nothing.
 BoundaryFile read_wkt(const std::filesystem::path& path);
+/// The same from text; `name` stands for the path in messages.
+BoundaryFile parse_wkt(const std::string& text, const std::string& name);
 
 }  // namespace palpation
