@@ -1,12 +1,27 @@
 # Runs a program in an empty folder and compares what it prints, byte by byte, with a file. Numbers are text.
-# cmake -DPROGRAM= -DARGUMENT= -DEXPECTED= -DWORK= -P compare_output.cmake
-# WORK is emptied first; the program's output stays there as `printed`.
+# cmake -DPROGRAM= -DARGUMENT= -DEXPECTED= -DWORK= [-DSCRIPT= -DNEEDS=] -P compare_output.cmake
+# WORK is emptied first; the program's output stays there as `printed`. With SCRIPT, PROGRAM is the Python that runs it, where all that it NEEDS can be
+# imported; else "skipped: " and what cannot is printed.
 cmake_minimum_required(VERSION 3.25)
 
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")
 set(printed "${WORK}/printed")
-execute_process(COMMAND "${PROGRAM}" "${ARGUMENT}" WORKING_DIRECTORY "${WORK}" OUTPUT_FILE "${printed}" RESULT_VARIABLE result)
+foreach(package IN LISTS NEEDS)
+  execute_process(COMMAND "${PROGRAM}" -c "import ${package}" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+  if(missing)
+    message("skipped: ${package} cannot be imported")
+    return()
+  endif()
+endforeach()
+set(command "${PROGRAM}")
+if(SCRIPT)
+  list(APPEND command "${SCRIPT}")
+endif()
+if(ARGUMENT OR NOT SCRIPT)
+  list(APPEND command "${ARGUMENT}")
+endif()
+execute_process(COMMAND ${command} WORKING_DIRECTORY "${WORK}" OUTPUT_FILE "${printed}" RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ended with ${result}")
 endif()

@@ -25,10 +25,10 @@ FLOORS = [
     ["io"],
     ["results"],
     ["scene"],
-    ["tool", "experiments", "draw"],
+    ["tool", "experiments", "draw", "python"],
 ]
 FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
-PROGRAMS = {"results", "scene", "tool", "experiments", "draw"}  # no public headers, and nothing is installed
+PROGRAMS = {"results", "scene", "tool", "experiments", "draw", "python"}  # no public headers, and nothing is installed
 ROOFS = {"src/tool/main.cpp"}  # a program's main puts the siblings of its floor together
 
 # Third party: how its headers are spelled, and the folders whose sources may use it. Boost also comes with CGAL, as the language of its graphs.
@@ -39,7 +39,8 @@ THIRD_PARTIES = {
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),
     "CLI11": (r"CLI/", {"tool", "draw"}),
-    "nlohmann-json": (r"nlohmann/", PROGRAMS),
+    "nlohmann-json": (r"nlohmann/", PROGRAMS - {"python"}),
+    "pybind11": (r"pybind11/", {"python"}),
     "EGL, OpenGL and X11": (r"(E?GL|X11)/", {"draw"}),
 }
 EIGEN = re.compile(r"Eigen/\w+$")
@@ -170,6 +171,9 @@ SAMPLES = [
     ("src/io/shared.cpp", '#include "scene/scene.h"\n', "upward"),
     ("src/scene/third.cpp", "#include <CLI/CLI.hpp>\n", "CLI11 may only"),
     ("src/draw/good.cpp", "#include <vtkRenderer.h>\n#include <nlohmann/json.hpp>\n#include <EGL/egl.h>\n#include <dlfcn.h>\n", None),
+    ("src/python/good.cpp", '#include <pybind11/pybind11.h>\n#include "io/landing.h"\n', None),
+    ("src/python/beside.cpp", '#include "tool/commands.h"\n', "sideways"),
+    ("src/io/python.cpp", "#include <pybind11/numpy.h>\n", "pybind11 may only"),
     ("src/base/comment.cpp", '// #include <vtkObject.h>\n/* \n#include <CGAL/enum.h>\n*/\nconst char* text = R"(\n#include <CLI/CLI.hpp>\n)";\n', None),
     ("src/base/address.cpp", 'const char* where = "https://example.org/*"; // */\n', None),
     ("include/palpation/base/up.h", '#include "palpation/geometry/surface.h"\n', "upward"),

@@ -1,0 +1,150 @@
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/concluded.h"
+#include "python/long_call.h"
+#include "python/readings.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace palpation::python {
+namespace {
+
+using ConclusionClass = py::class_<Concluded>;
+
+py::object maybe(const std::optional<double>& value) {
+  return value ? py::object(py::float_(*value)) : py::object(py::none());
+}
+
+const Concluded& of(const py::object& self) { return self.cast<const Concluded&>(); }
+
+/// Where nothing is known of a boundary, nothing.
+Region part_above(const Concluded& here, const Field* field, double level) {
+  if (field == nullptr || here.conclusion.tip_hides_all) return Region();
+  return long_call([&] { return superlevel_region(here.surface, *field, level); });
+}
+
+Region estimate(const Concluded& here) {
+  const std::optional<Contour>& contour = here.conclusion.contour;
+  return part_above(here, contour ? &contour->field : nullptr, contour ? contour->level : 0.0);
+}
+
+Region above_score(const Concluded& here, double score) {
+  const std::optional<Certainty>& certainty = here.conclusion.certainty;
+  return part_above(here, certainty ? &certainty->score : nullptr, score);
+}
+
+py::tuple band(const Concluded& here) {
+  const double score = here.conclusion.certainty ? here.conclusion.certainty->band_score : 0.0;
+  return py::make_tuple(above_score(here, score), above_score(here, -score));
+}
+
+py::dict summary(const Concluded& here) {
+  const Conclusion& all = here.conclusion;
+  const Belief& belief = all.belief;
+  py::dict result(
+      "readings"_a = all.palpations.size(), "contrast_seen"_a = all.evidence.contrast_seen,
+      "length_m"_a = belief.prior().kernel().length_m, "signal_sd"_a = belief.signal_sd(),
+      "noise_sd"_a = std::sqrt(belief.noise_variance()),
+      "level"_a = all.level ? py::object(py::float_(all.level->value)) : py::none(),
+      "level_sd"_a = all.level ? maybe(all.level->stddev) : py::none(),
+      "tip_hides_all"_a = all.tip_hides_all, "expected_error_m2"_a = py::none(),
+      "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
+      "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
+  if (all.certainty && !all.tip_hides_all) {
+    const Certainty& certainty = *all.certainty;
+    result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();
+    result["expected_missed_m2"] = certainty.expected.missed_m2;
+    result["expected_extra_m2"] = certainty.expected.extra_m2;
+    result["band_probability"] = certainty.probability;
+    result["band_half_width_m"] = certainty.half_width_m;
+  }
+  if (all.lag) {
+    result["lag_m"] = all.lag->value_m;
+    result["lag_sd_m"] = all.lag->stddev_m;
+  }
+  return result;
+}
+
+void bind_fields(ConclusionClass& conclusion) {
+  conclusion
+      .def_property_readonly(
+          "mean",
+          [](const py::object& self) { return view_of(of(self).conclusion.marginals.mean, self); },
+          "Of the field at the vertices, in the readings' unit, read-only.")
+      .def_property_readonly(
+          "stddev", [](const py::object& self) { return view_of(of(self).stddev, self); },
+          "Of the field at the vertices, noise not in it, read-only.")
+      .def_property_readonly(
+          "probability_inside",
+          [](const py::object& self) -> py::object {
+            if (!of(self).conclusion.certainty) return py::none();
+            return view_of(of(self).probability_inside, self);
+          },
+          "Of being tumour, at the vertices, read-only; None while there is no level.")
+      .def_property_readonly(
+          "score",
+          [](const py::object& self) -> py::object {
+            if (!of(self).conclusion.certainty) return py::none();
+            return view_of(of(self).conclusion.certainty->score, self);
+          },
+          "How many standard deviations each vertex lies inside the boundary, read-only; None "
+          "while there is no level.");
+}
+
+}  // namespace
+
+void bind_conclusion(py::module_& module) {
+  ConclusionClass conclusion(module, "Conclusion",
+                             "All that was inferred from the readings so far. Immutable.");
+  bind_fields(conclusion);
+  conclusion.def_property_readonly("surface", [](const Concluded& here) { return here.surface; })
+      .def_property_readonly(
+          "readings",
+          [](const Concluded& here) {
+            return Readings{here.surface, here.conclusion.palpations};
+          },
+          "As they were made, with the reason where one is set aside.")
+      .def_property_readonly(
+          "level",
+          [](const Concluded& here) {
+            const std::optional<Level>& level = here.conclusion.level;
+            return level ? py::object(py::float_(level->value)) : py::object(py::none());
+          },
+          "Where tissue becomes tumour, in the readings' unit; None while nothing tells.")
+      .def("region", &estimate, "The tumour as it is believed; empty where none is.")
+      .def("band", &band,
+           "(inner, outer): the whole true outline lies between their borders with "
+           "summary()['band_probability'].")
+      .def(
+          "cut",
+          [](const Concluded& here, double risk) {
+            return above_score(here, Certainty::cut_score(risk));
+          },
+          py::kw_only(), "risk"_a = 0.05,
+          "Outside of it a place is tumour with this probability at most.")
+      .def("summary", &summary, "The numbers by their names; what is not known is None.")
+      .def("__repr__", [](const Concluded& here) {
+        const std::optional<Level>& level = here.conclusion.level;
+        return "<palpation.Conclusion: " + std::to_string(here.conclusion.palpations.size()) +
+               " readings, " + (level ? "level " + text_of(level->value) : "no level") + ">";
+      });
+  module.def(
+      "conclude",
+      [](const Readings& readings, const Model& model) {
+        return long_call([&] {
+          return Concluded(readings.surface,
+                           conclude(readings.surface, model, readings.palpations));
+        });
+      },
+      "readings"_a, "model"_a = Model(),
+      "All that follows from readings: the field, the level, the boundary and how sure it is.");
+}
+
+}  // namespace palpation::python
