@@ -23,7 +23,7 @@ FLOORS = [
     ["decision", "certainty", "world"],
     ["exploration"],
     ["io"],
-    ["results"],
+    ["results", "session"],
     ["scene"],
     ["tool", "experiments", "draw", "python"],
 ]
@@ -39,7 +39,7 @@ THIRD_PARTIES = {
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),
     "CLI11": (r"CLI/", {"tool", "draw"}),
-    "nlohmann-json": (r"nlohmann/", PROGRAMS - {"python"}),
+    "nlohmann-json": (r"nlohmann/", PROGRAMS - {"python"} | {"session"}),
     "pybind11": (r"pybind11/", {"python"}),
     "EGL, OpenGL and X11": (r"(E?GL|X11)/", {"draw"}),
 }
@@ -174,6 +174,9 @@ SAMPLES = [
     ("src/python/good.cpp", '#include <pybind11/pybind11.h>\n#include "io/landing.h"\n', None),
     ("src/python/beside.cpp", '#include "tool/commands.h"\n', "sideways"),
     ("src/io/python.cpp", "#include <pybind11/numpy.h>\n", "pybind11 may only"),
+    ("src/session/good.cpp", '#include <nlohmann/json.hpp>\n#include "palpation/session/session.h"\n#include "io/landing.h"\n', None),
+    ("src/session/upstairs.cpp", '#include "scene/scene.h"\n', "upward"),
+    ("include/palpation/session/third.h", "#include <nlohmann/json.hpp>\n", "public header"),
     ("src/base/comment.cpp", '// #include <vtkObject.h>\n/* \n#include <CGAL/enum.h>\n*/\nconst char* text = R"(\n#include <CLI/CLI.hpp>\n)";\n', None),
     ("src/base/address.cpp", 'const char* where = "https://example.org/*"; // */\n', None),
     ("include/palpation/base/up.h", '#include "palpation/geometry/surface.h"\n', "upward"),

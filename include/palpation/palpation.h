@@ -73,6 +73,8 @@
 #include "palpation/probing/scan.h"
 #include "palpation/readings/palpation.h"
 #include "palpation/readings/screening.h"
+#include "palpation/session/session.h"
+#include "palpation/session/session_state.h"
 #include "palpation/world/phantom.h"
 #include "palpation/world/random_shape.h"
 #include "palpation/world/recording.h"

@@ -8,12 +8,12 @@
 #include <memory>
 #include <mutex>
 
-#include "experiments/digest.h"
 #include "experiments/experiment.h"
 #include "experiments/paper_scene.h"
 #include "palpation/base/error.h"
 #include "palpation/geometry/make_phantom.h"
 #include "palpation/geometry/make_plane.h"
+#include "scene/digest.h"
 #include "scene/draw_program.h"
 #include "scene/mesh_words.h"
 #include "scene/setup.h"

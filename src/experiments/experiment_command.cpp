@@ -8,10 +8,10 @@
 #include "experiments/experiment.h"
 #include "experiments/row_files.h"
 #include "experiments/run_study.h"
+#include "io/folder_lock.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
 #include "scene/exit_code.h"
-#include "scene/folder_lock.h"
 #include "scene/make_folder.h"
 #include "scene/single_file.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "experiments/digest.h"
+#include "scene/digest.h"
 #include "scene/tissue.h"
 
 namespace palpation::tool {

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "experiments/digest.h"
 #include "experiments/recorded.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
@@ -13,6 +12,7 @@
 #include "palpation/io/recording.h"
 #include "palpation/world/recording.h"
 #include "palpation/world/tumour.h"
+#include "scene/digest.h"
 #include "scene/setup.h"
 #include "scene/words.h"
 #include "scene/worlds.h"

@@ -4,10 +4,10 @@
 #include <mutex>
 #include <set>
 
-#include "experiments/digest.h"
 #include "experiments/row_files.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
+#include "scene/digest.h"
 #include "scene/exit_code.h"
 #include "scene/progress.h"
 

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "experiments/digest.h"
 #include "experiments/experiment.h"
 #include "experiments/lazy_tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
+#include "scene/digest.h"
 #include "scene/words.h"
 #include "scene/worlds.h"
 

@@ -118,7 +118,11 @@ SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& ta
 
 MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
                                    const MeasurementRules& rules) {
-  const CsvTable table = read_csv(path);
+  return measurements_of(read_csv(path), surface, rules);
+}
+
+MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
+                                 const MeasurementRules& rules) {
   const Columns columns(table);
   Landing landing(surface);
   Repeats repeats;

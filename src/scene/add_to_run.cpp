@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "io/folder_lock.h"
 #include "palpation/io/atomic_file.h"
-#include "scene/folder_lock.h"
 #include "scene/run_files.h"
 #include "scene/run_record.h"
 #include "scene/staging.h"

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/folder_lock.h"
+#include "io/folder_lock.h"
 #include "scene/interrupt.h"
 #include "scene/run_record.h"
 #include "scene/staging.h"

@@ -283,6 +283,10 @@ Vec3 Scene::point_m(const std::string& path) const {
   return Vec3(mm[0], mm[1], mm[2]) / 1000.0;
 }
 
+std::vector<std::vector<double>> Scene::points_mm(const std::string& path) const {
+  return value(path).get<std::vector<std::vector<double>>>();
+}
+
 const json& Scene::tumours() const { return value("probe.tumours"); }
 
 json Scene::complete() const {

@@ -43,6 +43,8 @@ class Scene {
   std::vector<double> numbers(const std::string& path) const;
   double metres(const std::string& path) const;  ///< of a key in millimetres
   Vec3 point_m(const std::string& path) const;   ///< of three millimetres
+  /// Of a list of points or balls, in millimetres.
+  std::vector<std::vector<double>> points_mm(const std::string& path) const;
   const nlohmann::json& tumours() const;
 
   const std::string& name() const { return name_; }

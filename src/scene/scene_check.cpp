@@ -87,14 +87,19 @@ std::optional<Fault> too_many(const SceneKey& key, const json& value, const std:
 }
 
 std::optional<Fault> points_fault(const SceneKey& key, const json& value) {
-  if (!value.is_array()) return Fault{"", is_but_must_be(value, "a list of points [x, y, z]")};
-  if (auto fault = too_many(key, value, "points")) return fault;
+  const bool are_balls = key.kind == ValueKind::Balls;
+  if (!value.is_array())
+    return Fault{"", is_but_must_be(value, are_balls ? "a list of balls [x, y, z, radius]"
+                                                     : "a list of points [x, y, z]")};
+  if (auto fault = too_many(key, value, are_balls ? "balls" : "points")) return fault;
   SceneKey point = key;
   point.kind = ValueKind::Numbers;
-  point.count = 3;
+  point.count = are_balls ? 4 : 3;
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (const auto fault = numbers_fault(point, value[i]))
       return Fault{at(i) + fault->place, fault->words};
+    if (are_balls && value[i][3].get<double>() <= 0.0)
+      return Fault{at(i) + at(3), is_but_must_be(value[i][3], "a radius above 0")};
   }
   return std::nullopt;
 }
@@ -189,6 +194,7 @@ std::optional<Fault> fault_of(const SceneKey& key, const json& value) {
     case ValueKind::Integers:
       return numbers_fault(key, value);
     case ValueKind::Points:
+    case ValueKind::Balls:
       return points_fault(key, value);
     case ValueKind::Tumours:
       return tumours_fault(key, value);

@@ -51,6 +51,9 @@ void describe(std::ostringstream& out, const SceneKey& key, const std::string& i
     case ValueKind::Points:
       values = "a list of at most " + std::to_string(key.count) + " points [x, y, z]";
       break;
+    case ValueKind::Balls:
+      values = "a list of at most " + std::to_string(key.count) + " balls [x, y, z, radius]";
+      break;
     case ValueKind::Tumours:
       values =
           "a list of at most " + std::to_string(key.count) + " of " + join(tumour_shapes(), ", ");

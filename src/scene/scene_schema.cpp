@@ -16,6 +16,7 @@ constexpr double kMostDirection = 1e6;
 constexpr double kMostSeed = 9007199254740991.0;  // beyond it not every whole number is a double
 constexpr int kMostTumours = 100;
 constexpr int kMostCorners = 10000;
+constexpr int kMostWishes = 1000;
 
 SceneKey key(std::string path, ValueKind kind, std::string unit, std::string meaning) {
   SceneKey key;
@@ -97,6 +98,11 @@ SceneKey integers(SceneKey numbers) {
 
 SceneKey points(SceneKey numbers) {
   numbers.kind = ValueKind::Points;
+  return numbers;
+}
+
+SceneKey balls(SceneKey numbers) {
+  numbers.kind = ValueKind::Balls;
   return numbers;
 }
 
@@ -269,6 +275,14 @@ std::vector<SceneKey> make_scene_keys() {
                      "plan on a coarser mesh with edges of this length, and infer the boundary on "
                      "the full one at the end; 0: all on the full one; without effect on palpate "
                      "plan and boundary, and on scans")),
+      points(numbers("plan.touch_first_mm", kMostWishes, "mm", -kMostLength_mm, kMostLength_mm,
+                     json::array(),
+                     "places that the next plan of palpate plan goes to first, each at the vertex "
+                     "nearest to it; without effect on other commands")),
+      balls(numbers("plan.keep_out_mm", kMostWishes, "mm", -kMostLength_mm, kMostLength_mm,
+                    json::array(),
+                    "balls in which nothing is touched; the way between two stops may lead over "
+                    "them")),
       number("plan.row_spacing_mm", "mm", 0.01, kMostLength_mm, 2.0,
              "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
       word("probe.kind", {"simulated"}, "simulated",

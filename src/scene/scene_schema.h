@@ -21,6 +21,7 @@ enum class ValueKind {
   Numbers,       ///< a list of exactly `count` numbers
   Integers,      ///< a list of exactly `count` whole numbers
   Points,        ///< a list of at most `count` lists of three numbers
+  Balls,         ///< the same with a positive radius as fourth number
   Tumours        ///< a list of at most `count` shapes: see tumour_keys
 };
 

@@ -181,7 +181,8 @@ Access access_of(const Scene& scene) {
 }
 
 bool limits_reach(const Scene& scene) {
-  return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0;
+  return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0 ||
+         !scene.points_mm("plan.keep_out_mm").empty();
 }
 
 std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface) {
@@ -191,6 +192,13 @@ std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& 
     scene.refuse("robot",
                  "reaches no tissue: with this shaft_direction, cone_deg and clearance_mm nothing "
                  "can be touched");
+  for (const std::vector<double>& ball : scene.points_mm("plan.keep_out_mm")) {
+    const Vec3 centre = Vec3(ball[0], ball[1], ball[2]) / 1000.0;
+    std::erase_if(vertices, [&](int vertex) {
+      return (surface.vertex(vertex) - centre).norm() <= ball[3] / 1000.0;
+    });
+  }
+  if (vertices.empty()) scene.refuse("plan.keep_out_mm", "leaves no tissue that can be touched");
   return vertices;
 }
 

@@ -22,11 +22,11 @@ FieldModel field_of(const Scene& scene);
 Model model_of(const Scene& scene);
 Plan plan_of(const Scene& scene);
 Robot robot_of(const Scene& scene);
-/// What the robot can touch, in the tissue's frame.
+/// What the robot can touch, in the tissue's frame; where to keep out is not its own.
 Access access_of(const Scene& scene);
-/// Whether that is limited.
+/// Whether that is limited, by the robot or by where to keep out.
 bool limits_reach(const Scene& scene);
-/// The vertices that it can, where it is.
+/// The vertices that can be touched, where it is.
 std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface);
 Phantom phantom_of(const Scene& scene, const Surface& surface);
 

@@ -166,8 +166,8 @@ void check_all(const Scene& scene) {
   const std::string strategy = scene.word("plan.acquisition");
   if (limits_reach(scene) && (strategy == "raster" || strategy == "refinement"))
     scene.refuse("plan.acquisition", "is " + strategy +
-                                         ", a scan that takes no account of robot.shaft_direction "
-                                         "and robot.clearance_mm: leave them out");
+                                         ", a scan that takes no account of robot.shaft_direction, "
+                                         "robot.clearance_mm and plan.keep_out_mm: leave them out");
   model_of(scene);
   plan_of(scene);
   robot_of(scene);
@@ -203,9 +203,10 @@ void warn_of_reach(const Scene& scene, Tissue& tissue) {
   for (const int vertex : *reached) reached_m2 += tissue.surface.vertex_areas()[vertex];
   const double percent = 100.0 * (1.0 - reached_m2 / tissue.surface.area());
   if (percent > 0.05)
-    tissue.warnings.push_back(scene.name() + ": " + fixed(percent, 1) +
-                              " % of the tissue cannot be reached: it will not be touched, and the "
-                              "boundary there is a guess.");
+    tissue.warnings.push_back(
+        scene.name() + ": " + fixed(percent, 1) +
+        " % of the tissue cannot be reached or is kept out: it will not be touched, and the "
+        "boundary there is a guess.");
 }
 
 /// The chart is what the boundary is drawn in; without one, say what is in the way and what to do.

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/folder_lock.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
-#include "scene/folder_lock.h"
 #include "scene/make_folder.h"
 #include "scene/run_files.h"
 #include "scene/run_record.h"

@@ -6,6 +6,7 @@
 #include "palpation/base/error.h"
 #include "palpation/io/measurements.h"
 #include "scene/episode.h"
+#include "scene/next_plan.h"
 #include "scene/output_folder.h"
 #include "scene/progress.h"
 #include "scene/remarks.h"
@@ -46,18 +47,9 @@ void report(const Episode& episode, bool quiet) {
   tell(remarks);
 }
 
-MeasurementsFile measured_on(const Scene& scene, const Surface& surface,
+MeasurementsFile measured_in(const Scene& scene, const Surface& surface,
                              const std::filesystem::path& path) {
-  const bool noiseless = field_of(scene).is_noiseless();
-  MeasurementsFile measured = read_measurements(
-      path, surface,
-      {.empty_noise_is_none = noiseless,
-       .leave_out_off_tissue = scene.word("surface.off_tissue") == "leave-out",
-       .reading_unit = scene.gives("reading_unit") ? scene.word("reading_unit") : ""});
-  if (measured.places > kMostPlaces)
-    throw IoError(path.string() + ": readings at " + std::to_string(measured.places) +
-                  " places; at most " + std::to_string(kMostPlaces) +
-                  " can be modelled: leave some out, or set them aside");
+  MeasurementsFile measured = measured_on(scene, surface, read_csv(path));
   tell(measured.warnings);
   return measured;
 }
@@ -101,20 +93,6 @@ std::string without_batches(const std::filesystem::path& path, const Scene& scen
          (left == 1 ? " is left." : " are left.");
 }
 
-/// The poses of the next stops, the probe turned as it is after all stops before.
-std::vector<Waypoint> poses_after(const Surface& surface, std::span<const Palpation> before,
-                                  std::span<const SurfacePoint> stops, const Robot& robot) {
-  std::vector<SurfacePoint> all;
-  for (const Palpation& one : before) {
-    if (one.kind != TouchKind::Way) all.push_back(one.where);
-  }
-  const auto made = static_cast<std::ptrdiff_t>(all.size());
-  all.insert(all.end(), stops.begin(), stops.end());
-  std::vector<Waypoint> poses = waypoints(surface, all, robot);
-  poses.erase(poses.begin(), poses.begin() + made);
-  return poses;
-}
-
 }  // namespace
 
 void simulate(const SceneArguments& arguments) {
@@ -140,7 +118,7 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Scene scene = scene_of(arguments);
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
-  const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
+  const MeasurementsFile measured = measured_in(scene, tissue.surface, measurements);
   std::unique_ptr<OutputFolder> output =
       output_of(arguments, "boundary", scene, tissue, measured.warnings);
   const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
@@ -153,13 +131,10 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements) {
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
-  if (is_scan(scene))
-    scene.refuse("plan.acquisition",
-                 "raster and refinement are whole scans, which palpate simulate and replay run: "
-                 "there is no next batch");
+  check_plans(scene);
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
-  const MeasurementsFile measured = measured_on(scene, tissue.surface, measurements);
+  const MeasurementsFile measured = measured_in(scene, tissue.surface, measurements);
   std::unique_ptr<OutputFolder> output =
       output_of(arguments, "plan", scene, tissue, measured.warnings);
   if (!measured.has_batches && !measured.palpations.empty()) {
@@ -167,24 +142,12 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
     tell({words});
     if (output) output->warn(words);
   }
-  Episode episode = episode_from(scene, tissue.surface, measured.palpations);
-  const Choice choice = next_of(scene, tissue.surface, episode);
-  episode.coarse_stop_reason = choice.stop_reason;
-  const std::vector<Palpation> before = episode.exploration.readings();
-
-  std::vector<SurfacePoint> stops, way;
-  std::optional<SurfacePoint> here;
-  if (!before.empty()) here = before.back().where;
-  for (int stop : choice.stops) stops.push_back(tissue.surface.at_vertex(stop));
-  const Tour tour = travel(
-      tissue.surface, choice.stops, here,
-      [](const SurfacePoint&, const Vec3&) { return std::optional<Palpation>(); }, 0.0);
-  const Robot robot = robot_of(scene);
-  const std::vector<Waypoint> poses = poses_after(tissue.surface, before, stops, robot);
-  if (!arguments.quiet) std::fputs(plan_words(episode, poses, tour.length_m).c_str(), stdout);
+  const NextPlan next = next_plan(scene, tissue.surface, measured.palpations);
+  if (!arguments.quiet)
+    std::fputs(plan_words(next.episode, next.poses, next.length_m).c_str(), stdout);
   if (!output) return;
-  output->write_waypoints(poses, waypoints(tissue.surface, tour.way, robot), tour.legs);
-  output->write(episode, nullptr, {{"run_s", running.seconds()}}, measured.foreign);
+  output->write_waypoints(next.poses, next.way, next.legs);
+  output->write(next.episode, nullptr, {{"run_s", running.seconds()}}, measured.foreign);
   output->finish(arguments.quiet);
 }
 

@@ -64,7 +64,8 @@ bool is_swept(const SceneKey& key) {
       key.path == "plan.row_spacing_mm")
     return false;
   return key.kind != ValueKind::Text && key.kind != ValueKind::Tumours &&
-         key.kind != ValueKind::Numbers;
+         key.kind != ValueKind::Numbers && key.kind != ValueKind::Points &&
+         key.kind != ValueKind::Balls;
 }
 
 json random_scene(Random& random) {

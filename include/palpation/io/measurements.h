@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "palpation/geometry/surface.h"
+#include "palpation/io/csv.h"
 #include "palpation/readings/palpation.h"
 
 namespace palpation {
@@ -58,6 +59,9 @@ struct MeasurementRules {
 /// that the above does not allow.
 MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
                                    const MeasurementRules& rules = {});
+/// The same of a table that was read already, such as one by parse_csv.
+MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
+                                 const MeasurementRules& rules = {});
 
 /// The same columns as text, with the shortest digits that read back as the same doubles; behind
 /// them foreign ones, if there are any. Throws InvalidInput unless these have a row a palpation.

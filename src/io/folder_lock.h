@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace palpation::tool {
+namespace palpation {
 
 inline constexpr const char* kLockName = ".palpate-lock";
 
@@ -25,4 +25,4 @@ class FolderLock {
   int file_ = -1;
 };
 
-}  // namespace palpation::tool
+}  // namespace palpation

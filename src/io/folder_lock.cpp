@@ -1,4 +1,4 @@
-#include "scene/folder_lock.h"
+#include "io/folder_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 
 #include "palpation/base/error.h"
 
-namespace palpation::tool {
+namespace palpation {
 namespace {
 
 constexpr const char* kStart = "palpate ";  // of what stands in the file
@@ -103,4 +103,4 @@ void FolderLock::name_holder(const std::string& command) const {
     throw WriteError(path_.string() + ": cannot write: " + reason(errno));
 }
 
-}  // namespace palpation::tool
+}  // namespace palpation

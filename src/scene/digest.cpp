@@ -1,4 +1,4 @@
-#include "experiments/digest.h"
+#include "scene/digest.h"
 
 #include <array>
 #include <charconv>
