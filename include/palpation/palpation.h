@@ -75,6 +75,7 @@
 #include "palpation/readings/screening.h"
 #include "palpation/session/session.h"
 #include "palpation/session/session_state.h"
+#include "palpation/version.h"
 #include "palpation/world/phantom.h"
 #include "palpation/world/random_shape.h"
 #include "palpation/world/recording.h"

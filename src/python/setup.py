@@ -47,7 +47,8 @@ class BuildModule(build_py):
 
 
 def version():
-    return re.search(r"project\(palpation VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+    header = (ROOT / "include/palpation/version.h").read_text(encoding="utf-8")
+    return ".".join(re.search(rf"PALPATION_VERSION_{part} (\d+)", header).group(1) for part in ("MAJOR", "MINOR", "PATCH"))
 
 
 SCRATCH.mkdir(parents=True, exist_ok=True)
