@@ -80,6 +80,7 @@ std::vector<double> beyond_search(const Run& run) {
 }
 
 VtpShape not_searched_of(const Run& run) {
+  if (!run.knows_touches) return {};
   VtpShape whole = model_of(run.tissue, shown_fields());
   whole.point_fields.emplace_back(kBeyond, beyond_search(run));
   VtpShape part = clipped(whole, kBeyond, 0.0, Side::AtLeast);

@@ -22,7 +22,8 @@ VtpShape band_of(const Run& run);
 /// radius of one. The boundary's own doubt begins at the same distance (certainty.h).
 inline constexpr double kSearched_m = 0.008;
 
-/// The tissue that no reading is near, in a straight line; all of it where nothing was felt.
+/// The tissue that no reading is near, in a straight line; all of it where nothing was felt, and
+/// nothing where nobody says what was.
 VtpShape not_searched_of(const Run& run);
 /// The same at the vertices: how much farther than kSearched_m the nearest reading that counts is,
 /// metres; negative where one is near, and no more than kSearched_m.

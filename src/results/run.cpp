@@ -30,12 +30,6 @@ std::string text_at(const CsvTable& table, std::size_t row, std::string_view col
   return found ? std::string(table.cell(row, *found)) : std::string();
 }
 
-Vec3 place_at(const CsvTable& table, std::size_t row) {
-  return {finite_number_at(table, row, column_index(table, "x")),
-          finite_number_at(table, row, column_index(table, "y")),
-          finite_number_at(table, row, column_index(table, "z"))};
-}
-
 /// From the tissue to the robot, row by row; identity where the summary says none.
 Eigen::Matrix4d from_tissue(const Run& run) {
   const json& told = run.told({"options", "robot", "from_tissue"});
@@ -55,10 +49,9 @@ std::vector<Vec3> read_next_stops(const Run& run) {
   const fs::path path = run.folder / "waypoints.csv";
   if (!fs::exists(path) || !fs::exists(run.folder / "readings_used.csv")) return {};
   const CsvTable table = read_csv(path);
-  const Eigen::Matrix4d to_tissue = from_tissue(run).inverse();
   std::vector<Vec3> stops;
   for (std::size_t row = 0; row < table.row_count(); ++row)
-    stops.push_back((to_tissue * place_at(table, row).homogeneous()).head<3>());
+    stops.push_back(run.in_mesh(place_at(table, row)));
   return stops;
 }
 
@@ -79,6 +72,12 @@ std::vector<fs::path> steps_in(const fs::path& folder) {
 }
 
 }  // namespace
+
+Vec3 place_at(const CsvTable& table, std::size_t row) {
+  return {finite_number_at(table, row, column_index(table, "x")),
+          finite_number_at(table, row, column_index(table, "y")),
+          finite_number_at(table, row, column_index(table, "z"))};
+}
 
 const json& Run::told(std::initializer_list<const char*> keys) const {
   static const json nothing;
@@ -108,6 +107,10 @@ Frame Run::frame() const {
   if (!frame.is_string()) return Frame::Mesh;
   const std::string name = frame.get<std::string>();
   return name == "RAS" ? Frame::Ras : name == "LPS" ? Frame::Lps : Frame::Mesh;
+}
+
+Vec3 Run::in_mesh(const Vec3& p_R) const {
+  return (from_tissue(*this).inverse() * p_R.homogeneous()).head<3>();
 }
 
 fs::path touches_in(const fs::path& folder) {
@@ -147,6 +150,7 @@ Run read_run(const fs::path& folder) {
   run.summary = read_summary(folder / "summary.json");
   run.tissue = read_tissue(fs::exists(surface) ? surface : run.steps.back());
   if (fs::exists(folder / "boundary.vtp")) run.curves = read_curves(folder / "boundary.vtp");
+  run.knows_touches = fs::exists(touches_in(folder));
   run.touches = read_touches(touches_in(folder));
   run.next_stops = read_next_stops(run);
   return run;

@@ -13,6 +13,7 @@
 
 #include "palpation/geometry/triangle_mesh.h"
 #include "palpation/io/coordinates.h"
+#include "palpation/io/csv.h"
 
 namespace palpation::results {
 
@@ -52,6 +53,7 @@ struct Run {
   Tissue tissue;  ///< as it was believed last: of a run that did not end, after its last batch
   std::vector<Curve> curves;
   std::vector<Touch> touches;
+  bool knows_touches = false;    ///< whether there is a table of them, if only an empty one
   std::vector<Vec3> next_stops;  ///< of a plan
   nlohmann::json summary;        ///< null of a run that did not end
   std::vector<std::filesystem::path> steps;
@@ -63,6 +65,8 @@ struct Run {
   std::string reading_unit() const;
   /// As the tissue's file says, else the scene.
   Frame frame() const;
+  /// A place in the robot's frame, as waypoints.csv and path.csv have them, in the mesh's.
+  Vec3 in_mesh(const Vec3& p_R) const;
 };
 
 /// Reads surface.vtp, or the last of the steps of a run that did not end; and where they exist
@@ -74,6 +78,8 @@ Run read_run(const std::filesystem::path& folder);
 Tissue read_tissue(const std::filesystem::path& path);
 std::vector<Curve> read_curves(const std::filesystem::path& path);
 std::vector<Touch> read_touches(const std::filesystem::path& path);
+/// The columns x, y and z of a row. Throws IoError.
+Vec3 place_at(const CsvTable& table, std::size_t row);
 /// readings_used.csv, or else measurements.csv: where a plan's or a boundary's own exists, the
 /// measurements beside it are what it was given.
 std::filesystem::path touches_in(const std::filesystem::path& folder);

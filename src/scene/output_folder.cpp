@@ -6,8 +6,12 @@
 #include <utility>
 
 #include "io/files_read.h"
+#include "palpation/base/error.h"
+#include "palpation/io/atomic_file.h"
 #include "palpation/io/wkt.h"
 #include "palpation/io/write_vtp.h"
+#include "results/report.h"
+#include "results/sha256.h"
 #include "scene/boundary_curves.h"
 #include "scene/draw_program.h"
 #include "scene/interrupt.h"
@@ -39,6 +43,15 @@ RunRequest request_of(const Destination& destination, const Scene& scene) {
           .measures = destination.command == "simulate" || destination.command == "replay"};
 }
 
+/// What was read so far, each with its digest: what a person must have to get the same again.
+json inputs_read() {
+  json inputs = json::array();
+  for (const fs::path& path : files_read())
+    inputs.push_back(
+        {{"file", path.string()}, {"sha256", results::sha256_digits(read_file(path))}});
+  return inputs;
+}
+
 using NamedFields = std::vector<std::pair<std::string, Field>>;
 
 NamedFields fields_of(const Episode& episode, const World* world) {
@@ -65,7 +78,9 @@ OutputFolder::OutputFolder(const Destination& destination, const Scene& scene, c
     : run_(destination.folder, request_of(destination, scene)),
       scene_(scene),
       surface_(tissue.surface),
-      frame_(tissue.frame) {}
+      frame_(tissue.frame),
+      command_(destination.command),
+      inputs_(inputs_read()) {}
 
 void OutputFolder::write_step(const Episode& episode, const World* world) {
   std::string number = std::to_string(episode.exploration.batch() - 1);
@@ -112,7 +127,9 @@ void OutputFolder::write(const Episode& episode, const World* world, const json&
   if (!steps_.empty())
     run_.add(kStepsListName, [&](const fs::path& path) { write_pvd(path, steps_); });
   run_.add(kTimingsName, document(timings));
-  run_.add(kSummaryName, document(summary_of(episode, scene_, warnings_)));
+  json summary = summary_of(episode, scene_, warnings_);
+  summary["inputs"] = inputs_;
+  run_.add(kSummaryName, document(summary));
 }
 
 void OutputFolder::write_waypoints(const std::vector<Waypoint>& stops,
@@ -126,16 +143,38 @@ void OutputFolder::write_comparison(const RegionError& error) {
   run_.land();
 }
 
+/// From the files that are about to land: what it tells is what they tell.
+void OutputFolder::write_report(const fs::path& folder) const {
+  results::Run run = results::read_run(folder);
+  run.steps.clear();
+  for (const std::string& step : steps_) run.steps.push_back(run_.place_of(step));
+  write_atomically(folder / kReportName,
+                   results::report_html(run, {PALPATION_VERSION, command_, "complete"}));
+}
+
 void OutputFolder::finish(bool quiet) {
-  std::optional<std::string> no_picture;
+  std::optional<std::string> no_picture, no_report;
   run_.add_made({"picture.png", "convergence.png"},
                 [&](const fs::path& folder) { no_picture = run_draw({folder.string()}); });
+  const bool is_reported = command_ != "plan";  // which a robot waits for
+  if (is_reported) {
+    run_.add_made({kReportName}, [&](const fs::path& folder) {
+      try {
+        write_report(folder);
+      } catch (const Error& error) {
+        no_report = error.what();
+      }
+    });
+  }
   run_.land();
   if (no_picture) std::fprintf(stderr, "palpate: no picture: %s\n", no_picture->c_str());
+  if (no_report) std::fprintf(stderr, "palpate: no report: %s\n", no_report->c_str());
   check_interrupt();
   if (quiet) return;
+  std::string words = no_picture ? "" : "picture.png";
+  if (is_reported && !no_report) words += (words.empty() ? "" : " and ") + std::string(kReportName);
   std::printf("Written to %s%s\n", run_.path().string().c_str(),
-              no_picture ? "" : ", with picture.png");
+              words.empty() ? "" : (", with " + words).c_str());
 }
 
 }  // namespace palpation::tool

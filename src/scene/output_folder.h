@@ -45,17 +45,20 @@ class OutputFolder {
   /// summary.json of two boundaries that were compared.
   void write_comparison(const RegionError& error);
 
-  /// Draws picture.png and convergence.png, if that can be done, and lands all that was written.
-  /// Says where it is, and why there is no picture.
+  /// Draws picture.png and convergence.png, if that can be done, writes report.html but of a plan,
+  /// and lands all that was written. Says where it is, and why there is no picture or report.
   void finish(bool quiet);
 
  private:
   void write_boundary(const Episode& episode, const World* world);
+  void write_report(const std::filesystem::path& folder) const;
 
   RunFolder run_;
   const Scene& scene_;
   Surface surface_;
   Frame frame_;
+  std::string command_;
+  nlohmann::json inputs_;
   std::vector<std::string> warnings_;
   std::vector<std::string> steps_;
 };

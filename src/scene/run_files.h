@@ -10,6 +10,7 @@ inline constexpr const char* kRecordName = "run.json";
 inline constexpr const char* kSummaryName = "summary.json";
 inline constexpr const char* kMeasurementsName = "measurements.csv";
 inline constexpr const char* kReadingsUsedName = "readings_used.csv";
+inline constexpr const char* kReportName = "report.html";
 inline constexpr const char* kTimingsName = "timings.json";
 inline constexpr const char* kStepsName = "steps";
 inline constexpr const char* kStepsListName = "steps.pvd";
@@ -18,7 +19,7 @@ inline constexpr const char* kStepsListName = "steps.pvd";
 inline constexpr std::array kRunFiles = {
     "waypoints.csv",   "path.csv",     kMeasurementsName, kReadingsUsedName, "trace.csv",
     "boundary.wkt",    "boundary.vtp", "surface.vtp",     kStepsListName,    "picture.png",
-    "convergence.png", kTimingsName,   kSummaryName};
+    "convergence.png", kReportName,    kTimingsName,      kSummaryName};
 
 /// "step_007.vtp"
 bool is_step(std::string_view name);

@@ -197,6 +197,10 @@ void RunFolder::add_growing(const std::string& name, const Write& write) {
   sync_folder(folder_);
 }
 
+fs::path RunFolder::place_of(const std::string& name) const {
+  return fs::exists(*staging_ / name) ? *staging_ / name : folder_ / name;
+}
+
 void RunFolder::enter(const std::string& name) {
   const std::optional<std::string> fingerprint = fingerprint_of_file(*staging_ / name);
   if (!fingerprint)

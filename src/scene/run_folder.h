@@ -59,6 +59,8 @@ class RunFolder {
   void land();
 
   const std::filesystem::path& path() const { return folder_; }
+  /// Where a file of the set is before it lands; of one that landed already, where it lies.
+  std::filesystem::path place_of(const std::string& name) const;
 
  private:
   void look_around();

@@ -15,6 +15,7 @@
 #include "tool/mesh_options.h"
 #include "tool/option_checks.h"
 #include "tool/readings_options.h"
+#include "tool/report_command.h"
 #include "tool/session_options.h"
 #include "tool/standard_streams.h"
 #include "tool/surface_command.h"
@@ -225,6 +226,7 @@ int run_tool(int count, char** words) {
   add_readings_command(app);
   add_session_command(app);
   add_export_command(app);
+  add_report_command(app);
   add_experiment_command(app, arguments);
   add_help_command(app);
   for (CLI::App* command : app.get_subcommands({}))

@@ -28,10 +28,10 @@ SCENE = {
 LONG = ("--set", "surface.plane.vertices=[60,60]", "--set", "plan.batches=10000", "--set", "plan.acquisition=random")
 MEASURED = "x,y,z,reading,operator\n0.01,0.01,0,9,anna\n0.002,0.003,0,7,\n0.016,0.004,0,7.1,\"B, C\"\n"
 SQUARE = "POLYGON ((0.005 0.005, 0.015 0.005, 0.015 0.015, 0.005 0.015, 0.005 0.005))"
-SIMULATED = {"run.json", "summary.json", "timings.json", "trace.csv", "measurements.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp",
+SIMULATED = {"run.json", "summary.json", "report.html", "timings.json", "trace.csv", "measurements.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp",
              "surface.vtp", "steps.pvd", "steps", "steps/step_000.vtp", "steps/step_001.vtp", "steps/step_002.vtp"}
 PLANNED = {"run.json", "summary.json", "timings.json", "trace.csv", "readings_used.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp", "surface.vtp"}
-BOUNDED = PLANNED - {"waypoints.csv", "path.csv"}
+BOUNDED = PLANNED - {"waypoints.csv", "path.csv"} | {"report.html"}
 MINE = "what a person wrote\n"
 
 
