@@ -29,7 +29,7 @@ std::string nothing_words(const Run& run) {
   if (const std::optional<double> widest = run.number({"nothing_wider_than_mm"}))
     words += " With a probability of " +
              percent(run.number({"options", "band", "probability"}).value_or(0.95)) +
-             " there is none that is wider than " + rounded(*widest, 2) + " mm.";
+             " there is none that is wider than " + rounded(*widest, 3) + " mm.";
   return words;
 }
 

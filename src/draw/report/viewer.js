@@ -414,7 +414,7 @@ function showState(index) {
 }
 
 function showLines() {
-  const isFinal = run.states[now].isFinal, isOn = (id) => byId(id).checked;
+  const isFinal = Boolean(run.states[now].isFinal), isLast = Boolean(run.states[now].isLast), isOn = (id) => byId(id).checked;
   const set = (parts, on) => (parts || []).forEach((part) => { part.visible = on; });
   set(lines.estimate, isFinal && isOn('show-boundary'));
   set(outlineThen, isOn('show-boundary'));
@@ -424,7 +424,7 @@ function showLines() {
   set(lines.band_outer, isFinal && isOn('show-band'));
   set(tourNow, isOn('show-tour'));
   tissueMaterial.uniforms.showBand.value = isFinal && isOn('show-band') && run.bandScore !== null;
-  tissueMaterial.uniforms.showUnsearched.value = isOn('show-unsearched') && run.states[now].isLast;
+  tissueMaterial.uniforms.showUnsearched.value = isOn('show-unsearched') && isLast;
   tissueMaterial.uniforms.shade.value = isOn('show-shape');
 }
 
