@@ -1,5 +1,6 @@
 #include "results/parts.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,6 +49,18 @@ class Readings {
   std::map<Cube, std::vector<Vec3>> cubes_;
 };
 
+/// The share of a triangle where a linear field with these values at its corners is not negative.
+double share_above(double a, double b, double c) {
+  const int above = (a >= 0.0) + (b >= 0.0) + (c >= 0.0);
+  if (above == 0 || above == 3) return above / 3;
+  const bool one_is_above = above == 1;
+  // The corner that is alone on its side cuts off a triangle that is similar to the whole.
+  if ((b >= 0.0) == one_is_above) std::swap(a, b);
+  if ((c >= 0.0) == one_is_above) std::swap(a, c);
+  const double alone = a * a / ((a - b) * (a - c));
+  return one_is_above ? alone : 1.0 - alone;
+}
+
 }  // namespace
 
 std::vector<std::string> shown_fields() {
@@ -86,6 +99,22 @@ VtpShape not_searched_of(const Run& run) {
   VtpShape part = clipped(whole, kBeyond, 0.0, Side::AtLeast);
   part.point_fields.pop_back();
   return part;
+}
+
+SearchedArea searched_area(const Run& run) {
+  const TriangleMesh& mesh = run.tissue.mesh;
+  const std::vector<double> beyond = beyond_search(run);
+  SearchedArea area;
+  for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face) {
+    const Eigen::Vector3i corners = mesh.triangles.row(face);
+    const Vec3 a = mesh.vertices.row(corners[0]), b = mesh.vertices.row(corners[1]),
+               c = mesh.vertices.row(corners[2]);
+    const double whole = 0.5 * (b - a).cross(c - a).norm();
+    area.whole_m2 += whole;
+    area.not_searched_m2 +=
+        whole * share_above(beyond[corners[0]], beyond[corners[1]], beyond[corners[2]]);
+  }
+  return area;
 }
 
 VtpShape lines_of(const std::vector<Curve>& curves, const std::vector<std::string>& kinds) {

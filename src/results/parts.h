@@ -29,6 +29,13 @@ VtpShape not_searched_of(const Run& run);
 /// metres; negative where one is near, and no more than kSearched_m.
 std::vector<double> beyond_search(const Run& run);
 
+/// How much of the tissue's area there is, and how much of it that is.
+struct SearchedArea {
+  double whole_m2 = 0.0;
+  double not_searched_m2 = 0.0;
+};
+SearchedArea searched_area(const Run& run);
+
 /// Closed lines of these kinds, with cell arrays kind, part and hole.
 VtpShape lines_of(const std::vector<Curve>& curves, const std::vector<std::string>& kinds);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "results/clip.h"
 #include "results/page.h"
 #include "results/parts.h"
 
@@ -76,8 +75,7 @@ std::string verdict_of(const Run& run, const RunState& state) {
 
 std::vector<std::string> scope_of(const Run& run) {
   std::vector<std::string> sentences;
-  const double whole = area_m2(model_of(run.tissue, {}));
-  const double missing = area_m2(not_searched_of(run));
+  const auto [whole, missing] = searched_area(run);
   const std::string near = rounded(kSearched_m * 1e3, 1) + " mm";
   if (!run.knows_touches) {
     sentences.emplace_back(

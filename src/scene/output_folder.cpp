@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -163,6 +164,8 @@ void OutputFolder::finish(bool quiet) {
         write_report(folder);
       } catch (const Error& error) {
         no_report = error.what();
+      } catch (const std::bad_alloc&) {
+        no_report = "not enough memory";
       }
     });
   }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "palpation/base/error.h"
+#include "results/parts.h"
 
 namespace palpation::results {
 namespace {
@@ -67,6 +68,24 @@ TEST(Clip, LeavesOutWhereTheFieldIsNoNumber) {
   tissue.fields["x"][0] = std::numeric_limits<double>::quiet_NaN();
   const VtpShape part = clipped(model_of(tissue, {"x"}), "x", -1.0, Side::AtLeast);
   EXPECT_NEAR(area_m2(part), 8e-6, 1e-18);  // both triangles of the corner's cell are gone
+}
+
+TEST(SearchedArea, IsThatOfThePartThatNoReadingIsNear) {
+  results::Run run;
+  run.tissue = square();
+  for (auto vertex : run.tissue.mesh.vertices.rowwise()) vertex *= 20.0;  // 60 mm
+  run.knows_touches = true;
+  for (const Vec3& place : {Vec3(0.0, 0.0, 0.0), Vec3(0.06, 0.02, 0.0)})
+    run.touches.push_back({.place = place, .reading = 1.0, .kind = "stop", .set_aside = ""});
+  const auto [whole_m2, not_searched_m2] = searched_area(run);
+  EXPECT_NEAR(whole_m2, 3600e-6, 1e-15);
+  EXPECT_NEAR(not_searched_m2, area_m2(not_searched_of(run)), 1e-15);
+  EXPECT_GT(not_searched_m2, 0.5 * whole_m2);
+  EXPECT_LT(not_searched_m2, whole_m2);
+  run.touches[1].set_aside = "a hand was in the way";
+  EXPECT_GT(searched_area(run).not_searched_m2, not_searched_m2);
+  run.touches.clear();
+  EXPECT_EQ(searched_area(run).not_searched_m2, whole_m2);
 }
 
 TEST(Clip, RefusesAFieldThatIsNotThere) {
