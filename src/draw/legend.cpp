@@ -39,10 +39,14 @@ std::vector<LegendEntry> entries_of(const Outcome& outcome) {
             [](const Touch& t) { return t.on_the_way && !t.set_aside; });
   add_touch({.planned = true}, "next samples", [](const Touch& t) { return t.planned; });
   add_touch({.set_aside = true}, "set aside", [](const Touch& t) { return t.set_aside; });
+  if (!outcome.is_searched())
+    entries.push_back({.words = "not searched", .lines = {}, .touch = {}, .hatched = true});
   return entries;
 }
 
-double sample_width_px(const LegendEntry& entry) { return entry.touch ? 16.0 : 66.0; }
+double sample_width_px(const LegendEntry& entry) {
+  return entry.touch ? 16.0 : entry.hatched ? 30.0 : 66.0;
+}
 
 double width_px(const LegendEntry& entry) {
   return sample_width_px(entry) + kBeforeWords_px + text_width_px(entry.words, kWords);
@@ -57,6 +61,15 @@ double width_px(const std::vector<LegendEntry>& row) {
 void draw_entry(Sheet& sheet, const Pixel& place, const LegendEntry& entry) {
   const double sample = sample_width_px(entry);
   for (const LineStyle& line : entry.lines) sheet.line(place, place + Pixel(sample, 0.0), line);
+  if (entry.hatched) {
+    const Box patch{place.x(), place.y() - 9.0, sample, 18.0};
+    sheet.fill(patch, kPaleGrey);
+    for (double x = 6.0; x < patch.width + patch.height; x += 8.0)
+      sheet.line(
+          {patch.left + std::min(x, patch.width), patch.bottom + std::max(0.0, x - patch.width)},
+          {patch.left + std::max(0.0, x - patch.height), patch.bottom + std::min(x, patch.height)},
+          {.width_px = 1.3, .colour = kGrey});
+  }
   if (entry.touch) {
     const Pixel centre = place + Pixel(sample / 2.0, 0.0);
     sheet.disc(centre, entry.touch->radius_px + 1.0, kGrey);

@@ -15,6 +15,7 @@ struct LegendEntry {
   std::string words;
   std::vector<LineStyle> lines;  ///< one above the other
   std::optional<TouchLook> touch;
+  bool hatched = false;  ///< a patch of what was not searched
 };
 
 inline constexpr double kLegendRow_px = 34.0;

@@ -4,6 +4,7 @@
 //   or measurements.csv, trace.csv and summary.json in OUT_DIR, writes picture.png
 //                                              and, if the trace has at least two rows,
 //                                              convergence.png beside them
+//   palpate-draw OUT_DIR... --figure FILE      draws panels of these runs into a .png, .svg or .pdf
 //   palpate-draw --curves CURVES.csv OUT.png   draws curves with standard errors: first column x,
 //   then `name` and optionally `name_se` for each curve
 //
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "draw/chart.h"
+#include "draw/figure.h"
 #include "draw/offscreen.h"
 #include "draw/outcome.h"
 #include "draw/picture.h"
@@ -48,6 +50,48 @@ struct Wish {
   bool overwrite = false;
 };
 
+struct FigureWish {
+  std::string file;
+  std::vector<std::string> panels;
+  double width_mm = 180.0;
+  double dots_per_inch = 300.0;
+  std::vector<double> limits, stddev_limits;
+};
+
+/// By the names that `palpate draw` gives them.
+Panel panel_of(const std::string& name) {
+  return name == "stddev" ? Panel::Uncertainty : name == "boundary" ? Panel::Boundary : Panel::Mean;
+}
+
+std::optional<results::Limits> limits_of(const std::vector<double>& pair) {
+  if (pair.size() != 2) return std::nullopt;
+  return results::Limits{pair[0], pair[1]};
+}
+
+void draw_figure(const std::vector<std::string>& runs, const FigureWish& wish,
+                 tool::Existing figure) {
+  std::vector<Outcome> outcomes;
+  std::vector<std::string> names;
+  for (const std::string& path : runs) {
+    outcomes.push_back(unrolled_where_folded(read_outcome(path)));
+    names.push_back((fs::path(path) / "").parent_path().filename().string());
+  }
+  FigureOptions options;
+  options.width_mm = wish.width_mm;
+  options.dots_per_inch = wish.dots_per_inch;
+  options.colours = {limits_of(wish.limits), limits_of(wish.stddev_limits)};
+  const fs::path file = wish.file;
+  options.format = file.extension() == ".svg"   ? Format::Svg
+                   : file.extension() == ".pdf" ? Format::Pdf
+                                                : Format::Png;
+  if (!wish.panels.empty()) {
+    options.panels.clear();
+    for (const std::string& name : wish.panels) options.panels.push_back(panel_of(name));
+  }
+  tool::refuse_to_replace(file, figure);
+  write_atomically(file, figure_of(outcomes, names, options));
+}
+
 void draw_outcome(const fs::path& folder, tool::Existing pictures) {
   const Outcome outcome = unrolled_where_folded(read_outcome(folder));
   std::map<std::string, std::string> contents{{"picture.png", picture_of(outcome)}};
@@ -72,9 +116,9 @@ void draw_curves(const Wish& wish, tool::Existing picture) {
   write_atomically(fs::path(wish.paths[1]), picture_of(chart));
 }
 
-int fulfil(const Wish& wish) {
+int fulfil(const Wish& wish, const FigureWish& figure) {
   const std::size_t paths_wanted = wish.curves ? 2 : 1;
-  if (wish.paths.size() != paths_wanted) {
+  if (figure.file.empty() && wish.paths.size() != paths_wanted) {
     std::fprintf(
         stderr, "palpate-draw: %s\n",
         wish.curves ? "--curves takes a table and the picture to write" : "give one output folder");
@@ -82,7 +126,9 @@ int fulfil(const Wish& wish) {
   }
   silence_graphics_libraries();
   const tool::Existing pictures = wish.overwrite ? tool::Existing::Replaced : tool::Existing::Kept;
-  if (wish.curves) {
+  if (!figure.file.empty()) {
+    draw_figure(wish.paths, figure, pictures);
+  } else if (wish.curves) {
     draw_curves(wish, pictures);
   } else {
     draw_outcome(wish.paths[0], pictures);
@@ -90,13 +136,13 @@ int fulfil(const Wish& wish) {
   return 0;
 }
 
-int fulfil_or_explain(const Wish& wish) {
+int fulfil_or_explain(const Wish& wish, const FigureWish& figure) {
   const auto explain = [](const std::exception& error, int code) {
     std::fprintf(stderr, "palpate-draw: %s\n", error.what());
     return code;
   };
   try {
-    return fulfil(wish);
+    return fulfil(wish, figure);
   } catch (const NoGraphics& error) {
     return explain(error, kMachineAtFault);
   } catch (const WriteError& error) {
@@ -116,6 +162,7 @@ int main(int argc, char** argv) {
       "curves from a table.",
       "palpate-draw");
   Wish wish;
+  FigureWish figure;
   app.add_option("paths", wish.paths, "OUT_DIR; with --curves: CURVES.csv OUT.png")->required();
   app.add_flag("--curves", wish.curves,
                "Draw a table: first column x, then `name` and optionally `name_se` (standard "
@@ -131,11 +178,20 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(300, 8000));
   app.add_option("--height", wish.height_px, "Height of the chart in pixels")
       ->check(CLI::Range(200, 8000));
+  app.add_option("--figure", figure.file, "Draw panels of the runs into this .png, .svg or .pdf");
+  app.add_option("--panels", figure.panels, "Of a figure")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"mean", "stddev", "boundary"}));
+  app.add_option("--width-mm", figure.width_mm, "Of a figure")->check(CLI::Range(10.0, 2000.0));
+  app.add_option("--dpi", figure.dots_per_inch, "Of a figure")->check(CLI::Range(30.0, 1200.0));
+  app.add_option("--limits", figure.limits, "Of the mean's colours")->expected(2);
+  app.add_option("--stddev-limits", figure.stddev_limits, "Of the standard deviation's")
+      ->expected(2);
   app.add_flag("--overwrite", wish.overwrite, "Replace pictures that are none of the run's");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongUsage;
   }
-  return fulfil_or_explain(wish);
+  return fulfil_or_explain(wish, figure);
 }

@@ -165,18 +165,6 @@ vtkSmartPointer<vtkImageData> averaged_down(vtkImageData& large) {
   return small;
 }
 
-std::string png_bytes(vtkImageData& image) {
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(&image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (bytes == nullptr || bytes->GetNumberOfValues() == 0)
-    throw NoGraphics("the picture could not be encoded");
-  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
-          static_cast<std::size_t>(bytes->GetNumberOfValues())};
-}
-
 }  // namespace
 
 void silence_graphics_libraries() {
@@ -199,7 +187,19 @@ vtkSmartPointer<vtkRenderWindow> offscreen_window(int width_px, int height_px) {
       "and no display answers");
 }
 
-std::string png_of(vtkRenderWindow& window) {
+std::string png_bytes(vtkImageData& image) {
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(&image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (bytes == nullptr || bytes->GetNumberOfValues() == 0)
+    throw NoGraphics("the picture could not be encoded");
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+vtkSmartPointer<vtkImageData> pixels_of(vtkRenderWindow& window) {
   window.Render();
   vtkNew<vtkWindowToImageFilter> capture;
   capture->SetInput(&window);
@@ -212,7 +212,9 @@ std::string png_of(vtkRenderWindow& window) {
       large->GetNumberOfScalarComponents() != 3) {
     throw NoGraphics("the graphics library drew nothing");
   }
-  return png_bytes(*averaged_down(*large));
+  return averaged_down(*large);
 }
+
+std::string png_of(vtkRenderWindow& window) { return png_bytes(*pixels_of(window)); }
 
 }  // namespace palpation::draw

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+class vtkImageData;
 class vtkRenderWindow;
 
 namespace palpation::draw {
@@ -33,5 +34,10 @@ vtkSmartPointer<vtkRenderWindow> offscreen_window(int width_px, int height_px);
 /// Renders and returns the bytes of a PNG file of the size asked for. Throws NoGraphics if no
 /// pixels come back.
 std::string png_of(vtkRenderWindow& window);
+
+/// The same as an image, red, green and blue, its first row the lowest.
+vtkSmartPointer<vtkImageData> pixels_of(vtkRenderWindow& window);
+/// The bytes of a PNG file. Throws NoGraphics.
+std::string png_bytes(vtkImageData& image);
 
 }  // namespace palpation::draw

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "draw/place.h"
+#include "draw/searched.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
 
@@ -204,8 +205,8 @@ Summary read_summary(const fs::path& path) {
                   .error = error_in(json),
                   .reading_unit = "",
                   .from_tissue = from_tissue_in(json)};
-  const auto unit = json.find("reading_unit");
-  if (unit != json.end() && unit->is_string()) summary.reading_unit = unit->get<std::string>();
+  if (const Json& unit = within(json, {"options", "reading_unit"}); unit.is_string())
+    summary.reading_unit = unit.get<std::string>();
   return summary;
 }
 
@@ -283,6 +284,7 @@ Outcome read_outcome(const fs::path& folder) {
                   .summary = read_summary(folder / "summary.json")};
   if (outcome.summary.from_tissue)
     add_planned(folder / "waypoints.csv", *outcome.summary.from_tissue, outcome.touches);
+  if (fs::exists(readings_in(folder))) add_beyond_search(outcome);
   return outcome;
 }
 

@@ -15,6 +15,9 @@
 
 namespace palpation::draw {
 
+/// The field of what was not searched: not negative there.
+inline constexpr const char* kBeyondSearch = "beyond_search";
+
 struct Touch {
   Vec3 position = Vec3::Zero();  ///< metres
   bool initial = false;          ///< of the design, before anything was known
@@ -65,6 +68,9 @@ struct Outcome {
   /// The field of that name, or null.
   vtkDataArray* field(const std::string& name) const;
   bool has_curve(const std::string& kind) const;
+  /// Whether a reading that counts is near every vertex (results/parts.h), or nobody says what was
+  /// felt.
+  bool is_searched() const;
   /// Whether it is known where the band lies: its score, and the field of it.
   bool shows_band() const;
   /// The level whose contours the curves of a kind are. Where a curve follows the border of the

@@ -5,6 +5,7 @@
 #include <vtkContextActor.h>
 #include <vtkContextItem.h>
 #include <vtkContextScene.h>
+#include <vtkExtractVOI.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPen.h>
@@ -14,6 +15,7 @@
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -23,7 +25,6 @@
 namespace palpation::draw {
 namespace {
 
-constexpr double kScale = kSupersampling;
 constexpr int kCircleCorners = 28;
 
 using Stroke = std::function<void(vtkContext2D&)>;
@@ -46,12 +47,12 @@ void paint_polygon(vtkContext2D& painter, const std::vector<float>& corners, Col
   painter.DrawPolygon(mutable_corners.data(), static_cast<int>(corners.size() / 2));
 }
 
-std::vector<float> scaled(const std::vector<Pixel>& points) {
+std::vector<float> scaled(const std::vector<Pixel>& points, double scale) {
   std::vector<float> result;
   result.reserve(points.size() * 2);
   for (const Pixel& point : points) {
-    result.push_back(static_cast<float>(point.x() * kScale));
-    result.push_back(static_cast<float>(point.y() * kScale));
+    result.push_back(static_cast<float>(point.x() * scale));
+    result.push_back(static_cast<float>(point.y() * scale));
   }
   return result;
 }
@@ -72,9 +73,9 @@ void set_justification(vtkTextProperty& property, const TextStyle& style) {
                                                                          : VTK_TEXT_TOP);
 }
 
-void set_up(vtkTextProperty& property, const TextStyle& style) {
+void set_up(vtkTextProperty& property, const TextStyle& style, double scale) {
   property.SetFontFamilyToArial();
-  property.SetFontSize(static_cast<int>(std::lround(style.size_px * kScale)));
+  property.SetFontSize(static_cast<int>(std::lround(style.size_px * scale)));
   property.SetBold(style.bold);
   property.SetColor(style.colour.red / 255.0, style.colour.green / 255.0,
                     style.colour.blue / 255.0);
@@ -94,14 +95,20 @@ std::vector<Pixel> rectangle_along(const Pixel& from, const Pixel& to, double wi
 struct Sheet::State {
   int width_px = 0;
   int height_px = 0;
+  double scale = kSupersampling;
   vtkSmartPointer<vtkRenderWindow> window;
+  vtkSmartPointer<vtkRenderer> ink;
   vtkNew<StrokesItem> strokes;
+  std::vector<Mark> marks;
+  std::vector<Box> scenes;
 };
 
-Sheet::Sheet(int width_px, int height_px) : state_(std::make_unique<State>()) {
+Sheet::Sheet(int width_px, int height_px, double scale) : state_(std::make_unique<State>()) {
   state_->width_px = width_px;
   state_->height_px = height_px;
-  state_->window = offscreen_window(width_px, height_px);
+  state_->scale = scale * kSupersampling;
+  state_->window = offscreen_window(static_cast<int>(std::lround(scale * width_px)),
+                                    static_cast<int>(std::lround(scale * height_px)));
   state_->window->SetNumberOfLayers(3);
   vtkNew<vtkRenderer> paper;
   paper->SetBackground(1.0, 1.0, 1.0);
@@ -109,11 +116,11 @@ Sheet::Sheet(int width_px, int height_px) : state_(std::make_unique<State>()) {
   state_->window->AddRenderer(paper);
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(state_->strokes);
-  vtkNew<vtkRenderer> ink;
-  ink->SetLayer(2);
-  ink->AddActor(actor);
-  actor->GetScene()->SetRenderer(ink);
-  state_->window->AddRenderer(ink);
+  state_->ink = vtkSmartPointer<vtkRenderer>::New();
+  state_->ink->SetLayer(2);
+  state_->ink->AddActor(actor);
+  actor->GetScene()->SetRenderer(state_->ink);
+  state_->window->AddRenderer(state_->ink);
 }
 
 Sheet::~Sheet() = default;
@@ -148,8 +155,9 @@ void Sheet::frame(const Box& box, const LineStyle& style) {
 }
 
 void Sheet::fill(const std::vector<Pixel>& convex_polygon, Colour colour) {
+  state_->marks.push_back({.corners = convex_polygon, .colour = colour, .words = {}, .style = {}});
   state_->strokes->strokes.push_back(
-      [corners = scaled(convex_polygon), colour](vtkContext2D& painter) {
+      [corners = scaled(convex_polygon, state_->scale), colour](vtkContext2D& painter) {
         paint_polygon(painter, corners, colour);
       });
 }
@@ -159,10 +167,13 @@ void Sheet::disc(const Pixel& centre, double radius_px, Colour colour) {
 }
 
 void Sheet::text(const Pixel& place, const std::string& words, const TextStyle& style) {
-  state_->strokes->strokes.push_back([place, words, style](vtkContext2D& painter) {
-    set_up(*painter.GetTextProp(), style);
-    painter.DrawString(static_cast<float>(place.x() * kScale),
-                       static_cast<float>(place.y() * kScale), words);
+  state_->marks.push_back(
+      {.corners = {}, .colour = style.colour, .words = words, .place = place, .style = style});
+  const double scale = state_->scale;
+  state_->strokes->strokes.push_back([place, words, style, scale](vtkContext2D& painter) {
+    set_up(*painter.GetTextProp(), style, scale);
+    painter.DrawString(static_cast<float>(place.x() * scale), static_cast<float>(place.y() * scale),
+                       words);
   });
 }
 
@@ -171,21 +182,46 @@ vtkRenderer& Sheet::scene(const Box& box) {
   renderer->SetViewport(box.left / width_px(), box.bottom / height_px(), box.right() / width_px(),
                         box.top() / height_px());
   renderer->SetLayer(1);
+  state_->scenes.push_back(box);
   state_->window->AddRenderer(renderer);
   return *renderer;
 }
 
 std::string Sheet::png() { return png_of(*state_->window); }
 
+VectorPage Sheet::page() {
+  VectorPage page{width_px(), height_px(), {}, state_->marks};
+  state_->ink->DrawOff();
+  const vtkSmartPointer<vtkImageData> whole = pixels_of(*state_->window);
+  state_->ink->DrawOn();
+  const double scale = state_->scale / kSupersampling;
+  for (const Box& box : state_->scenes) {
+    const auto edge = [&](double at, int most) {
+      return std::clamp(static_cast<int>(std::lround(at * scale)), 0, most);
+    };
+    const int left = edge(box.left, whole->GetDimensions()[0] - 1);
+    const int bottom = edge(box.bottom, whole->GetDimensions()[1] - 1);
+    const int right = std::max(left + 1, edge(box.right(), whole->GetDimensions()[0]));
+    const int top = std::max(bottom + 1, edge(box.top(), whole->GetDimensions()[1]));
+    vtkNew<vtkExtractVOI> crop;
+    crop->SetInputData(whole);
+    crop->SetVOI(left, right - 1, bottom, top - 1, 0, 0);
+    crop->Update();
+    const Box exact{left / scale, bottom / scale, (right - left) / scale, (top - bottom) / scale};
+    page.images.push_back({exact, crop->GetOutput()});
+  }
+  return page;
+}
+
 double text_width_px(const std::string& words, const TextStyle& style) {
   vtkNew<vtkTextProperty> property;
-  set_up(*property, style);
+  set_up(*property, style, kSupersampling);
   property->SetOrientation(0.0);
   int bounds[4] = {0, 0, 0, 0};
   vtkTextRenderer* renderer = vtkTextRenderer::GetInstance();
   if (renderer == nullptr || !renderer->GetBoundingBox(property, words, bounds, /*dpi=*/72))
     return 0.0;
-  return (bounds[1] - bounds[0] + 1) / kScale;
+  return (bounds[1] - bounds[0] + 1) / static_cast<double>(kSupersampling);
 }
 
 std::vector<std::vector<Eigen::Vector3d>> dashes(const std::vector<Eigen::Vector3d>& line,

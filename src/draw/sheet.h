@@ -10,34 +10,11 @@
 #include <vector>
 
 #include "draw/colour.h"
+#include "draw/vector_page.h"
 
 class vtkRenderer;
 
 namespace palpation::draw {
-
-using Pixel = Eigen::Vector2d;
-
-struct Box {
-  double left = 0.0;
-  double bottom = 0.0;
-  double width = 0.0;
-  double height = 0.0;
-  double right() const { return left + width; }
-  double top() const { return bottom + height; }
-  Pixel centre() const { return {left + width / 2.0, bottom + height / 2.0}; }
-};
-
-enum class Horizontal { Left, Centre, Right };
-enum class Vertical { Bottom, Centre, Top };
-
-struct TextStyle {
-  double size_px = 19.0;
-  bool bold = false;
-  Colour colour = kInk;
-  Horizontal horizontal = Horizontal::Left;
-  Vertical vertical = Vertical::Centre;
-  double turned_deg = 0.0;
-};
 
 struct LineStyle {
   double width_px = 1.0;
@@ -47,8 +24,9 @@ struct LineStyle {
 
 class Sheet {
  public:
-  /// Throws NoGraphics.
-  Sheet(int width_px, int height_px);
+  /// Its pixels are units to place things by; drawn it has `scale` times as many. Throws
+  /// NoGraphics.
+  Sheet(int width_px, int height_px, double scale = 1.0);
   ~Sheet();
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;
@@ -71,6 +49,8 @@ class Sheet {
 
   /// The bytes of a PNG file. Throws NoGraphics.
   std::string png();
+  /// What was drawn as shapes and words, and the scenes as images. Throws NoGraphics.
+  VectorPage page();
 
  private:
   struct State;

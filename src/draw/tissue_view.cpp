@@ -17,9 +17,14 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "draw/shapes.h"
+
 namespace palpation::draw {
 namespace {
 
+constexpr double kHatch_px = 12.0;  // across the lines twice the root of a half of that
+constexpr double kHatchLine_px = 1.3;
+constexpr double kVeil = 0.65;
 constexpr double kLayerStep_px = 2.5;  // towards the viewer, from one layer of ink to the next
 
 vtkSmartPointer<vtkPolyData> turned(vtkPolyData& mesh, const View& view) {
@@ -82,56 +87,6 @@ void set_colour(vtkProperty& property, Colour colour) {
   property.SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
-// Polygons that face the viewer.
-class Shapes {
- public:
-  Shapes() { points_->SetDataTypeToDouble(); }
-
-  void disc(const Vec3& centre, double radius) {
-    for (const Pixel& corner : circle(centre.head<2>(), radius))
-      corners_.push_back(points_->InsertNextPoint(corner.x(), corner.y(), centre.z()));
-    close();
-  }
-
-  void strip(const Vec3& from, const Vec3& to, double width) {
-    const Vec3 along = to - from;
-    const Vec3 across = Vec3(-along.y(), along.x(), 0.0);
-    if (across.norm() == 0.0) return;
-    const Vec3 half = across.normalized() * (width / 2.0);
-    for (const Vec3& corner :
-         {Vec3(from - half), Vec3(to - half), Vec3(to + half), Vec3(from + half)}) {
-      corners_.push_back(points_->InsertNextPoint(corner.data()));
-    }
-    close();
-  }
-
-  void line(const std::vector<Vec3>& points, double width) {
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      strip(points[i], points[i + 1], width);
-      if (i > 0) disc(points[i], width / 2.0);
-    }
-    const bool closed = points.size() > 2 && points.front() == points.back();
-    if (closed) disc(points.front(), width / 2.0);
-  }
-
-  vtkSmartPointer<vtkPolyData> polygons() const {
-    auto result = vtkSmartPointer<vtkPolyData>::New();
-    result->SetPoints(points_);
-    result->SetPolys(cells_);
-    return result;
-  }
-
- private:
-  void close() {
-    cells_->InsertNextCell(static_cast<vtkIdType>(corners_.size()), corners_.data());
-    corners_.clear();
-  }
-
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> cells_;
-  std::vector<vtkIdType> corners_;
-};
-
 }  // namespace
 
 TissueScene::TissueScene(vtkRenderer& renderer, const View& view, const Box& box)
@@ -189,6 +144,39 @@ void TissueScene::paint_zones(const Outcome& outcome, double band_score) {
   paint(*inner.above, kSurelyTumour);
   paint(*inner.below, kUnsure);
   paint(*outer.below, kHealthy);
+}
+
+void TissueScene::draw_not_searched(const Outcome& outcome) {
+  if (outcome.is_searched()) return;
+  const vtkSmartPointer<vtkPolyData> mesh = turned(*outcome.surface, view_);
+  add_field(*mesh, "beyond", *outcome.field(kBeyondSearch), 0.0);
+  const vtkSmartPointer<vtkPolyData> part = cut_at_zero(*mesh, "beyond").above;
+  const Vec3 lift(0.0, 0.0, lift_next_layer());
+  vtkNew<vtkPolyData> veil;
+  veil->DeepCopy(part);
+  vtkNew<vtkDoubleArray> stripe;
+  stripe->SetName("stripe");
+  Vec3 place;
+  for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i) {
+    part->GetPoint(i, place.data());
+    stripe->InsertNextValue((place.x() + place.y()) / (kHatch_px * mm_per_px_));
+    veil->GetPoints()->SetPoint(i, (place + lift).eval().data());
+  }
+  part->GetPointData()->SetScalars(stripe);
+  add_veil(*veil);
+  add_unlit(*hatching(*part, lift_next_layer(), kHatchLine_px * mm_per_px_), kGrey);
+}
+
+void TissueScene::add_veil(vtkPolyData& part) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(&part);
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  set_colour(*actor->GetProperty(), kPaleGrey);
+  set_light(*actor->GetProperty(), /*lit=*/false);
+  actor->GetProperty()->SetOpacity(kVeil);
+  renderer_.AddActor(actor);
 }
 
 void TissueScene::draw_curves(const Outcome& outcome, const std::string& kind,

@@ -23,6 +23,8 @@ class TissueScene {
   void paint_margins(const Outcome& outcome, double estimate_level, double truth_level);
   /// Three colours: where the score is above the band, in it, and below.
   void paint_zones(const Outcome& outcome, double band_score);
+  /// A grey veil with hatching where no reading that counts is near.
+  void draw_not_searched(const Outcome& outcome);
   void draw_curves(const Outcome& outcome, const std::string& kind, const LineStyle& style);
   /// The rim of the tissue.
   void draw_border(const LineStyle& style);
@@ -35,6 +37,7 @@ class TissueScene {
   double lift_next_layer();
   void paint(vtkPolyData& part, Colour colour);
   void add_unlit(vtkPolyData& shapes, Colour colour);
+  void add_veil(vtkPolyData& part);
 
   vtkRenderer& renderer_;
   View view_;

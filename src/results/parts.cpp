@@ -18,9 +18,8 @@ constexpr const char* kBeyond = "beyond_search";
 /// exceeds.
 class Readings {
  public:
-  explicit Readings(const std::vector<Touch>& touches) {
-    for (const Touch& touch : touches)
-      if (touch.counts()) cubes_[cube_of(touch.place)].push_back(touch.place);
+  explicit Readings(const std::vector<Vec3>& places) {
+    for (const Vec3& place : places) cubes_[cube_of(place)].push_back(place);
   }
 
   double nearest_m(const Vec3& place) const {
@@ -84,12 +83,19 @@ VtpShape band_of(const Run& run) {
   return clipped(outer, "score", *score, Side::AtMost);
 }
 
-std::vector<double> beyond_search(const Run& run) {
-  const Readings readings(run.touches);
+std::vector<double> beyond_search(const Points& places, const std::vector<Vec3>& readings) {
+  const Readings near(readings);
   std::vector<double> beyond;
-  for (Eigen::Index i = 0; i < run.tissue.mesh.vertices.rows(); ++i)
-    beyond.push_back(readings.nearest_m(run.tissue.mesh.vertices.row(i)) - kSearched_m);
+  for (Eigen::Index i = 0; i < places.rows(); ++i)
+    beyond.push_back(near.nearest_m(places.row(i)) - kSearched_m);
   return beyond;
+}
+
+std::vector<double> beyond_search(const Run& run) {
+  std::vector<Vec3> readings;
+  for (const Touch& touch : run.touches)
+    if (touch.counts()) readings.push_back(touch.place);
+  return beyond_search(run.tissue.mesh.vertices, readings);
 }
 
 VtpShape not_searched_of(const Run& run) {

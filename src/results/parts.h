@@ -28,6 +28,8 @@ VtpShape not_searched_of(const Run& run);
 /// The same at the vertices: how much farther than kSearched_m the nearest reading that counts is,
 /// metres; negative where one is near, and no more than kSearched_m.
 std::vector<double> beyond_search(const Run& run);
+/// The same of any places and the readings that count.
+std::vector<double> beyond_search(const Points& places, const std::vector<Vec3>& readings);
 
 /// How much of the tissue's area there is, and how much of it that is.
 struct SearchedArea {

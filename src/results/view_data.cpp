@@ -6,6 +6,7 @@
 
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
+#include "results/limits.h"
 #include "results/pack.h"
 #include "results/parts.h"
 #include "results/tour.h"
@@ -16,7 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kMm = 1e3;
-constexpr double kBeyondShare = 0.005;
 constexpr std::size_t kRoomForStates = 1'700'000;  // values, one byte each before they are text
 
 /// Fields as a picture takes them: what the boundary is cut from, where there is a trend.
@@ -167,18 +167,14 @@ json corner_mm(const Vec3& corner) {
 }  // namespace
 
 json colour_limits(const Run& run) {
-  const std::vector<double> mean = values_of(mean_of(run.tissue));
-  const double low = quantile(mean, kBeyondShare), high = quantile(mean, 1.0 - kBeyondShare);
-  const std::optional<double> level = run.number({"level"});
-  const double middle = level.value_or(0.5 * (low + high));
-  // Where nothing was found, the ripples of noise must not look like a tumour.
-  const double least = level ? 0.0 : 3.0 * run.number({"learned", "noise_sd"}).value_or(0.0);
-  const double half = std::max({high - middle, middle - low, least, 1e-12});
-  json limits = {{"mean", {middle - half, middle + half}}, {"probability_inside", {0.0, 1.0}}};
+  const Limits mean = limits_of_mean(values_of(mean_of(run.tissue)), run.number({"level"}),
+                                     run.number({"learned", "noise_sd"}).value_or(0.0));
   const Field* stddev = run.tissue.field("stddev");
-  const double most = stddev != nullptr ? quantile(values_of(*stddev), 1.0 - kBeyondShare) : 0.0;
-  limits["stddev"] = {0.0, std::max(most, 1e-12)};
-  return limits;
+  const Limits sd =
+      limits_from_zero(stddev != nullptr ? values_of(*stddev) : std::vector<double>());
+  return {{"mean", {mean.lowest, mean.highest}},
+          {"stddev", {sd.lowest, sd.highest}},
+          {"probability_inside", {0.0, 1.0}}};
 }
 
 json view_data(const Run& run) {

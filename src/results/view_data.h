@@ -14,9 +14,7 @@ inline constexpr Eigen::Index kMostVertices = 400'000;
 /// all; where there are more, evenly spaced ones.
 nlohmann::json view_data(const Run& run);
 
-/// Between which values colours run, by the tissue's fields: one reading far from all others does
-/// not flatten the rest, since half a percent of the tissue at either end may lie beyond. The
-/// mean's are as far below the level as above it.
+/// Between which values colours run, by the names of the fields (limits.h).
 nlohmann::json colour_limits(const Run& run);
 
 }  // namespace palpation::results

@@ -191,6 +191,9 @@ void RunFolder::add_growing(const std::string& name, const Write& write) {
   stage(name, write);
   const std::unique_lock lock(guard_);
   refuse_what_is_not_ours(name);
+  // Whoever is killed before it is renamed leaves the one before.
+  if (const auto before = record_.files.find(name); before != record_.files.end())
+    record_.replaces[name] = before->second;
   enter(name);
   record(record_.state);
   move_in(name);

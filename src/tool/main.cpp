@@ -11,6 +11,7 @@
 #include "scene/interrupt.h"
 #include "scene/scene_schema.h"
 #include "tool/commands.h"
+#include "tool/draw_command.h"
 #include "tool/export_command.h"
 #include "tool/mesh_options.h"
 #include "tool/option_checks.h"
@@ -227,6 +228,7 @@ int run_tool(int count, char** words) {
   add_session_command(app);
   add_export_command(app);
   add_report_command(app);
+  add_draw_command(app);
   add_experiment_command(app, arguments);
   add_help_command(app);
   for (CLI::App* command : app.get_subcommands({}))

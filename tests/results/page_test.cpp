@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "results/limits.h"
 #include "results/pack.h"
 #include "results/sha256.h"
 
@@ -75,6 +76,27 @@ TEST(Quantile, IsNotMovedByOneValueFarFromAllOthers) {
   EXPECT_EQ(quantile(values, 0.995), 7.0);
   EXPECT_EQ(quantile(values, 1.0), 1e9);
   EXPECT_EQ(quantile({}, 0.5), 0.0);
+}
+
+TEST(Limits, OfAMeanAreNotMovedByOneReadingFarFromAllOthers) {
+  std::vector<double> mean(1000, 7.0);
+  for (std::size_t i = 0; i < 100; ++i) mean[i] = 9.0;
+  const Limits calm = limits_of_mean(mean, 8.0, 0.0);
+  EXPECT_EQ(calm.lowest, 7.0);
+  EXPECT_EQ(calm.highest, 9.0);
+  for (std::size_t i = 500; i < 515; ++i) mean[i] = 90.0;  // what one reading moves
+  const Limits hot = limits_of_mean(mean, 8.0, 0.0);
+  EXPECT_EQ(hot.lowest, 7.0);
+  EXPECT_EQ(hot.highest, 9.0);
+}
+
+TEST(Limits, WithoutALevelAreNoNarrowerThanTheNoise) {
+  const Limits limits = limits_of_mean({7.0, 7.01, 6.99}, std::nullopt, 0.5);
+  EXPECT_NEAR(limits.lowest, 5.5, 1e-12);
+  EXPECT_NEAR(limits.highest, 8.5, 1e-12);
+  EXPECT_EQ(limits_from_zero({0.2, 0.4, 0.3}).lowest, 0.0);
+  EXPECT_EQ(limits_from_zero({0.2, 0.4, 0.3}).highest, 0.4);
+  EXPECT_GT(limits_from_zero({}).highest, 0.0);
 }
 
 }  // namespace

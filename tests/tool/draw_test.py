@@ -3,11 +3,13 @@
 
 import json
 import pathlib
+import re
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 import zlib
 
 PALPATE = pathlib.Path(sys.argv[1]).resolve()
@@ -95,6 +97,77 @@ class Draw(unittest.TestCase):
         nothing = share_of(self.picture_of("simulate", "nothing", "--set", "probe.tumours=[]"), is_strong)
         self.assertGreater(found, 0.1)
         self.assertLess(nothing, 0.3 * found)
+
+
+    def test_what_was_not_searched_is_greyed(self):
+        (self.folder / "corner.csv").write_text("x,y,z,reading\n" + "".join(f"0.00{i},0.00{j},0,{7 + 0.01 * ((3 * i + j) % 4)}\n" for i in range(4) for j in range(4)))
+        (self.folder / "grid.csv").write_text("x,y,z,reading\n" + "".join(f"{0.004 * i:.3f},{0.004 * j:.3f},0,{7 + 0.01 * ((3 * i + j) % 4)}\n" for i in range(6) for j in range(6)))
+
+        def veiled(red, green, blue):
+            return max(red, green, blue) - min(red, green, blue) < 16 and 185 < red < 235
+
+        corner = share_of(self.picture_of("boundary", "corner", "--measurements", self.folder / "corner.csv"), veiled)
+        grid = share_of(self.picture_of("boundary", "grid", "--measurements", self.folder / "grid.csv"), veiled)
+        self.assertGreater(corner, grid + 0.1)
+
+    def draw(self, *arguments):
+        result = subprocess.run([PALPATE, "draw", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_a_figure_has_the_size_that_is_asked_for_and_each_format_its_words(self):
+        self.picture_of("simulate", "run", "--set", "reading_unit=N/mm")
+        run = self.folder / "run"
+        self.draw(run, "--out", self.folder / "all.png", "--width-mm", 127, "--dpi", 200)
+        self.assertEqual(pixels_of(self.folder / "all.png")[0], 1000)
+        self.draw(run, "--format", "svg", "--panels", "mean")
+        drawn = xml.etree.ElementTree.parse(run / "figure.svg").getroot()
+        space = "{http://www.w3.org/2000/svg}"
+        self.assertEqual(drawn.get("width"), "180.00mm")
+        words = [text.text for text in drawn.iter(f"{space}text")]
+        self.assertIn("Estimated stiffness (posterior mean)", words)
+        self.assertNotIn("Posterior standard deviation", words)
+        self.assertTrue(any("N/mm" in text for text in words), words)
+        (image,) = drawn.iter(f"{space}image")
+        self.assertTrue(image.get("href").startswith("data:image/png;base64,"))
+        self.draw(run, "--out", self.folder / "all.pdf")
+        pdf = (self.folder / "all.pdf").read_bytes()
+        self.assertTrue(pdf.startswith(b"%PDF-1.4") and pdf.endswith(b"%%EOF\n"))
+        at = int(pdf.rsplit(b"startxref\n", 1)[1].split()[0])
+        self.assertTrue(pdf[at:].startswith(b"xref\n"))
+        for number, line in enumerate(pdf[at:].split(b"trailer")[0].splitlines()[3:], 1):
+            self.assertTrue(pdf[int(line[:10]):].startswith(b"%d 0 obj" % number))
+        content = zlib.decompress(pdf.split(b"stream\n", 1)[1])
+        self.assertIn(b"(Posterior standard deviation) Tj", content)
+        self.assertIn(b"N/mm", content)
+
+    def test_runs_side_by_side_have_common_colours_and_their_names(self):
+        self.picture_of("simulate", "soft")
+        self.picture_of("simulate", "hard", "--set", "probe.high=12")
+        scales = []
+        for extra in ((), ("--limits", 6, 11)):
+            out = self.folder / f"both{len(extra)}.svg"
+            self.draw(self.folder / "soft", self.folder / "hard", "--panels", "mean", "--out", out, *extra)
+            words = [text.text for text in xml.etree.ElementTree.parse(out).getroot().iter("{http://www.w3.org/2000/svg}text")]
+            self.assertTrue({"soft", "hard"} <= set(words))
+            scales.append(words)
+            ticks = [word for word in words if re.fullmatch(r"[0-9.]+", word)]
+            self.assertEqual(len([word for word in words if word == "Estimated stiffness (posterior mean)"]), 2)
+            self.assertTrue(all(ticks.count(tick) >= 2 for tick in ticks), "both have the same axes and colours")
+        self.assertNotEqual(*scales)
+
+    def test_a_figure_is_refused_in_words(self):
+        self.picture_of("simulate", "run")
+        (self.folder / "mine.svg").write_text("what a person wrote\n")
+        for code, arguments, words in ((3, (self.folder / "run", "--out", self.folder / "mine.svg"), "is there already"),
+                                       (2, (self.folder / "run", "--out", self.folder / "a.gif"), "must end with .png, .svg or .pdf"),
+                                       (2, (self.folder / "run", "--out", self.folder / "a.png", "--format", "pdf"), "contradict each other"),
+                                       (2, (self.folder / "run", self.folder / "run"), "name its file by --out"),
+                                       (2, (self.folder / "run", "--limits", 9, 7), "the first must be below the second"),
+                                       (3, (self.folder, "--out", self.folder / "a.png"), "holds no run of palpate")):
+            result = subprocess.run([PALPATE, "draw", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn(words, result.stderr)
+        self.assertEqual((self.folder / "mine.svg").read_text(), "what a person wrote\n")
 
 
 if __name__ == "__main__":
