@@ -24,6 +24,11 @@ foreach(tool palpate palpate-draw)
   endif()
 endforeach()
 
+if(TARGET palpate_told)
+  install(FILES ${PROJECT_BINARY_DIR}/told/palpate.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT palpation)
+  install(FILES ${PROJECT_BINARY_DIR}/told/palpate DESTINATION share/bash-completion/completions COMPONENT palpation)
+endif()
+
 # Only when it is asked for by name: where an interpreter looks is not below any prefix.
 if(TARGET palpation_python)
   set(palpation_python_dir lib/python3/dist-packages/palpation)

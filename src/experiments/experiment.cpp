@@ -43,6 +43,7 @@ bool printed_scenes(std::span<const Cell> cells, const ExperimentArguments& argu
   for (const Cell& cell : cells) {
     if (!cell.alone) all.push_back({{"cell", cell.name}, {"scene", cell.scene.given()}});
   }
+  if (all.size() == 1) all = json(all.front().at("scene"));  // a scene, which simulate takes
   std::printf("%s\n", all.dump(2, ' ', false, json::error_handler_t::replace).c_str());
   return true;
 }

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 struct Experiment {
   const char* name;
+  const char* what;
   Study (*study)(const ExperimentArguments& arguments);
   void (*report)(const Results& results, const ReportFolder& folder);
   int trials = 5;
@@ -29,16 +30,24 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
-    {"table1", table1_study, report_table1, 5, true},
-    {"figure4", figure4_study, report_figure4},
-    {"table2", table2_study, report_table2, 5, true},
-    {"coverage", coverage_study, report_coverage},
-    {"detection", detection_study, report_detection},
-    {"recordings", recordings_study, report_recordings},
-    {"curved", curved_study, report_curved, 5, true},
-    {"acquisitions", acquisitions_study, report_acquisitions},
-    {"tradeoff", tradeoff_study, report_tradeoff, 20},
-    {"study", users_study, report_users_study, 5, true},
+    {"table1", "the paper's Table I, rerun", table1_study, report_table1, 5, true},
+    {"figure4", "its convergence, drawn", figure4_study, report_figure4},
+    {"table2", "the physical experiments in simulation: late readings, and those on the way",
+     table2_study, report_table2, 5, true},
+    {"coverage", "how often the band holds tumours of random shape", coverage_study,
+     report_coverage},
+    {"detection", "false alarms on healthy tissue, and missed tumours", detection_study,
+     report_detection},
+    {"recordings", "the real robot's recordings, where you have them", recordings_study,
+     report_recordings},
+    {"curved", "curved tissue by each metric of the field: what it is worth, what it costs",
+     curved_study, report_curved, 5, true},
+    {"acquisitions", "which criterion is best where the level is unknown", acquisitions_study,
+     report_acquisitions},
+    {"tradeoff", "what each way to be faster costs on your scene", tradeoff_study, report_tradeoff,
+     20},
+    {"study", "a scene with lists of values and a folder of meshes: cells of your own", users_study,
+     report_users_study, 5, true},
 };
 
 /// Tables and pictures begin with the experiment's name.
@@ -85,6 +94,18 @@ std::vector<std::string> experiment_names() {
   for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
   names.emplace_back("merge");
   return names;
+}
+
+void list_experiments(const ExperimentArguments& arguments) {
+  if (!arguments.name.empty()) {
+    const Study study = experiment_called(arguments.name).study(arguments);
+    for (const Cell& cell : study.printed.empty() ? study.cells : study.printed)
+      std::printf("%s\n", cell.name.c_str());
+    return;
+  }
+  for (const Experiment& experiment : kExperiments)
+    std::printf("%-13s %s\n", experiment.name, experiment.what);
+  std::printf("%-13s %s\n", "merge", "shards of any of them, added up");
 }
 
 void experiment(const ExperimentArguments& arguments, Existing existing) {

@@ -28,6 +28,8 @@ void experiment(const ExperimentArguments& arguments, Existing results);
 /// Adds up the folders that hold the shards of one experiment, and reports it.
 void merge_experiment(const std::vector<std::filesystem::path>& folders,
                       const std::filesystem::path& out, Existing results);
+/// Prints the experiments that there are, or of one the names of its cells.
+void list_experiments(const ExperimentArguments& arguments);
 /// The experiments that there are, and merge.
 std::vector<std::string> experiment_names();
 

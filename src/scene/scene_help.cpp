@@ -66,12 +66,28 @@ void describe(std::ostringstream& out, const SceneKey& key, const std::string& i
   out << "\n";
 }
 
+void describe_shape(std::ostringstream& out, const std::string& shape) {
+  out << "\nA tumour with \"shape\": \"" << shape << "\"\n";
+  for (const SceneKey& key : tumour_keys(shape)) describe(out, key, "    ");
+}
+
 }  // namespace
 
 std::string range_text(const SceneKey& key) {
   const std::string range =
       key.least == key.most ? plain(key.least) : plain(key.least) + " to " + plain(key.most);
   return (key.zero_too ? "0, or " : "") + range;
+}
+
+std::string key_help(const std::string& path) {
+  std::ostringstream out;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.path != path && !key.path.starts_with(path + ".")) continue;
+    describe(out, key, "");
+    if (key.kind != ValueKind::Tumours) continue;
+    for (const std::string& shape : tumour_shapes()) describe_shape(out, shape);
+  }
+  return out.str();
 }
 
 std::string scene_help() {
@@ -88,10 +104,7 @@ std::string scene_help() {
     group = here;
     describe(out, key, "");
   }
-  for (const std::string& shape : tumour_shapes()) {
-    out << "\nA tumour with \"shape\": \"" << shape << "\"\n";
-    for (const SceneKey& key : tumour_keys(shape)) describe(out, key, "    ");
-  }
+  for (const std::string& shape : tumour_shapes()) describe_shape(out, shape);
   return out.str();
 }
 

@@ -311,6 +311,12 @@ std::vector<SceneKey> make_scene_keys() {
       number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0,
              "height of the approach point above the tissue"),
       number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),
+      number("robot.spring_n_per_m", "N/m", 0.0, 1e9, 80.0,
+             "of the probe's tip: what waypoints.csv expects of the force follows from it and "
+             "robot.indent_mm"),
+      number("robot.margin_mm", "mm", 0.0, 1000.0, 0.0,
+             "no stop comes nearer to the tissue's border than this, along the tissue, where a "
+             "probe may slip off; 0: it may"),
       numbers("robot.shaft_direction", 3, "", -kMostDirection, kMostDirection, nullptr,
               "from the tissue along the probe's shaft, in the robot's frame: only tissue whose "
               "normal is near it is touched; left out: all"),

@@ -60,6 +60,8 @@ std::string nearest_key(const std::string& unknown, const std::vector<SceneKey>&
 
 /// What `palpate help scene` prints.
 std::string scene_help();
+/// What `palpate help KEY` prints, of a key or a group of them; empty where there is none.
+std::string key_help(const std::string& path);
 /// The numbers that a key allows, in words.
 std::string range_text(const SceneKey& key);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "palpation/base/error.h"
+#include "palpation/geometry/distance.h"
 #include "scene/tumours.h"
 #include "scene/words.h"
 
@@ -94,6 +95,32 @@ void check_precision(const Scene& scene, const FieldModel& field) {
                  "is single, which needs noise of 3.2 % of the signal at least: take double");
 }
 
+/// The tissue's border: its vertices, and the middles of its edges.
+std::vector<SurfacePoint> border_of(const Surface& surface) {
+  std::vector<SurfacePoint> places;
+  for (int face = 0; face < surface.face_count(); ++face) {
+    for (int corner = 0; corner < 3; ++corner) {
+      if (surface.neighbour(face, corner) >= 0) continue;
+      SurfacePoint middle{face, Vec3::Zero()};
+      middle.barycentric[corner] = middle.barycentric[(corner + 1) % 3] = 0.5;
+      places.push_back(middle);
+      places.push_back(surface.at_vertex(surface.triangle(face)[corner]));
+    }
+  }
+  return places;
+}
+
+/// A probe may slip off at the tissue's border.
+void leave_out_margin(const Scene& scene, const Surface& surface, std::vector<int>& vertices) {
+  const double margin_m = scene.metres("robot.margin_mm");
+  const std::vector<SurfacePoint> border = border_of(surface);
+  if (margin_m == 0.0 || border.empty()) return;
+  const Field distance = distance_from(surface, border, margin_m);
+  std::erase_if(vertices, [&](int vertex) { return distance[vertex] < margin_m; });
+  if (vertices.empty())
+    scene.refuse_value("robot.margin_mm", "less: no tissue is left that far from its border");
+}
+
 LevelRule level_rule_of(const Scene& scene) {
   LevelRule rule;
   rule.fraction = scene.number("level.fraction");
@@ -159,6 +186,7 @@ Robot robot_of(const Scene& scene) {
   for (int i = 0; i < 16; ++i) robot.from_tissue(i / 4, i % 4) = rows[i];
   robot.standoff_m = scene.metres("robot.standoff_mm");
   robot.indent_m = scene.metres("robot.indent_mm");
+  robot.spring_n_per_m = scene.number("robot.spring_n_per_m");
   try {
     check(robot);
   } catch (const InvalidInput& error) {
@@ -182,7 +210,7 @@ Access access_of(const Scene& scene) {
 
 bool limits_reach(const Scene& scene) {
   return scene.gives("robot.shaft_direction") || scene.metres("robot.clearance_mm") > 0.0 ||
-         !scene.points_mm("plan.keep_out_mm").empty();
+         !scene.points_mm("plan.keep_out_mm").empty() || scene.metres("robot.margin_mm") > 0.0;
 }
 
 std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface) {
@@ -199,6 +227,7 @@ std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& 
     });
   }
   if (vertices.empty()) scene.refuse("plan.keep_out_mm", "leaves no tissue that can be touched");
+  leave_out_margin(scene, surface, vertices);
   return vertices;
 }
 

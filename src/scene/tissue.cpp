@@ -18,6 +18,8 @@
 namespace palpation::tool {
 namespace {
 
+constexpr double kFarthestRobot_m = 10.0;
+
 constexpr double kMostTriangles = 8e6;
 constexpr double kMostLengthRatio = 1e6;
 
@@ -165,9 +167,11 @@ TriangleMesh patched_and_refined(const Scene& scene, TriangleMesh mesh) {
 void check_all(const Scene& scene) {
   const std::string strategy = scene.word("plan.acquisition");
   if (limits_reach(scene) && (strategy == "raster" || strategy == "refinement"))
-    scene.refuse("plan.acquisition", "is " + strategy +
-                                         ", a scan that takes no account of robot.shaft_direction, "
-                                         "robot.clearance_mm and plan.keep_out_mm: leave them out");
+    scene.refuse("plan.acquisition",
+                 "is " + strategy +
+                     ", a scan that takes no account of robot.shaft_direction, "
+                     "robot.clearance_mm, robot.margin_mm and plan.keep_out_mm: "
+                     "leave them out");
   model_of(scene);
   plan_of(scene);
   robot_of(scene);
@@ -198,7 +202,9 @@ void warn_of_hidden_tissue(const Scene& scene, Tissue& tissue) {
 
 void warn_of_reach(const Scene& scene, Tissue& tissue) {
   const std::optional<std::vector<int>> reached = reachable_of(scene, tissue.surface);
-  if (!reached) return warn_of_hidden_tissue(scene, tissue);
+  if (scene.metres("robot.clearance_mm") == 0.0 && !scene.gives("robot.shaft_direction"))
+    warn_of_hidden_tissue(scene, tissue);
+  if (!reached) return;
   double reached_m2 = 0.0;
   for (const int vertex : *reached) reached_m2 += tissue.surface.vertex_areas()[vertex];
   const double percent = 100.0 * (1.0 - reached_m2 / tissue.surface.area());
@@ -241,6 +247,16 @@ std::string length_warning(const Scene& scene, const Surface& surface) {
          " mm across: with field.metric intrinsic the field can hardly vary over it.";
 }
 
+/// A translation in millimetres plans a thousand times too far away.
+std::string translation_warning(const Scene& scene) {
+  const Vec3 translation = robot_of(scene).from_tissue.topRightCorner<3, 1>();
+  const double length_m = translation.cwiseAbs().maxCoeff();
+  if (length_m <= kFarthestRobot_m) return "";
+  return scene.name() + ": robot.from_tissue: its translation of " + text_of(length_m) +
+         " m is farther than robots of this kind reach. It is in metres: was it meant in "
+         "millimetres?";
+}
+
 /// Where lengths in the chart are not those on the tissue, a metric that takes them for it
 /// misleads.
 std::string stretch_warning(const Scene& scene, const Surface& surface) {
@@ -266,7 +282,8 @@ Tissue tissue_of(const Scene& scene) {
   check_size(scene, tissue.surface);
   warn_of_reach(scene, tissue);
   for (const std::string& warning :
-       {stretch_warning(scene, tissue.surface), length_warning(scene, tissue.surface)}) {
+       {translation_warning(scene), stretch_warning(scene, tissue.surface),
+        length_warning(scene, tissue.surface)}) {
     if (!warning.empty()) tissue.warnings.push_back(warning);
   }
   return tissue;

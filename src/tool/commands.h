@@ -42,6 +42,7 @@ struct MeshArguments {
 };
 
 void simulate(const SceneArguments& arguments);
+/// An empty path: nothing was measured yet.
 void plan(const SceneArguments& arguments, const std::filesystem::path& measurements);
 void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements);
 void replay(const SceneArguments& arguments, const std::vector<std::filesystem::path>& recordings);

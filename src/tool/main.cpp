@@ -9,10 +9,10 @@
 #include "palpation/base/parallel.h"
 #include "scene/exit_code.h"
 #include "scene/interrupt.h"
-#include "scene/scene_schema.h"
 #include "tool/commands.h"
 #include "tool/draw_command.h"
 #include "tool/export_command.h"
+#include "tool/help_command.h"
 #include "tool/mesh_options.h"
 #include "tool/option_checks.h"
 #include "tool/readings_options.h"
@@ -82,11 +82,9 @@ void add_scene_commands(CLI::App& app, Arguments& arguments) {
 
   CLI::App* planning =
       scene_command(app, arguments, "plan", "Where to touch next, from what was measured so far");
-  planning
-      ->add_option("--measurements", arguments.measurements,
-                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
-                   "robot.from_tissue says")
-      ->required();
+  planning->add_option("--measurements", arguments.measurements,
+                       "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
+                       "robot.from_tissue says; left out: nothing was measured yet");
   planning->callback([&] { plan(arguments.scene, arguments.measurements); });
 
   CLI::App* bounding =
@@ -136,6 +134,8 @@ void add_info_command(CLI::App& app, Arguments& arguments) {
 
 void experiment_or_merge(Arguments& arguments) {
   ExperimentArguments& asked = arguments.experiment;
+  if (asked.name.empty())
+    throw WrongUsage("experiment: NAME is required: palpate experiment --list lists them");
   const Existing results = arguments.overwrite ? Existing::Replaced : Existing::Kept;
   if (asked.name == "merge") {
     if (arguments.inputs.empty())
@@ -152,7 +152,6 @@ void experiment_or_merge(Arguments& arguments) {
 void add_experiment_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials");
   command->add_option("NAME", arguments.experiment.name, "which; or merge, to add up shards")
-      ->required()
       ->check(CLI::IsMember(experiment_names()));
   command->add_option("SCENE", arguments.inputs,
                       "in place of the paper's phantom; of study its file; of merge the shards' "
@@ -181,7 +180,10 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--recordings", arguments.experiment.recordings,
                       "for experiment recordings: the folder with the physical recordings");
   command->add_flag("--print-scene", arguments.experiment.print_scene,
-                    "print the scene of every cell instead of running it");
+                    "print the scene of every cell instead of running it; of one cell a scene that "
+                    "simulate takes");
+  const CLI::Option* list = command->add_flag("--list")->description(
+      "list the experiments; with a name, the cells of that one");
   add_out(*command, arguments.experiment.out, "folder for the table and the picture");
   command->add_flag("--overwrite", arguments.overwrite,
                     "begin anew in a folder that holds another experiment");
@@ -190,16 +192,10 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
                    "trials run at once; the results do not depend on it")
       ->check(whole(1, 1024));
   command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
-  command->callback([&] { experiment_or_merge(arguments); });
-}
-
-void add_help_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("help", "Explain the keys of a scene: palpate help scene");
-  command
-      ->add_option_function<std::string>(
-          "TOPIC", [](const std::string&) {}, "scene")
-      ->check(CLI::IsMember({"scene"}));
-  command->callback([] { std::fputs(scene_help().c_str(), stdout); });
+  command->callback([&arguments, list] {
+    if (list->count() > 0) return list_experiments(arguments.experiment);
+    experiment_or_merge(arguments);
+  });
 }
 
 int explain(const char* words, int code) {

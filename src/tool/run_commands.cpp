@@ -134,7 +134,8 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   check_plans(scene);
   const Tissue tissue = tissue_of(scene);
   tell(tissue.warnings);
-  const MeasurementsFile measured = measured_in(scene, tissue.surface, measurements);
+  MeasurementsFile measured;  // nothing, at the very start
+  if (!measurements.empty()) measured = measured_in(scene, tissue.surface, measurements);
   std::unique_ptr<OutputFolder> output =
       output_of(arguments, "plan", scene, tissue, measured.warnings);
   if (!measured.has_batches && !measured.palpations.empty()) {

@@ -70,7 +70,7 @@ class Robustness(unittest.TestCase):
             (("simulat",), ""),
             (("simulate",), "SCENE is required"),
             ((*scene, self.scene), "not expected"),
-            (("plan", self.scene), "--measurements is required"),
+            (("boundary", self.scene), "--measurements is required"),
             (("replay", self.scene), "--recording is required"),
             (("compare", self.scene, self.square), "B is required"),
             (("info",), "FILE is required"),
