@@ -18,7 +18,7 @@ import tempfile
 FLOORS = [
     ["base"],
     ["geometry"],
-    ["readings", "probing"],
+    ["readings", "probing", "robot"],
     ["belief", "boundary"],
     ["decision", "certainty", "world"],
     ["exploration"],

@@ -327,6 +327,38 @@ std::vector<SceneKey> make_scene_keys() {
       number("robot.probe_radius_mm", "mm", 0.0, 100.0, 0.0,
              "of the probe, whose tip is round: over robot.clearance_mm it must have room as well; "
              "0: a line"),
+      number(
+          "robot.uncertainty_mm", "mm", 0.01, 100.0, 1.0,
+          "how far, along its normal, the tissue may lie from where it is taken to be: it widens "
+          "the stretch that the gate lets the probe search for contact, and nothing else"),
+      text("robot.frame",
+           "the frame_id of the arm's poses; the gate refuses any other; left out: none is named"),
+      number("robot.limits.contact_n", "N", 1e-3, 1e3, 0.1, "from here on the tip touches"),
+      number("robot.limits.warn_n", "N", 1e-3, 1e3, 2.0,
+             "from here on the gate lets the tip only go back; above contact_n"),
+      number("robot.limits.hold_n", "N", 1e-3, 1e3, 5.0,
+             "from here on the arm holds until a person acknowledges; above warn_n"),
+      number(
+          "robot.limits.stiffest_n_per_mm", "N/mm", 1e-3, 1e4, 5.0,
+          "of the tissue: what it adds at contact speed while data get old must lead from warn_n "
+          "to hold_n at most"),
+      number("robot.limits.frozen_ms", "ms", 0.0, 1e4, 80.0,
+             "a force that is the same to the last digit for so long, while the tip looks for "
+             "contact or presses, is of a sensor that is stuck; 0: it may be"),
+      number("robot.limits.air_mm_per_s", "mm/s", 0.01, 1e3, 30.0, "fastest over the tissue"),
+      number("robot.limits.contact_mm_per_s", "mm/s", 0.01, 1e3, 5.0,
+             "fastest in search of contact, pressing and going back"),
+      number("robot.limits.step_mm", "mm", 1e-3, 100.0, 1.0, "from one set point to the next"),
+      number("robot.limits.astray_mm", "mm", 0.01, 100.0, 2.0,
+             "farthest of the tip from where it was sent"),
+      number("robot.limits.extra_indent_mm", "mm", 1e-3, 100.0, 1.0,
+             "deepest beyond robot.indent_mm, from where it touched"),
+      number("robot.limits.cone_deg", "degrees", 0.1, 89.0, 20.0,
+             "greatest angle between the probe's axis and the tissue's inward normal at a touch"),
+      number("robot.limits.data_age_ms", "ms", 1.0, 1e4, 50.0, "oldest pose and force"),
+      numbers("robot.limits.box_mm", 6, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
+              "the tip stays in this box in the robot's frame, from its least corner to its "
+              "greatest; left out: 20 mm and the way in and out around the tissue"),
       word("error.arithmetic", {"exact", "plain"}, "exact",
            "of the error against a known truth: exact Booleans of polygons, with distances; or "
            "areas summed triangle by triangle, without"),

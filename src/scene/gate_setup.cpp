@@ -1,0 +1,85 @@
+#include "scene/gate_setup.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "palpation/base/error.h"
+#include "scene/setup.h"
+#include "scene/words.h"
+
+namespace palpation::tool {
+namespace {
+
+/// Around the tissue, where the scene gives no box: room to travel and to lift.
+constexpr double kAroundTissue_m = 0.02;
+/// No arm of a surgical robot reaches farther.
+constexpr double kFarthest_m = 10.0;
+
+double degrees(const Scene& scene, const char* key) {
+  return scene.number(key) * std::numbers::pi / 180.0;
+}
+
+void take_box(const Scene& scene, const Surface& surface, GateLimits& limits) {
+  const Robot robot = robot_of(scene);
+  const Eigen::Isometry3d to_robot(robot.from_tissue);
+  const double far_m = std::numeric_limits<double>::infinity();
+  Vec3 least = Vec3::Constant(far_m), most = Vec3::Constant(-far_m);
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const Vec3 place = to_robot * surface.vertex(vertex);
+    least = least.cwiseMin(place);
+    most = most.cwiseMax(place);
+  }
+  if (std::max(least.cwiseAbs().maxCoeff(), most.cwiseAbs().maxCoeff()) > kFarthest_m)
+    scene.refuse("robot.from_tissue",
+                 "puts the tissue " + fixed(most.norm(), 1) +
+                     " m from the robot's base: its translation is in metres. Is it millimetres?");
+  const double around_m = kAroundTissue_m + robot.standoff_m + robot.indent_m;
+  limits.box_least = least - Vec3::Constant(around_m);
+  limits.box_most = most + Vec3::Constant(around_m);
+  if (!scene.gives("robot.limits.box_mm")) return;
+  const std::vector<double> box = scene.numbers("robot.limits.box_mm");
+  limits.box_least = Vec3(box[0], box[1], box[2]) / 1000.0;
+  limits.box_most = Vec3(box[3], box[4], box[5]) / 1000.0;
+}
+
+}  // namespace
+
+GateLimits gate_limits_of(const Scene& scene, const Surface& surface) {
+  GateLimits limits;
+  limits.force = {.contact_n = scene.number("robot.limits.contact_n"),
+                  .warn_n = scene.number("robot.limits.warn_n"),
+                  .hold_n = scene.number("robot.limits.hold_n"),
+                  .stiffest_n_per_m = scene.number("robot.limits.stiffest_n_per_mm") * 1000.0,
+                  .frozen_s = scene.number("robot.limits.frozen_ms") / 1000.0};
+  limits.motion.air_m_per_s = scene.metres("robot.limits.air_mm_per_s");
+  limits.motion.contact_m_per_s = scene.metres("robot.limits.contact_mm_per_s");
+  limits.motion.step_m = scene.metres("robot.limits.step_mm");
+  limits.motion.astray_m = scene.metres("robot.limits.astray_mm");
+  limits.cone.axis_rad = degrees(scene, "robot.limits.cone_deg");
+  limits.extra_indent_m = scene.metres("robot.limits.extra_indent_mm");
+  limits.uncertainty_m = scene.metres("robot.uncertainty_mm");
+  limits.data_age_s = scene.number("robot.limits.data_age_ms") / 1000.0;
+  limits.frame = scene.has("robot.frame") ? scene.word("robot.frame") : "";
+  take_box(scene, surface, limits);
+  try {
+    check(limits);
+  } catch (const InvalidInput& error) {
+    scene.refuse("robot.limits", without("GateLimits: ", error.what()));
+  }
+  return limits;
+}
+
+HeightOverTissue height_over(const Scene& scene, const Surface& surface) {
+  const Eigen::Isometry3d to_tissue = Eigen::Isometry3d(robot_of(scene).from_tissue).inverse();
+  return [surface, to_tissue](const Vec3& place) {
+    const Vec3 here = to_tissue * place;
+    const SurfacePoint closest = surface.project(here);
+    const Vec3 away = here - surface.position(closest);
+    return away.dot(surface.normal(closest)) < 0.0 ? -away.norm() : away.norm();
+  };
+}
+
+}  // namespace palpation::tool
