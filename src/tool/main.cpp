@@ -222,6 +222,7 @@ int run_tool(int count, char** words) {
   add_mesh_command(app, arguments.mesh, arguments.surface);
   add_readings_command(app);
   add_session_command(app);
+  add_serve_command(app);
   add_export_command(app);
   add_report_command(app);
   add_draw_command(app);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "tool/option_checks.h"
+#include "tool/serve_command.h"
 #include "tool/session_command.h"
 
 namespace palpation::tool {
@@ -111,6 +112,14 @@ void add_session_command(CLI::App& app) {
   session->callback([session, asked] {
     if (session->get_subcommands().empty()) session_show(asked->place);
   });
+}
+
+void add_serve_command(CLI::App& app) {
+  const auto folder = std::make_shared<std::filesystem::path>();
+  CLI::App* command = app.add_subcommand(
+      "serve", "A session and the gate of its robot, as JSON lines: for callers in any language");
+  command->add_option("DIR", *folder, "the session's folder, where open does not name one");
+  command->callback([folder] { serve(*folder); });
 }
 
 }  // namespace palpation::tool

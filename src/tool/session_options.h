@@ -1,4 +1,4 @@
-/// The options of `palpate session`.
+/// The options of `palpate session` and `palpate serve`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,5 +6,6 @@
 namespace palpation::tool {
 
 void add_session_command(CLI::App& app);
+void add_serve_command(CLI::App& app);
 
 }  // namespace palpation::tool
