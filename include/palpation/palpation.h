@@ -77,6 +77,7 @@
 #include "palpation/robot/gate.h"
 #include "palpation/robot/limits.h"
 #include "palpation/robot/messages.h"
+#include "palpation/robot/registration.h"
 #include "palpation/session/session.h"
 #include "palpation/session/session_state.h"
 #include "palpation/version.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "palpation/base/error.h"
+#include "scene/registration_file.h"
 #include "scene/setup.h"
 #include "scene/words.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 /// Around the tissue, where the scene gives no box: room to travel and to lift.
 constexpr double kAroundTissue_m = 0.02;
+/// No tissue is known better.
+constexpr double kLeastUncertainty_m = 1e-5;
 /// No arm of a surgical robot reaches farther.
 constexpr double kFarthest_m = 10.0;
 
@@ -61,6 +64,9 @@ GateLimits gate_limits_of(const Scene& scene, const Surface& surface) {
   limits.cone.axis_rad = degrees(scene, "robot.limits.cone_deg");
   limits.extra_indent_m = scene.metres("robot.limits.extra_indent_mm");
   limits.uncertainty_m = scene.metres("robot.uncertainty_mm");
+  const auto registration = registration_of(scene);
+  if (registration && !scene.gives("robot.uncertainty_mm"))
+    limits.uncertainty_m = std::max(registration->uncertainty_m, kLeastUncertainty_m);
   limits.data_age_s = scene.number("robot.limits.data_age_ms") / 1000.0;
   limits.frame = scene.has("robot.frame") ? scene.word("robot.frame") : "";
   take_box(scene, surface, limits);

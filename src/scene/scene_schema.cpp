@@ -308,6 +308,9 @@ std::vector<SceneKey> make_scene_keys() {
              "risk of the cut line: outside of it a place is tumour with at most this probability"),
       numbers("robot.from_tissue", 16, "", -kMostDirection, kMostDirection, identity,
               "rigid transform to the robot's frame, row by row, its translation in metres"),
+      text("robot.registration",
+           "in place of robot.from_tissue: a file that palpate register wrote, relative to the "
+           "scene; robot.uncertainty_mm is what it says, unless it is given"),
       number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0,
              "height of the approach point above the tissue"),
       number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),

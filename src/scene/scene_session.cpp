@@ -9,6 +9,7 @@
 #include "palpation/base/error.h"
 #include "scene/digest.h"
 #include "scene/next_plan.h"
+#include "scene/registration_file.h"
 #include "scene/result_tables.h"
 #include "scene/scene_schema.h"
 #include "scene/setup.h"
@@ -50,6 +51,14 @@ SessionPlan plan_of_question(const Scene& scene, const Surface& surface,
   return plan;
 }
 
+/// All keys, and where the tissue is, which a file that the scene names may say.
+std::string identity_of(const Scene& scene) {
+  json all = scene.complete();
+  const Robot robot = robot_of(scene);
+  for (int i = 0; i < 16; ++i) all["robot"]["from_tissue"][i] = robot.from_tissue(i / 4, i % 4);
+  return all.dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
 }  // namespace
 
 SessionSetup session_setup(const Scene& scene, const Surface& surface, bool anyway) {
@@ -63,8 +72,8 @@ SessionSetup session_setup(const Scene& scene, const Surface& surface, bool anyw
               [scene, surface](const SessionQuestion& question) {
                 return plan_of_question(scene, surface, question);
               },
-          .identity = {scene.complete().dump(-1, ' ', true, json::error_handler_t::replace),
-                       digest(surface.mesh()), PALPATION_VERSION " " + program_digest()},
+          .identity = {identity_of(scene), digest(surface.mesh()),
+                       PALPATION_VERSION " " + program_digest()},
           .clock = now_utc,
           .anyway = anyway};
 }
@@ -91,6 +100,9 @@ std::string scene_document(const Scene& scene) {
   json given = scene.given();
   if (scene.gives("surface.mesh"))
     given["surface"]["mesh"] = std::filesystem::weakly_canonical(mesh_path(scene)).string();
+  if (scene.gives("robot.registration"))
+    given["robot"]["registration"] =
+        std::filesystem::weakly_canonical(registration_path(scene)).string();
   return given.dump(2, ' ', true, json::error_handler_t::replace) + "\n";
 }
 

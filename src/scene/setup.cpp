@@ -8,6 +8,7 @@
 
 #include "palpation/base/error.h"
 #include "palpation/geometry/distance.h"
+#include "scene/registration_file.h"
 #include "scene/tumours.h"
 #include "scene/words.h"
 
@@ -184,6 +185,8 @@ Robot robot_of(const Scene& scene) {
   Robot robot;
   const std::vector<double> rows = scene.numbers("robot.from_tissue");
   for (int i = 0; i < 16; ++i) robot.from_tissue(i / 4, i % 4) = rows[i];
+  if (const auto registration = registration_of(scene))
+    robot.from_tissue = registration->from_tissue;
   robot.standoff_m = scene.metres("robot.standoff_mm");
   robot.indent_m = scene.metres("robot.indent_mm");
   robot.spring_n_per_m = scene.number("robot.spring_n_per_m");

@@ -16,6 +16,7 @@
 #include "tool/mesh_options.h"
 #include "tool/option_checks.h"
 #include "tool/readings_options.h"
+#include "tool/register_command.h"
 #include "tool/report_command.h"
 #include "tool/session_options.h"
 #include "tool/standard_streams.h"
@@ -221,6 +222,7 @@ int run_tool(int count, char** words) {
   add_info_command(app, arguments);
   add_mesh_command(app, arguments.mesh, arguments.surface);
   add_readings_command(app);
+  add_register_command(app);
   add_session_command(app);
   add_serve_command(app);
   add_export_command(app);

@@ -1,0 +1,127 @@
+#include "tool/register_command.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "palpation/base/error.h"
+#include "palpation/io/coordinates.h"
+#include "palpation/io/csv.h"
+#include "palpation/io/read_mesh.h"
+#include "palpation/robot/registration.h"
+#include "scene/registration_file.h"
+#include "scene/single_file.h"
+#include "scene/words.h"
+#include "tool/option_checks.h"
+
+namespace palpation::tool {
+namespace {
+
+constexpr double kMm = 1e3;  // in a metre
+
+struct RegisterArguments {
+  std::filesystem::path mesh, touched, out;
+  std::string unit;
+  double touch_sd_mm = 0.2;
+  bool refine = false;
+  bool overwrite = false;
+};
+
+struct Touched {
+  std::vector<TouchedPair> pairs;
+  std::vector<Vec3> all;  ///< in the robot's frame
+};
+
+/// Rows with tissue_x, tissue_y and tissue_z are pairs; those where these are empty are anywhere.
+Touched read_touched(const std::filesystem::path& path) {
+  const CsvTable table = read_csv(path);
+  Touched touched;
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    Vec3 robot, tissue;
+    int named = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      robot[axis] = finite_number_at(table, row, column_index(table, letter));
+      const auto column = find_column(table, "tissue_" + letter);
+      if (!column || table.cell(row, *column).empty()) continue;
+      tissue[axis] = finite_number_at(table, row, *column);
+      ++named;
+    }
+    if (named != 0 && named != 3)
+      fail_at_row(table, row, "a place on the tissue needs tissue_x, tissue_y and tissue_z");
+    if (named == 3) touched.pairs.push_back({tissue, robot});
+    touched.all.push_back(robot);
+  }
+  return touched;
+}
+
+Registration registered(const RegisterArguments& arguments, const Surface& surface,
+                        const Touched& touched) {
+  const double sd_m = arguments.touch_sd_mm / kMm;
+  try {
+    Registration registration = register_pairs(touched.pairs, sd_m);
+    if (arguments.refine)
+      registration = refine_on_surface(surface, touched.all, registration, sd_m);
+    return registration;
+  } catch (const InvalidInput& error) {
+    throw IoError(arguments.touched.string() + ": " + error.what());
+  }
+}
+
+/// Landmarks are on the tissue, or the pairs are of another mesh.
+void check_landmarks(const RegisterArguments& arguments, const Surface& surface,
+                     const std::vector<TouchedPair>& pairs) {
+  constexpr double kFarthest_m = 0.005;
+  for (const TouchedPair& pair : pairs) {
+    const double off_m = (surface.position(surface.project(pair.tissue)) - pair.tissue).norm();
+    if (off_m > kFarthest_m)
+      throw IoError(arguments.touched.string() + ": the place " + place_words(pair.tissue, 1) +
+                    " lies " + fixed(off_m * kMm, 1) +
+                    " mm from the tissue: is it of this mesh, in metres?");
+  }
+}
+
+void register_tissue(const RegisterArguments& arguments) {
+  const Surface surface(read_mesh(arguments.mesh, length_unit(arguments.unit)).mesh);
+  const Touched touched = read_touched(arguments.touched);
+  check_landmarks(arguments, surface, touched.pairs);
+  const Registration registration = registered(arguments, surface, touched);
+  const double uncertainty_m = uncertainty_along_normal_m(surface, registration);
+  std::string words = counted(touched.all.size(), "place") + " touched, " +
+                      counted(touched.pairs.size(), "pair") + ".\nOff by " +
+                      fixed(registration.rms_m * kMm, 2) + " mm (root mean square):";
+  for (const double one : registration.residuals_m) words += " " + fixed(one * kMm, 2);
+  words += ".\nAlong its normal the tissue lies within " + fixed(uncertainty_m * kMm, 2) +
+           " mm of where it is taken to be, with 95 %.\n";
+  std::fputs(words.c_str(), stdout);
+  write_single_file(arguments.out, registration_document(registration, uncertainty_m),
+                    arguments.overwrite ? Existing::Replaced : Existing::Kept);
+}
+
+}  // namespace
+
+void add_register_command(CLI::App& app) {
+  const auto arguments = std::make_shared<RegisterArguments>();
+  CLI::App* command =
+      app.add_subcommand("register", "Where the tissue is, from places that the robot touched");
+  command->add_option("MESH", arguments->mesh, "the tissue's mesh")->required();
+  command
+      ->add_option("--touched", arguments->touched,
+                   "CSV: x,y,z where the robot's tip was, in its frame; tissue_x, tissue_y, "
+                   "tissue_z the same place in the mesh's frame, metres, of three rows at least")
+      ->required();
+  command->add_option("--unit", arguments->unit, "of the mesh's coordinates: mm, cm or m")
+      ->required()
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command->add_option("--out", arguments->out, "T.json, for robot.registration of a scene")
+      ->required();
+  command->add_flag("--refine", arguments->refine,
+                    "then fit all places, six at least, to the surface: for tissue that curves");
+  command
+      ->add_option("--touch-sd-mm", arguments->touch_sd_mm,
+                   "how well a place is touched at best; the residuals may say that it was worse")
+      ->check(number(1e-4, 100.0));
+  command->add_flag("--overwrite", arguments->overwrite, "replace another file of that name");
+  command->callback([arguments] { register_tissue(*arguments); });
+}
+
+}  // namespace palpation::tool

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""palpate register: from touched places to the transform that a scene names, and what cannot be one.
+
+usage: register_test.py PALPATE        needs Python 3 and nothing else
+"""
+
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PALPATE = pathlib.Path(sys.argv[1]).resolve()
+TURN = math.radians(30)
+SHIFT = (0.10, -0.05, 0.20)
+CORNERS = ((0.0, 0.0, 0.0), (0.025, 0.0, 0.0), (0.0, 0.05, 0.0), (0.025, 0.05, 0.0))
+
+
+def in_robot(place):
+    x, y, z = place
+    return (math.cos(TURN) * x - math.sin(TURN) * y + SHIFT[0], math.sin(TURN) * x + math.cos(TURN) * y + SHIFT[1], z + SHIFT[2])
+
+
+class Register(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.mesh = self.folder / "tissue.ply"
+        self.palpate("mesh", "plane", "--size-mm", 25, 50, "--vertices", 14, 26, self.mesh)
+
+    def palpate(self, *arguments, code=0):
+        done = subprocess.run([PALPATE, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=240)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout if code == 0 else done.stderr
+
+    def touched(self, rows, name="touched.csv"):
+        path = self.folder / name
+        lines = ["x,y,z,tissue_x,tissue_y,tissue_z"] + [",".join(map(str, row)) for row in rows]
+        path.write_text("".join(line + "\n" for line in lines), encoding="utf-8")
+        return path
+
+    def register(self, rows, *options, code=0):
+        return self.palpate("register", self.mesh, "--unit", "mm", "--touched", self.touched(rows), "--out", self.folder / "T.json", *options, code=code)
+
+    def test_a_scene_that_names_the_file_plans_in_the_robots_frame(self):
+        said = self.register([(*in_robot(corner), *corner) for corner in CORNERS])
+        self.assertIn("4 places touched, 4 pairs.", said)
+        told = json.loads((self.folder / "T.json").read_text())
+        expected = [math.cos(TURN), -math.sin(TURN), 0, SHIFT[0], math.sin(TURN), math.cos(TURN), 0, SHIFT[1], 0, 0, 1, SHIFT[2], 0, 0, 0, 1]
+        for a, b in zip(told["from_tissue"], expected):
+            self.assertAlmostEqual(a, b, places=12)
+        self.assertEqual(len(told["covariance"]), 36)
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps({"surface": {"mesh": "tissue.ply", "unit": "mm"}, "robot": {"registration": "T.json"}}), encoding="utf-8")
+        felt = self.folder / "felt.csv"
+        felt.write_text("x,y,z,reading\n", encoding="utf-8")
+        self.palpate("plan", scene, "--measurements", felt, "--out", self.folder / "a", "--quiet")
+        self.palpate("plan", scene, "--measurements", felt, "--out", self.folder / "b", "--quiet", "--set", "robot.registration=null")
+        with open(self.folder / "a/waypoints.csv", encoding="utf-8") as a, open(self.folder / "b/waypoints.csv", encoding="utf-8") as b:
+            for moved, plain in zip(csv.DictReader(a), csv.DictReader(b)):
+                place = in_robot([float(plain[axis]) for axis in "xyz"])
+                for axis, value in zip("xyz", place):
+                    self.assertAlmostEqual(float(moved[axis]), value, places=12)
+        self.assertIn("give one of them", self.palpate("plan", scene, "--measurements", felt, "--set", "robot.from_tissue=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", code=3))
+
+    def test_what_cannot_be_one_is_refused_in_words(self):
+        line = ((0.0, 0.0, 0.0), (0.0, 0.02, 0.0), (0.0, 0.05, 0.0))
+        self.assertIn("beside one line", self.register([(*in_robot(place), *place) for place in line], code=3))
+        self.assertIn("three at least", self.register([(*in_robot(place), *place) for place in CORNERS[:2]], code=3))
+        mm = [(*(1000 * value for value in in_robot(place)), *place) for place in CORNERS]
+        self.assertIn("is one of them in millimetres?", self.register(mm, code=3))
+        off = [(*in_robot(place), place[0], place[1], 0.05) for place in CORNERS]
+        self.assertIn("50.0 mm from the tissue", self.register(off, code=3))
+        self.assertIn("touched.csv:2: ", self.register([(0.1, 0.1, 0.1, 0.0, "", "")] * 3, code=3))
+        flat = [(*in_robot(place), *place) for place in (*CORNERS, (0.01, 0.01, 0.0), (0.02, 0.03, 0.0))]
+        self.assertIn("hold it in place", self.register(flat, "--refine", code=3))
+        self.assertFalse((self.folder / "T.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
