@@ -1,27 +1,20 @@
 #include "palpation/world/random_shape.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "base/cross.h"
 #include "palpation/base/error.h"
+#include "world/shape_curves.h"
 
 namespace palpation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostDraws = 1000;
-constexpr int kPoints = 240;
 constexpr double kMostOfTissue = 0.25;
-
-using Curve = std::vector<Vec2>;
-
-double uniform(Random& random, double least, double most) {
-  return least + (most - least) * random.uniform();
-}
 
 double signed_area(const Curve& curve) {
   double twice = 0.0;
@@ -49,60 +42,6 @@ double reach(const Curve& curve) {
     }
   }
   return least;
-}
-
-/// Harmonics that fall off with their number, so that the outline's curvature stays that of tissue.
-Curve star(Random& random) {
-  constexpr int kFirst = 2, kLast = 5;
-  std::array<double, kLast + 1> cosine{}, sine{};
-  for (int k = kFirst; k <= kLast; ++k) {
-    cosine[k] = 0.35 * random.normal() / k;
-    sine[k] = 0.35 * random.normal() / k;
-  }
-  Curve curve;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2.0 * kPi * i / kPoints;
-    double radius = 1.0;
-    for (int k = kFirst; k <= kLast; ++k)
-      radius += cosine[k] * std::cos(k * angle) + sine[k] * std::sin(k * angle);
-    if (radius <= 0.1) return {};
-    curve.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return curve;
-}
-
-/// A middle line of length 1 that turns by 60 to 220 degrees. Its half width's derivative vanishes
-/// at both ends, where half circles close the outline.
-Curve bent(Random& random) {
-  const double turn = uniform(random, 60.0, 220.0) * kPi / 180.0;
-  const double half_width = 0.5 / uniform(random, 1.5, 4.0);
-  const double taper = uniform(random, -0.3, 0.3), waist = uniform(random, -0.25, 0.25);
-  const auto width_at = [&](double s) {
-    return half_width * (1.0 + taper * std::cos(kPi * s) + waist * std::cos(2.0 * kPi * s));
-  };
-  const auto middle = [&](double s) -> Vec2 {
-    return Vec2(std::sin(turn * s), 1.0 - std::cos(turn * s)) / turn;
-  };
-  const auto normal = [&](double s) -> Vec2 {
-    return Vec2(-std::sin(turn * s), std::cos(turn * s));
-  };
-  constexpr int kAlong = 80, kAround = 40;
-  Curve curve;
-  const auto add_cap = [&](double s, double start) {
-    for (int i = 1; i < kAround; ++i) {
-      const double angle = start + kPi * i / kAround;
-      curve.push_back(middle(s) + width_at(s) * Vec2(std::cos(angle), std::sin(angle)));
-    }
-  };
-  for (int i = 0; i <= kAlong; ++i)
-    curve.push_back(middle(i / double{kAlong}) -
-                    width_at(i / double{kAlong}) * normal(i / double{kAlong}));
-  add_cap(1.0, turn - 0.5 * kPi);
-  for (int i = kAlong; i >= 0; --i)
-    curve.push_back(middle(i / double{kAlong}) +
-                    width_at(i / double{kAlong}) * normal(i / double{kAlong}));
-  add_cap(0.0, 0.5 * kPi);
-  return curve;
 }
 
 struct Bounds {
@@ -137,8 +76,8 @@ void check(const RandomShapeOptions& options) {
   require(options.margin_m >= 0.0 && room.allFinite() && room.minCoeff() > 0.0, "random_shape",
           "margin " + text_of(options.margin_m) + " m",
           "must not be negative, and leave some of the search area");
-  require(std::isfinite(options.least_reach_m) && options.least_reach_m > 0.0, "random_shape",
-          "reach " + text_of(options.least_reach_m) + " m", "must be positive and finite");
+  require(std::isfinite(options.least_reach_m) && options.least_reach_m >= 0.0, "random_shape",
+          "reach " + text_of(options.least_reach_m) + " m", "must be finite and not negative");
   require(options.least_area_m2 > 0.0 && options.least_area_m2 <= options.most_area_m2 &&
               options.most_area_m2 <= kMostOfTissue * room.prod(),
           "random_shape",
@@ -154,14 +93,16 @@ Outline random_shape(ShapeFamily family, Random& random, const RandomShapeOption
   const double area = uniform(random, options.least_area_m2, options.most_area_m2);
   // What is drawn anew is the shape, never the area: small ones would be rarer.
   for (int draw = 0; draw < kMostDraws; ++draw) {
-    const Curve unit = family == ShapeFamily::Star ? star(random) : bent(random);
+    const Curve unit = draw_curve(family, random);
     if (unit.empty() || signed_area(unit) <= 0.0) continue;
     const Curve shape = turned_and_scaled(unit, uniform(random, 0.0, 2.0 * kPi),
                                           std::sqrt(area / signed_area(unit)));
     const Bounds bounds = bounds_of(shape);
     const Vec2 spare =
         options.size_m.array() - 2.0 * options.margin_m - (bounds.most - bounds.least).array();
-    if (spare.minCoeff() < 0.0 || reach(shape) < options.least_reach_m) continue;
+    if (spare.minCoeff() < 0.0 ||
+        (options.least_reach_m > 0.0 && reach(shape) < options.least_reach_m))
+      continue;
     const double right = random.uniform() * spare.x(), up = random.uniform() * spare.y();
     const Vec2 shift = Vec2(right, up).array() + options.margin_m - bounds.least.array();
     Outline outline;

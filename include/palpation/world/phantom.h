@@ -14,6 +14,7 @@
 #include "palpation/base/random.h"
 #include "palpation/geometry/surface.h"
 #include "palpation/readings/palpation.h"
+#include "palpation/world/lump.h"
 #include "palpation/world/tumour.h"
 
 namespace palpation {
@@ -29,6 +30,14 @@ struct StiffnessModel {
   double lag_m = 0.0;             ///< below 0: readings come early
 };
 
+/// Tissue of which more is known than that: lumps of their own contrast and profile, the stiffest
+/// of which is felt where they overlap, on a background that is added.
+struct PhantomDesign {
+  std::vector<Lump> lumps{};
+  std::vector<Background> background{};
+  StiffnessModel model{};
+};
+
 class Phantom {
  public:
   /// Throws InvalidInput if the model is not finite, high <= low, slope <= 0, noise < 0, the
@@ -36,8 +45,13 @@ class Phantom {
   /// signed_distance.
   Phantom(Surface surface, std::vector<Tumour> tumours, const StiffnessModel& model);
 
-  /// Free of noise and bias, at the vertices: its superlevel set at true_level() is the true
-  /// region.
+  /// Throws as the other and background_field, and unless contrasts and steepnesses are positive
+  /// and finite.
+  Phantom(Surface surface, const PhantomDesign& design);
+
+  /// Free of noise, bias and background, at the vertices, every lump as if of full contrast: its
+  /// superlevel set at true_level() is the true region, in which each lump ends at the level's
+  /// fraction of its own way.
   const Field& truth() const { return truth_; }
   double true_level() const;
 
@@ -50,12 +64,22 @@ class Phantom {
   Palpation touch(const SurfacePoint& where, const Vec3& travel, Random& random) const;
 
  private:
-  double stiffness(double signed_distance_m) const;
+  /// Lumps that are felt alike, or one that is not.
+  struct Layer {
+    Field depth;
+    Lump like;
+    double greatest_depth_m;
+    Vec3 deepest;
+  };
+  void add_layer(std::vector<Lump> lumps);
+  /// Of high - low and what is low, at a depth below a place.
+  double stiffness(const Layer& layer, double depth_m, const Vec3& place, double contrast) const;
 
   Surface surface_;
   StiffnessModel model_;
-  Field distance_;
-  Field bias_;  // x1 in [0, 1] at the vertices
+  std::vector<Layer> layers_;
+  Field bias_;        // x1 in [0, 1] at the vertices
+  Field background_;  // in units of high - low; empty where there is none
   Field truth_;
 };
 

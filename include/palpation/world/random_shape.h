@@ -1,9 +1,12 @@
 /// Tumours of any shape: for runs that must not know the shape beforehand.
 ///
-/// Two families. Star: r(angle) = r0 (1 + a random Fourier series of the harmonics 2 to 5). Bent: a
-/// band along an arc of 60 to 220 degrees whose half width varies along it, with round ends: from
-/// beans to horseshoes. Outlines are smooth: their reach, the greatest radius of balls that roll
-/// along both sides everywhere, bounds curvature and the width of necks and gaps from below.
+/// Star: r(angle) = r0 (1 + a random Fourier series of the harmonics 2 to 5). Bent: a band along an
+/// arc of 60 to 220 degrees whose half width varies along it, with round ends: from beans to
+/// horseshoes. Ellipse: up to three times as long as wide. Their reach, the greatest radius of
+/// balls that roll along both sides everywhere, bounds curvature and the width of necks and gaps
+/// from below. Dumbbell: two disks and a neck; Ell, with one inner corner; Pointed, stars of three
+/// to seven points; Crescent, with two horns: these have corners and no reach, and are drawn only
+/// where the options ask for none.
 #pragma once
 
 #include "palpation/base/random.h"
@@ -11,7 +14,7 @@
 
 namespace palpation {
 
-enum class ShapeFamily { Star, Bent };
+enum class ShapeFamily { Star, Bent, Ellipse, Dumbbell, Ell, Pointed, Crescent };
 
 struct RandomShapeOptions {
   Vec2 size_m = Vec2(0.054, 0.049);  ///< of the search area, from the origin along x and y (that of
@@ -20,7 +23,7 @@ struct RandomShapeOptions {
   double least_area_m2 = 0.5e-4;     ///< areas are uniform from here ...
   double most_area_m2 = 4e-4;        ///< ... to here
   double least_reach_m = 0.0015;  ///< a curve sharper than the edge is wide (one slope length and
-                                  ///< more) could not be felt
+                                  ///< more) could not be felt; 0: corners, too
 };
 
 /// An outline in the plane z = 0 of at most a millimetre between points, counter-clockwise, inside

@@ -1,0 +1,300 @@
+#include "palpation/world/catalogue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "palpation/base/error.h"
+#include "palpation/world/random_shape.h"
+#include "world/shape_curves.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kLeastSlope_per_m = 500.0, kMostSlope_per_m = 2000.0;
+constexpr double kMargin_m = 0.002;
+constexpr double kLeastArea_m2 = 0.5e-4, kMostArea_m2 = 4e-4;
+constexpr double kNodule_m = 0.0045;  // radius
+constexpr double kGap_m = 0.002;
+constexpr double kSmooth_m = 0.0015;  // least reach of an outline without corners
+constexpr int kMostDraws = 10'000;
+constexpr int kChangeAfter = 40;
+
+/// A world in the making.
+struct Draft {
+  Random& random;
+  const WorldArea& area;
+  DrawnWorld world{};
+
+  double between(double least, double most) { return uniform(random, least, most); }
+  Vec3 anywhere(double margin_m) {
+    const Vec2 room = area.size_m.array() - 2.0 * margin_m;
+    require(room.minCoeff() > 0.0, "draw_world",
+            "tissue of " + text_of(area.size_m.x()) + " x " + text_of(area.size_m.y()) + " m",
+            "must leave " + text_of(margin_m) + " m on every side");
+    const double x = random.uniform(), y = random.uniform();
+    return {margin_m + x * room.x(), margin_m + y * room.y(), 0.0};
+  }
+  Vec3 direction() {
+    const double angle = between(0.0, 2.0 * std::numbers::pi);
+    return {std::cos(angle), std::sin(angle), 0.0};
+  }
+  Lump& add(Tumour outline) {
+    Lump& lump = world.design.lumps.emplace_back();
+    lump.outline = std::move(outline);
+    return lump;
+  }
+};
+
+RandomShapeOptions shape_options(const Draft& draft, double least_reach_m) {
+  const Vec2 room = draft.area.size_m.array() - 2.0 * kMargin_m;
+  const double most = std::min(kMostArea_m2, 0.25 * room.prod());
+  return {.size_m = draft.area.size_m,
+          .margin_m = kMargin_m,
+          .least_area_m2 = std::min(kLeastArea_m2, most),
+          .most_area_m2 = most,
+          .least_reach_m = least_reach_m};
+}
+
+Lump& add_shape(Draft& draft, ShapeFamily family) {
+  const bool is_smooth =
+      family == ShapeFamily::Star || family == ShapeFamily::Bent || family == ShapeFamily::Ellipse;
+  const double reach_m = is_smooth ? kSmooth_m : 0.0;
+  return draft.add(random_shape(family, draft.random, shape_options(draft, reach_m)));
+}
+
+Lump& add_blob(Draft& draft) { return add_shape(draft, ShapeFamily::Star); }
+
+Lump& add_disk(Draft& draft, double least_m, double most_m) {
+  const double radius_m = draft.between(least_m, most_m);
+  return draft.add(Disk{draft.anywhere(radius_m + kMargin_m), radius_m});
+}
+
+void add_ring(Draft& draft) {
+  Horseshoe ring{.arc_radius_m = draft.between(0.0048, 0.0065),
+                 .half_width_m = draft.between(0.0018, 0.0025),
+                 .arc_rad = 2.0 * std::numbers::pi};
+  ring.centre_m = draft.anywhere(ring.arc_radius_m + ring.half_width_m + 0.0005);
+  draft.add(ring);
+}
+
+/// Its centre lies on the longer side.
+void add_over_border(Draft& draft) {
+  const double radius_m = draft.between(0.005, 0.008);
+  Vec3 centre = draft.anywhere(radius_m);
+  centre[draft.area.size_m.x() < draft.area.size_m.y() ? 0 : 1] = 0.0;
+  draft.add(Disk{centre, radius_m});
+}
+
+/// Nodules of 9 mm, apart by 2 mm at least.
+void add_nodules(Draft& draft, int count) {
+  std::vector<Vec3> centres;
+  for (int draw = 0; static_cast<int>(centres.size()) < count; ++draw) {
+    require(draw < kMostDraws, "draw_world", std::to_string(count) + " nodules",
+            "must fit on the tissue");
+    if (draw % 100 == 99) centres.clear();
+    const Vec3 centre = draft.anywhere(kNodule_m + 0.001);
+    const bool is_apart = std::ranges::all_of(centres, [&](const Vec3& other) {
+      return (other - centre).norm() >= 2.0 * kNodule_m + kGap_m;
+    });
+    if (is_apart) centres.push_back(centre);
+  }
+  for (const Vec3& centre : centres) draft.add(Disk{centre, kNodule_m});
+}
+
+void add_vessel(Draft& draft, double height) {
+  const Vec3 middle = draft.anywhere(0.006), along = draft.direction();
+  const double far = draft.area.size_m.norm();
+  const Vec3 side(-along.y(), along.x(), 0.0);
+  const double bend = draft.between(-0.15, 0.15);
+  draft.world.design.background.push_back(
+      Vessel{.height = height,
+             .half_width_m = draft.between(0.0008, 0.0015),
+             .line_m = {middle - far * along + bend * far * side, middle,
+                        middle + far * along + bend * far * side}});
+}
+
+void add_wave(Draft& draft, double height) {
+  draft.world.design.background.push_back(Wave{.height = height,
+                                               .length_m = draft.between(0.02, 0.05),
+                                               .direction = draft.direction(),
+                                               .phase_rad = draft.between(0.0, 6.283)});
+}
+
+void move(PhantomDesign& design, const Vec3& by) {
+  for (Lump& lump : design.lumps) {
+    if (auto* disk = std::get_if<Disk>(&lump.outline)) disk->centre_m += by;
+    if (auto* horseshoe = std::get_if<Horseshoe>(&lump.outline)) horseshoe->centre_m += by;
+    if (auto* polygon = std::get_if<Outline>(&lump.outline)) {
+      for (Vec3& point : polygon->points_m) point += by;
+    }
+  }
+  for (Background& term : design.background) {
+    if (auto* vessel = std::get_if<Vessel>(&term)) {
+      for (Vec3& point : vessel->line_m) point += by;
+    }
+  }
+}
+
+struct Recipe {
+  WorldFamily family;
+  void (*draw)(Draft& draft);
+};
+
+std::vector<Recipe> shapes() {
+  return {
+      {{"star", "shape", "a smooth blob"}, [](Draft& d) { add_blob(d); }},
+      {{"bent", "shape", "a band along an arc: beans to horseshoes"},
+       [](Draft& d) { add_shape(d, ShapeFamily::Bent); }},
+      {{"ellipse", "shape", "an ellipse, up to three times as long as wide"},
+       [](Draft& d) { add_shape(d, ShapeFamily::Ellipse); }},
+      {{"dumbbell", "shape", "two disks and a neck"},
+       [](Draft& d) { add_shape(d, ShapeFamily::Dumbbell); }},
+      {{"ell", "shape", "an L: corners, one of them inwards"},
+       [](Draft& d) { add_shape(d, ShapeFamily::Ell); }},
+      {{"points", "shape", "a star of three to seven points"},
+       [](Draft& d) { add_shape(d, ShapeFamily::Pointed); }},
+      {{"crescent", "shape", "a crescent with two sharp horns"},
+       [](Draft& d) { add_shape(d, ShapeFamily::Crescent); }},
+      {{"ring", "shape", "a ring: a hole of healthy tissue"}, add_ring},
+      {{"border", "shape", "a disk over the tissue's border"}, add_over_border},
+  };
+}
+
+std::vector<Recipe> several_parts() {
+  return {
+      {{"two", "parts", "two nodules of 9 mm, 2 mm apart at least"},
+       [](Draft& d) { add_nodules(d, 2); }},
+      {{"three", "parts", "three of them"}, [](Draft& d) { add_nodules(d, 3); }},
+      {{"weak-second", "parts", "two nodules, one of them of 30 to 70 % of the contrast"},
+       [](Draft& d) {
+         add_nodules(d, 2);
+         d.world.design.lumps.back().contrast = d.between(0.3, 0.7);
+       }},
+  };
+}
+
+std::vector<Recipe> profiles() {
+  return {
+      {{"dome", "profile", "a disk with a domed top"},
+       [](Draft& d) { add_disk(d, 0.005, 0.008).profile = Profile::Dome; }},
+      {{"cone", "profile", "a cone: no plateau on either side"},
+       [](Draft& d) { add_disk(d, 0.004, 0.007).profile = Profile::Cone; }},
+      {{"gauss", "profile", "a bell"},
+       [](Draft& d) { add_disk(d, 0.004, 0.007).profile = Profile::Gauss; }},
+      {{"hill", "profile", "what is felt above a buried sphere"},
+       [](Draft& d) { add_disk(d, 0.004, 0.007).profile = Profile::Hill; }},
+      {{"unequal-slopes", "profile", "a blob, steeper on one side than on the other"},
+       [](Draft& d) {
+         Lump& lump = add_blob(d);
+         lump.steeper = d.between(1.3, 2.0);
+         lump.steep_towards = d.direction();
+       }},
+  };
+}
+
+std::vector<Recipe> backgrounds() {
+  return {
+      {{"vessel", "background", "no tumour: a vessel of 30 % of a tumour's contrast"},
+       [](Draft& d) { add_vessel(d, 0.3); }},
+      {{"wave", "background", "no tumour: a slow wave of 30 %"},
+       [](Draft& d) { add_wave(d, 0.3); }},
+      {{"texture", "background", "a blob in tissue whose texture is 7 % of the contrast"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.design.background.push_back(
+             Texture{.sd = 0.07, .length_m = d.between(0.002, 0.005), .seed = d.random.bits()});
+       }},
+      {{"vessel-beside", "background", "a blob, and a vessel of 30 %"},
+       [](Draft& d) {
+         add_blob(d);
+         add_vessel(d, 0.3);
+       }},
+      {{"wave-beside", "background", "a blob on a slow wave of 30 %"},
+       [](Draft& d) {
+         add_blob(d);
+         add_wave(d, 0.3);
+       }},
+  };
+}
+
+std::vector<Recipe> sensors() {
+  return {
+      {{"drift", "sensor", "a blob, and a zero that drifts by 30 % in a hundred readings"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.faults.drift = d.between(-0.3, 0.3);
+       }},
+      {{"lost", "sensor", "a blob; 2 to 12 % of the readings lost contact"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.faults.lost = d.between(0.02, 0.12);
+       }},
+      {{"wild", "sensor", "a blob; 1 to 5 % of the readings may be anything"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.faults.wild = d.between(0.01, 0.05);
+         d.world.faults.wild_ranges = std::pow(10.0, d.between(0.0, 2.0));
+       }},
+      {{"jammed", "sensor", "a blob; 2 to 5 % of the readings repeat the one before"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.faults.jammed = d.between(0.02, 0.05);
+       }},
+      {{"sensor-shift", "sensor", "a blob; the zero moves by 25 to 100 % while one looks"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.change = {.after_readings = kChangeAfter, .zero = d.between(0.25, 1.0)};
+       }},
+      {{"gain-shift", "sensor", "a blob; the gain changes by up to a half while one looks"},
+       [](Draft& d) {
+         add_blob(d);
+         d.world.change = {.after_readings = kChangeAfter, .gain = d.between(0.5, 1.5)};
+       }},
+      {{"tissue-moves", "sensor", "a blob; the tissue moves by 2 to 5 mm while one looks"},
+       [](Draft& d) {
+         add_blob(d);
+         const double far_m = d.between(0.002, 0.005);
+         d.world.change = {.after_readings = kChangeAfter, .moved_m = far_m * d.direction()};
+       }},
+  };
+}
+
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> all = [] {
+    std::vector<Recipe> together;
+    for (const auto& kind : {shapes(), several_parts(), profiles(), backgrounds(), sensors()})
+      together.insert(together.end(), kind.begin(), kind.end());
+    together.push_back({{"healthy", "healthy", "nothing but noise"}, [](Draft&) {}});
+    return together;
+  }();
+  return all;
+}
+
+}  // namespace
+
+std::span<const WorldFamily> world_families() {
+  static const std::vector<WorldFamily> families = [] {
+    std::vector<WorldFamily> names;
+    for (const Recipe& recipe : recipes()) names.push_back(recipe.family);
+    return names;
+  }();
+  return families;
+}
+
+DrawnWorld draw_world(const std::string& family, Random& random, const WorldArea& area,
+                      const StiffnessModel& model) {
+  const auto recipe =
+      std::ranges::find(recipes(), family, [](const Recipe& one) { return one.family.name; });
+  require(recipe != recipes().end(), "draw_world", "\"" + family + "\"",
+          "must be one of world_families()");
+  Draft draft{random, area};
+  draft.world.design.model = model;
+  draft.world.design.model.slope_per_m = draft.between(kLeastSlope_per_m, kMostSlope_per_m);
+  recipe->draw(draft);
+  move(draft.world.design, area.corner_m);
+  return std::move(draft.world);
+}
+
+}  // namespace palpation
