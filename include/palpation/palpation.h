@@ -72,6 +72,7 @@
 #include "palpation/probing/robot_log.h"
 #include "palpation/probing/scan.h"
 #include "palpation/readings/palpation.h"
+#include "palpation/readings/reading_scale.h"
 #include "palpation/readings/screening.h"
 #include "palpation/robot/crtk.h"
 #include "palpation/robot/gate.h"

@@ -79,6 +79,22 @@ Certainty less_tip(Certainty certainty, const Surface& surface, double radius_m)
   return certainty;
 }
 
+Certainty without_part(Certainty certainty, const Surface& surface, std::span<const int> vertices,
+                       double score) {
+  const double before = boundary_length(surface, certainty.score);
+  double area_m2 = 0.0;
+  for (const int vertex : vertices) {
+    certainty.score[vertex] = std::min(certainty.score[vertex], score);
+    area_m2 += surface.vertex_areas()[vertex];
+  }
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  const double share = before > 0.0 ? boundary_length(surface, certainty.score) / before : 1.0;
+  certainty.expected.extra_m2 *= share;
+  certainty.expected.missed_m2 =
+      share * certainty.expected.missed_m2 + normal_probability(score) * area_m2;
+  return certainty;
+}
+
 Certainty doubted_where_contact_fades(Certainty certainty, const Surface& surface,
                                       const FadingContact& fading, const Field& sd,
                                       double whole_loss) {

@@ -10,7 +10,9 @@
 
 #include "base/normal.h"
 #include "base/sigmoid.h"
+#include "certainty/detection_power.h"
 #include "palpation/base/error.h"
+#include "palpation/base/parallel.h"
 
 namespace palpation {
 namespace {
@@ -22,10 +24,6 @@ constexpr int kMostCentres = 2000;
 constexpr std::array kWidths_m = {0.004, 0.005, 0.00625, 0.0078, 0.0098, 0.0122, 0.0153, 0.0191};
 constexpr double kLikeness = 0.95;
 constexpr double kSlope_per_m = 1200.0;  // as Sought's
-
-double rise(double depth_m, double slope_per_m) {
-  return depth_m < 0.0 ? 0.0 : sigmoid(slope_per_m * depth_m);
-}
 
 /// Of a correlation: how rare it is among readings without any, as a normal deviate.
 double excess_of(double correlation, double freedom) {
@@ -48,12 +46,7 @@ class Power {
       : layout_(layout),
         places_(places),
         slope_per_m_(sought.slope_per_m),
-        needed_(
-            std::isinf(sought.contrast_to_noise)
-                ? 0.0
-                : std::pow((needed_signal(places.size()) + normal_quantile(sought.probability)) /
-                               sought.contrast_to_noise,
-                           2)) {}
+        needed_(needed_rises(places.size(), sought)) {}
 
   /// Whether a disk around a vertex is found surely enough. It grows with the radius.
   bool suffices(int vertex, double radius_m) const {
@@ -64,7 +57,7 @@ class Power {
       const double depth = radius_m - (place - centre).norm();
       if (depth < 0.0) continue;
       touched = true;
-      sum += std::pow(rise(depth, slope_per_m_), 2);
+      sum += std::pow(rise_in_disk(depth, slope_per_m_), 2);
       if (sum >= needed_) return true;
     }
     return touched && sum >= needed_;
@@ -77,7 +70,36 @@ class Power {
   double needed_;
 };
 
+/// A disk so large is found, one of `too_small_m` is not.
+double least_radius_m(const Power& power, int vertex, double too_small_m, double enough_m) {
+  while (enough_m - too_small_m > kResolution_m) {
+    const double middle = 0.5 * (too_small_m + enough_m);
+    (power.suffices(vertex, middle) ? enough_m : too_small_m) = middle;
+  }
+  return enough_m;
+}
+
 }  // namespace
+
+void check(const Sought& sought, const std::string& function) {
+  require(sought.contrast_to_noise > 0.0, function,
+          "contrast_to_noise = " + text_of(sought.contrast_to_noise), "must be positive");
+  require(std::isfinite(sought.slope_per_m) && sought.slope_per_m > 0.0, function,
+          "slope_per_m = " + text_of(sought.slope_per_m), "must be positive and finite");
+  require(sought.probability > 0.0 && sought.probability < 1.0, function,
+          "probability = " + text_of(sought.probability), "must lie in (0, 1)");
+}
+
+double rise_in_disk(double depth_m, double slope_per_m) {
+  return depth_m < 0.0 ? 0.0 : sigmoid(slope_per_m * depth_m);
+}
+
+double needed_rises(std::size_t readings, const Sought& sought) {
+  if (std::isinf(sought.contrast_to_noise)) return 0.0;
+  return std::pow(
+      (needed_signal(readings) + normal_quantile(sought.probability)) / sought.contrast_to_noise,
+      2);
+}
 
 double greatest_excess(const Layout& layout, std::span<const Vec3> places,
                        std::span<const double> readings) {
@@ -96,7 +118,7 @@ double greatest_excess(const Layout& layout, std::span<const Vec3> places,
     for (Eigen::Index i = 0; i < count; ++i) distances[i] = (places[i] - layout.at(vertex)).norm();
     for (const double width_m : kWidths_m) {
       for (Eigen::Index i = 0; i < count; ++i)
-        rises[i] = rise(0.5 * width_m - distances[i], kSlope_per_m);
+        rises[i] = rise_in_disk(0.5 * width_m - distances[i], kSlope_per_m);
       const double spread = (rises.array() - rises.mean()).matrix().norm();
       if (spread > 0.0) greatest = std::max(greatest, rises.dot(deviation) / (spread * scatter));
     }
@@ -113,25 +135,32 @@ std::optional<double> diameter_ruled_out_m(const Layout& layout, std::span<const
 
 std::optional<double> diameter_ruled_out_m(const Layout& layout, std::span<const Vec3> places,
                                            const Sought& sought, std::span<const int> centres) {
-  require(sought.contrast_to_noise > 0.0, "diameter_ruled_out_m",
-          "contrast_to_noise = " + text_of(sought.contrast_to_noise), "must be positive");
-  require(std::isfinite(sought.slope_per_m) && sought.slope_per_m > 0.0, "diameter_ruled_out_m",
-          "slope_per_m = " + text_of(sought.slope_per_m), "must be positive and finite");
-  require(sought.probability > 0.0 && sought.probability < 1.0, "diameter_ruled_out_m",
-          "probability = " + text_of(sought.probability), "must lie in (0, 1)");
+  check(sought, "diameter_ruled_out_m");
   const Power power(layout, places, sought);
   double radius_m = 0.0;
   for (const int vertex : centres) {
     if (power.suffices(vertex, radius_m)) continue;
-    double too_small = radius_m, enough = layout.surface().diameter();
-    if (!power.suffices(vertex, enough)) return std::nullopt;
-    while (enough - too_small > kResolution_m) {
-      const double middle = 0.5 * (too_small + enough);
-      (power.suffices(vertex, middle) ? enough : too_small) = middle;
-    }
-    radius_m = enough;
+    const double most_m = layout.surface().diameter();
+    if (!power.suffices(vertex, most_m)) return std::nullopt;
+    radius_m = least_radius_m(power, vertex, radius_m, most_m);
   }
   return 2.0 * radius_m;
+}
+
+Field diameters_ruled_out_m(const Layout& layout, std::span<const Vec3> places,
+                            const Sought& sought, std::span<const int> centres) {
+  check(sought, "diameters_ruled_out_m");
+  const Power power(layout, places, sought);
+  const double most_m = layout.surface().diameter();
+  Field diameters = Field::Zero(layout.surface().vertex_count());
+  for_ranges(static_cast<int>(centres.size()), 256, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const int vertex = centres[static_cast<std::size_t>(i)];
+      const bool is_found = power.suffices(vertex, most_m);
+      diameters[vertex] = 2.0 * (is_found ? least_radius_m(power, vertex, 0.0, most_m) : most_m);
+    }
+  });
+  return diameters;
 }
 
 }  // namespace palpation

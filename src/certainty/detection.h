@@ -2,8 +2,10 @@
 /// that readings which found nothing rule out.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "certainty/layout.h"
 
@@ -38,6 +40,26 @@ std::optional<double> diameter_ruled_out_m(const Layout& layout, std::span<const
 /// Wherever on the tissue its centre is.
 std::optional<double> diameter_ruled_out_m(const Layout& layout, std::span<const Vec3> places,
                                            const Sought& sought);
+
+/// The same centre by centre, at the vertices; the tissue's diameter, twice, where no disk would be
+/// found, and 0 where there is no centre.
+Field diameters_ruled_out_m(const Layout& layout, std::span<const Vec3> places,
+                            const Sought& sought, std::span<const int> centres);
+
+/// Where touches may go that rule out, and how many there may be.
+struct FurtherTouches {
+  std::span<const int> candidates;  ///< vertices
+  std::size_t most = 0;
+};
+
+/// Vertices to touch, one after the other, until a disk of this diameter around any of the centres
+/// would be found as surely as sought: always the one that takes away most of what is lacking, the
+/// first of equals. Looks at two thousand centres and candidates at most. None where nothing is
+/// lacking; fewer than needed where `most` are not enough, or no candidate helps. Throws as
+/// diameter_ruled_out_m.
+std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3> places,
+                                     const Sought& sought, double diameter_m,
+                                     std::span<const int> centres, const FurtherTouches& further);
 
 /// Standard deviations: what is needed for three nats of evidence after the choice among all places
 /// and widths, which costs about seven: z^2 / 2 = 10.

@@ -1,5 +1,7 @@
 // experiment coverage: whether the band holds the outline as often as it says, over tumours of any
 // shape that the method knows nothing of.
+#include "experiments/coverage.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,8 +51,12 @@ RandomShapeOptions shape_options(const Scene& scene, const Surface& surface) {
 double needed_width(const Surface& surface, const Certainty& certainty, const World& world) {
   double greatest = 0.0;
   for (const LevelLoop& loop : level_loops(surface, world.truth, world.true_level)) {
-    for (const SurfacePoint& point : loop.points)
-      greatest = std::max(greatest, std::abs(surface.interpolate(certainty.score, point)));
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+      // The tissue's border is no outline.
+      if (loop.on_border[i] && loop.on_border[(i + loop.points.size() - 1) % loop.points.size()])
+        continue;
+      greatest = std::max(greatest, std::abs(surface.interpolate(certainty.score, loop.points[i])));
+    }
   }
   return greatest / certainty.band_score;
 }
@@ -92,26 +98,13 @@ Figures run_of(const Scene& base, const Surface& surface, std::uint64_t seed) {
        .noise = scene.number("probe.noise"),
        .readings = static_cast<int>(exploration.conclusion().belief.palpations().size()),
        .fraction = scene.number("level.fraction")});
-  const double error_m2 = episode.error ? episode.error->symmetric_difference_m2 : area_m2;
-  const bool found = !episode.estimate.empty() && exploration.conclusion().level.has_value();
-  Figures row;
+  Figures row = against_truth(episode, world);
   row.set("family", tumour.family)
       .set("area_mm2", area_m2 * 1e6)
       .set("slope_per_m", tumour.slope_per_m)
-      .set("error_mm2", error_m2 * 1e6)
       .set("bound_mm2", bound.expected_error_m2 * 1e6)
-      .set("bound_half_width_mm", bound.band_half_width_m(scene.number("band.probability")) * 1e3)
-      .set("found", found)
-      .set("lost", error_m2 > 0.5 * area_m2)
-      .set("covered", false)
-      .set("warnings", static_cast<double>(boundary_remarks(episode).size()));
-  if (!found) return row;
-  const Certainty& certainty = *exploration.conclusion().certainty;
-  const double needed = needed_width(surface, certainty, world);
-  return row.set("covered", needed <= 1.0)
-      .set("needed_width", needed)
-      .set("half_width_mm", certainty.half_width_m * 1e3)
-      .set("expected_error_mm2", certainty.expected.symmetric_difference_m2() * 1e6);
+      .set("bound_half_width_mm", bound.band_half_width_m(scene.number("band.probability")) * 1e3);
+  return row;
 }
 
 std::string share_text(int count, std::size_t of) {
@@ -151,6 +144,32 @@ std::string report_row(const std::string& name, const std::vector<Figures>& runs
 
 }  // namespace
 
+std::vector<std::string> columns_against_truth() {
+  return {"error_mm2",    "found",         "lost",     "covered",
+          "needed_width", "half_width_mm", "warnings", "expected_error_mm2"};
+}
+
+Figures against_truth(const Episode& episode, const World& world) {
+  const Exploration& exploration = episode.exploration;
+  const Surface& surface = exploration.surface();
+  const double area_m2 = episode.truth ? episode.truth->area() : 0.0;
+  const double error_m2 = episode.error ? episode.error->symmetric_difference_m2 : area_m2;
+  const bool found = !episode.estimate.empty() && exploration.conclusion().level.has_value();
+  Figures row;
+  row.set("error_mm2", error_m2 * 1e6)
+      .set("found", found)
+      .set("lost", area_m2 > 0.0 && error_m2 > 0.5 * area_m2)
+      .set("covered", false)
+      .set("warnings", static_cast<double>(boundary_remarks(episode).size()));
+  if (!found) return row;
+  const Certainty& certainty = *exploration.conclusion().certainty;
+  const double needed = needed_width(surface, certainty, world);
+  return row.set("covered", needed <= 1.0)
+      .set("needed_width", needed)
+      .set("half_width_mm", certainty.half_width_m * 1e3)
+      .set("expected_error_mm2", certainty.expected.symmetric_difference_m2() * 1e6);
+}
+
 json random_tumours_scene() {
   return {{"version", 1},
           {"surface", {{"plane", {{"size_mm", {54, 49}}, {"vertices", {109, 99}}}}}},
@@ -158,6 +177,7 @@ json random_tumours_scene() {
 }
 
 Study coverage_study(const ExperimentArguments& arguments) {
+  if (!arguments.material.world.empty()) return worlds_study(arguments);
   const Scene base = base_scene(arguments, random_tumours_scene());
   Study study;
   for (const double noise : kNoises)
@@ -187,6 +207,7 @@ Study coverage_study(const ExperimentArguments& arguments) {
 }
 
 void report_coverage(const Results& results, const ReportFolder& folder) {
+  if (results.manifest.facts.contains("worlds")) return report_worlds(results, folder);
   std::printf(
       "\nTumours of random shape, area and slope, unknown to the method; %d per noise\n"
       "            runs  error / bound    above 5  lost  covered %%  width /   true / expected "

@@ -71,6 +71,8 @@ void check(const ExperimentArguments& arguments, const Experiment& experiment) {
     throw WrongUsage("experiment " + arguments.name +
                      ": --only chooses among the cells of table1, table2, curved and study, not of "
                      "this one");
+  if (!arguments.material.world.empty() && arguments.name != "coverage")
+    throw WrongUsage("experiment " + arguments.name + ": --world is for experiment coverage");
   if (!arguments.shard.empty() && arguments.out.empty())
     throw WrongUsage("experiment " + arguments.name +
                      ": --shard needs --out: the folder that its rows are kept in");

@@ -10,6 +10,12 @@
 
 namespace palpation::tool {
 
+/// What an experiment is made on besides a scene.
+struct Material {
+  std::filesystem::path recordings{};  ///< the folder that holds them
+  std::string world{};                 ///< of coverage: a family or a kind of worlds, or all
+};
+
 struct ExperimentArguments {
   std::string name;
   std::filesystem::path scene;  ///< empty: the paper's
@@ -18,8 +24,8 @@ struct ExperimentArguments {
   int trials = 0;                 ///< 0: as many as the experiment takes by default
   std::uint64_t first_seed = 0;
   bool print_scene = false;
-  std::filesystem::path recordings;  ///< the folder that holds them
-  std::string shard;                 ///< "3/8"; empty: all
+  Material material;
+  std::string shard;  ///< "3/8"; empty: all
   std::filesystem::path out;
   bool quiet = false;
 };

@@ -33,7 +33,7 @@ Surface tissue_around(std::span<const Vec3> places) {
 }  // namespace
 
 std::filesystem::path file_of(const ExperimentArguments& arguments, const std::string& name) {
-  return arguments.recordings / (name + ".csv");
+  return arguments.material.recordings / (name + ".csv");
 }
 
 Recorded recorded(const ExperimentArguments& arguments, const std::string& name) {

@@ -205,7 +205,7 @@ Study recordings_study(const ExperimentArguments& arguments) {
                            .scene = is_given ? scene : scene.with(group.path, group.value),
                            .trials = 1});
   }
-  study.mesh_digest = [folder = arguments.recordings](std::size_t) {
+  study.mesh_digest = [folder = arguments.material.recordings](std::size_t) {
     if (folder.empty())
       throw IoError(
           "experiment recordings: needs --recordings FOLDER, which holds fig_circle_forward.csv, "

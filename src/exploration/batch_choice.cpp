@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exploration/field_fit.h"
+#include "exploration/search_goal.h"
 #include "palpation/geometry/distance.h"
 #include "readings/readings.h"
 
@@ -79,14 +80,40 @@ std::vector<int> with_others(const Batching& batch, std::vector<int> stops, Beli
   return stops;
 }
 
+/// Where a tumour of the goal's size could still hide: as many stops as that takes, or the plan has
+/// left.
+std::vector<int> lacking_stops(const Batching& batch, int batches) {
+  const int left = std::max(batch.plan.batches - std::max(batches - 1, 0), 1);
+  return stops_to_goal(
+      batch.conclusion, batch.plan.aim, batch.candidates,
+      static_cast<std::size_t>(left) * static_cast<std::size_t>(batch.options.size));
+}
+
+/// How many of these this batch must take, so that those to come take no more.
+int due(const Batching& batch, const std::vector<int>& lacking, int batches) {
+  const int left = std::max(batch.plan.batches - std::max(batches - 1, 0), 1);
+  const int lack = static_cast<int>(lacking.size());
+  return std::min((lack + left - 1) / left, batch.options.size);
+}
+
+/// Adds what of `more` keeps its distance, as far as the batch has room.
+void add_apart(const Batching& batch, std::span<const int> more, std::vector<int>& stops) {
+  for (const int stop : more) {
+    if (static_cast<int>(stops.size()) >= batch.options.size) return;
+    const std::vector<int> free = apart_from(batch, stops);
+    if (std::ranges::binary_search(free, stop)) stops.push_back(stop);
+  }
+}
+
 /// No contrast is seen yet: spread over the tissue, and a second look where readings were high.
-std::vector<int> searching_stops(const Batching& batch) {
+/// What is lacking to a goal goes before what is spread.
+std::vector<int> searching_stops(const Batching& batch, std::span<const int> lacking) {
   const FieldModel& field = batch.field();
   const std::vector<Palpation>& known = batch.conclusion.belief.palpations();
   const std::vector<double> readings = used_readings(known);
   const Belief blank = unlearned(batch.surface(), field);
   std::vector<int> stops;
-  if (batch.conclusion.model.safe_start && field.learns() && readings.size() > 1 &&
+  if (batch.conclusion.model.contrast.safe_start && field.learns() && readings.size() > 1 &&
       !all_equal(readings)) {
     Kernel kernel = kernel_of(field.kernel);
     kernel.signal_sd = spread_of(readings).sd;
@@ -96,6 +123,7 @@ std::vector<int> searching_stops(const Batching& batch) {
     stops = choose_batch(doubting.condition_on(known), ucb(0.5), Level{}, batch.candidates, options)
                 .vertices;
   }
+  add_apart(batch, lacking, stops);
   return with_others(batch, std::move(stops), blank.condition_on(known));
 }
 
@@ -121,16 +149,18 @@ Acquisition acquisition_in_force(const Conclusion& conclusion, const Plan& plan)
 std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, int batches,
                               std::span<const int> candidates, const BatchOptions& options) {
   const Batching batch{conclusion, plan, candidates, options};
-  if (!conclusion.evidence.contrast_seen) return searching_stops(batch);
+  const std::vector<int> lacking = lacking_stops(batch, batches);
+  if (!conclusion.evidence.contrast_seen) return searching_stops(batch, lacking);
   if (!conclusion.edge) return with_others(batch, {}, conclusion.belief);
   // Search first, then refine: from half the share to half as much again over the plan's batches.
   const double progress = static_cast<double>(batches) / std::max(plan.batches, 1);
-  const int count = static_cast<int>(
-      std::lround(std::min(plan.edge_share * (0.5 + progress), 1.0) * options.size));
-  return with_others(batch,
-                     conclusion.edge->most_telling(candidates, count, options.least_spacing_m,
-                                                   conclusion.marginals.variance),
-                     searching_belief(conclusion));
+  const int at_edge = static_cast<int>(
+      std::lround(std::min(plan.aim.edge_share * (0.5 + progress), 1.0) * options.size));
+  const int count = std::min(at_edge, options.size - due(batch, lacking, batches));
+  std::vector<int> stops = conclusion.edge->most_telling(candidates, count, options.least_spacing_m,
+                                                         conclusion.marginals.variance);
+  add_apart(batch, lacking, stops);
+  return with_others(batch, std::move(stops), searching_belief(conclusion));
 }
 
 }  // namespace palpation

@@ -4,6 +4,8 @@
 #include "boundary/erosion.h"
 #include "exploration/believe.h"
 #include "exploration/find_boundary.h"
+#include "exploration/weak_parts.h"
+#include "palpation/base/error.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
 
@@ -30,6 +32,22 @@ std::vector<Palpation> felt_among(std::span<const Palpation> readings, const Mod
   return felt;
 }
 
+/// The readings as they were made, with the reasons why some are set aside.
+std::vector<Palpation> as_made(std::vector<Palpation> felt, std::span<const Palpation> believed) {
+  for (std::size_t i = 0; i < felt.size(); ++i) felt[i].set_aside = believed[i].set_aside;
+  return felt;
+}
+
+Model on_scale(ReadingScale scale, Model model) {
+  if (model.level.known) {
+    require(scale == ReadingScale::Raw || *model.level.known > 0.0, "Model",
+            "level = " + text_of(*model.level.known),
+            "must be positive where readings are taken by their logarithm");
+    model.level.known = on_scale(scale, *model.level.known);
+  }
+  return model;
+}
+
 /// What level and boundary are of.
 Marginals component_of(const Believed& believed, const Model& model, const Marginals& marginals) {
   Marginals component = marginals;
@@ -44,16 +62,21 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
                     ConclusionCache* cache) {
   check(model);
   ConclusionCache own;
+  std::vector<Palpation> felt = felt_among(readings, model);
+  const ReadingScale scale = model.contrast.scale;
+  const Model scaled = on_scale(scale, model);
   // Equations (1) and (2), and whether they show more than noise.
   Believed believed =
-      believe(surface, model, felt_among(readings, model), cache != nullptr ? *cache : own);
+      believe(surface, scaled, on_scale(scale, felt), cache != nullptr ? *cache : own);
+  for (Palpation& one : believed.evidence.standing_alone)
+    one.reading = as_reading(scale, one.reading);
   Marginals marginals = believed.belief.at_vertices();
   Marginals component = component_of(believed, model, marginals);
   // The level (section V.3, equation 4) and its level set.
-  BoundaryFit boundary = find_boundary(surface, model, believed, component);
+  BoundaryFit boundary = find_boundary(surface, scaled, believed, component);
   std::optional<Certainty> certainty;
   if (boundary.level && believed.belief.site_count() > 0)
-    certainty = certainty_of(surface, model, believed, component, boundary);
+    certainty = certainty_of(surface, scaled, believed, component, boundary);
 
   const double tip_m = model.field.probe.indenter_radius_m;
   std::optional<Contour> contour;
@@ -66,18 +89,29 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
     tip_hides_all = tip_m > 0.0 && boundary.edge && boundary.edge->depth().maxCoeff() >= 0.0 &&
                     contour->field.maxCoeff() < 0.0;
   }
-  return {model,
-          std::move(believed.palpations),
-          std::move(believed.belief),
-          std::move(marginals),
-          std::move(component),
-          std::move(believed.evidence),
-          believed.lag,
-          boundary.level,
-          std::move(boundary.edge),
-          std::move(contour),
-          tip_hides_all,
-          std::move(certainty)};
+  Conclusion conclusion{model,
+                        as_made(std::move(felt), believed.palpations),
+                        std::move(believed.belief),
+                        std::move(marginals),
+                        std::move(component),
+                        std::move(believed.evidence),
+                        believed.lag,
+                        boundary.level,
+                        std::move(boundary.edge),
+                        std::move(contour),
+                        tip_hides_all,
+                        std::move(certainty)};
+  take_out_weak_parts(conclusion);
+  return conclusion;
+}
+
+std::optional<Level> level_in_readings(const Conclusion& conclusion) {
+  if (!conclusion.level) return std::nullopt;
+  Level level{.value = as_reading(conclusion.scale(), conclusion.level->value), .stddev = {}};
+  if (conclusion.level->stddev)
+    level.stddev =
+        *conclusion.level->stddev * reading_per_step(conclusion.scale(), conclusion.level->value);
+  return level;
 }
 
 }  // namespace palpation

@@ -1,5 +1,7 @@
 #include "palpation/exploration/model.h"
 
+#include <cmath>
+
 #include "palpation/base/error.h"
 #include "palpation/exploration/plan.h"
 
@@ -18,13 +20,26 @@ void check(const Model& model) {
           "must lie in (0, 1)");
   require(probability > 0.0 && probability < 1.0, "Model",
           "band_probability = " + text_of(probability), "must lie in (0, 1)");
+  const Contrast& contrast = model.contrast;
+  if (!contrast.least) return;
+  const bool is_factor = contrast.scale == ReadingScale::Log;
+  require(std::isfinite(*contrast.least) && *contrast.least > (is_factor ? 1.0 : 0.0), "Contrast",
+          "least = " + text_of(*contrast.least),
+          is_factor ? "must be finite and above 1, being a factor of logarithms"
+                    : "must be finite and positive");
 }
 
 void check(const Plan& plan) {
   require(plan.initial.count >= 0, "Plan", "initial.count = " + std::to_string(plan.initial.count),
           "must not be negative");
-  require(plan.edge_share >= 0.0 && plan.edge_share <= 1.0, "Plan",
-          "edge_share = " + text_of(plan.edge_share), "must lie in [0, 1]");
+  const Aim& aim = plan.aim;
+  require(aim.edge_share >= 0.0 && aim.edge_share <= 1.0, "Plan",
+          "edge_share = " + text_of(aim.edge_share), "must lie in [0, 1]");
+  require(std::isfinite(aim.undetected_diameter_m) && aim.undetected_diameter_m >= 0.0, "Plan",
+          "undetected_diameter = " + text_of(aim.undetected_diameter_m) + " m",
+          "must be finite and not negative");
+  require(aim.probability > 0.0 && aim.probability < 1.0, "Plan",
+          "probability = " + text_of(aim.probability), "must lie in (0, 1)");
   require(plan.batches >= 0, "Plan", "batches = " + std::to_string(plan.batches),
           "must not be negative");
   check(plan.stop);

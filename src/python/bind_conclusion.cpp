@@ -48,12 +48,14 @@ py::tuple band(const Concluded& here) {
 py::dict summary(const Concluded& here) {
   const Conclusion& all = here.conclusion;
   const Belief& belief = all.belief;
+  const std::optional<Level> level = level_in_readings(all);
   py::dict result(
       "readings"_a = all.palpations.size(), "contrast_seen"_a = all.evidence.contrast_seen,
       "length_m"_a = belief.prior().kernel().length_m, "signal_sd"_a = belief.signal_sd(),
       "noise_sd"_a = std::sqrt(belief.noise_variance()),
-      "level"_a = all.level ? py::object(py::float_(all.level->value)) : py::none(),
-      "level_sd"_a = all.level ? maybe(all.level->stddev) : py::none(),
+      "level"_a = level ? py::object(py::float_(level->value)) : py::none(),
+      "level_sd"_a = level ? maybe(level->stddev) : py::none(),
+      "transform"_a = all.scale() == ReadingScale::Log ? "log" : "none",
       "tip_hides_all"_a = all.tip_hides_all, "expected_error_m2"_a = py::none(),
       "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
       "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
@@ -75,8 +77,7 @@ py::dict summary(const Concluded& here) {
 void bind_fields(ConclusionClass& conclusion) {
   conclusion
       .def_property_readonly(
-          "mean",
-          [](const py::object& self) { return view_of(of(self).conclusion.marginals.mean, self); },
+          "mean", [](const py::object& self) { return view_of(of(self).mean, self); },
           "Of the field at the vertices, in the readings' unit, read-only.")
       .def_property_readonly(
           "stddev", [](const py::object& self) { return view_of(of(self).stddev, self); },
@@ -114,7 +115,7 @@ void bind_conclusion(py::module_& module) {
       .def_property_readonly(
           "level",
           [](const Concluded& here) {
-            const std::optional<Level>& level = here.conclusion.level;
+            const std::optional<Level> level = level_in_readings(here.conclusion);
             return level ? py::object(py::float_(level->value)) : py::object(py::none());
           },
           "Where tissue becomes tumour, in the readings' unit; None while nothing tells.")
@@ -131,7 +132,7 @@ void bind_conclusion(py::module_& module) {
           "Outside of it a place is tumour with this probability at most.")
       .def("summary", &summary, "The numbers by their names; what is not known is None.")
       .def("__repr__", [](const Concluded& here) {
-        const std::optional<Level>& level = here.conclusion.level;
+        const std::optional<Level> level = level_in_readings(here.conclusion);
         return "<palpation.Conclusion: " + std::to_string(here.conclusion.palpations.size()) +
                " readings, " + (level ? "level " + text_of(level->value) : "no level") + ">";
       });

@@ -22,6 +22,8 @@ constexpr std::array<Word<KernelFamily>, 5> kKernels{
 enum class TrendWord { Constant, Linear, Zero };
 constexpr std::array<Word<TrendWord>, 3> kTrends{
     {{"constant", TrendWord::Constant}, {"linear", TrendWord::Linear}, {"zero", TrendWord::Zero}}};
+constexpr std::array<Word<ReadingScale>, 2> kTransforms{
+    {{"none", ReadingScale::Raw}, {"log", ReadingScale::Log}}};
 constexpr std::array<Word<LevelEstimate>, 2> kEstimates{
     {{"edge", LevelEstimate::Edge}, {"range", LevelEstimate::Range}}};
 
@@ -35,6 +37,8 @@ py::dict dictionary_of(const Model& model) {
   const LevelRule& level = model.level;
   py::object known = py::none();
   if (level.known) known = py::float_(*level.known);
+  py::object least = py::none();
+  if (model.contrast.least) least = py::float_(*model.contrast.least);
   return py::dict(
       "metric"_a = word_for<Metric>(field.metric, kMetrics),
       "kernel"_a = word_for<KernelFamily>(field.kernel.family, kKernels),
@@ -47,7 +51,9 @@ py::dict dictionary_of(const Model& model) {
       "length_median_m"_a = field.kernel.length_median_m, "period_m"_a = field.kernel.period_m,
       "level"_a = known, "level_fraction"_a = level.fraction,
       "level_estimate"_a = word_for<LevelEstimate>(level.estimate, kEstimates),
-      "band_probability"_a = model.band_probability, "safe_start"_a = model.safe_start);
+      "band_probability"_a = model.band_probability, "safe_start"_a = model.contrast.safe_start,
+      "transform"_a = word_for<ReadingScale>(model.contrast.scale, kTransforms),
+      "min_contrast"_a = least);
 }
 
 FieldModel field_of(const Options& given) {
@@ -84,7 +90,9 @@ Model model_of(const py::kwargs& kwargs) {
   model.level.fraction = given.number("level_fraction");
   model.level.estimate = given.choice<LevelEstimate>("level_estimate", kEstimates);
   model.band_probability = given.number("band_probability");
-  model.safe_start = given.truth("safe_start");
+  model.contrast.safe_start = given.truth("safe_start");
+  model.contrast.scale = given.choice<ReadingScale>("transform", kTransforms);
+  if (!given["min_contrast"].is_none()) model.contrast.least = given.number("min_contrast");
   check_lengths(model.field);
   check(model);
   return model;

@@ -118,9 +118,9 @@ Planned planned(const py::kwargs& kwargs) {
   plan.batches = given.integer("batches");
   // A criterion that was asked for by name is not to be overridden by another.
   if (!given["edge_share"].is_none())
-    plan.edge_share = given.number("edge_share");
+    plan.aim.edge_share = given.number("edge_share");
   else if (!is_automatic(acquisition))
-    plan.edge_share = 0.0;
+    plan.aim.edge_share = 0.0;
   plan.stop = {.error_m2 = given.number("stop_error_m2"),
                .band_m = given.number("stop_band_m"),
                .least_gain = given.number("stop_least_gain")};
@@ -128,7 +128,7 @@ Planned planned(const py::kwargs& kwargs) {
   check(plan);
   py::dict values = defaults();
   for (const auto& [name, unused] : values) values[name] = given[name.cast<std::string>().c_str()];
-  values["edge_share"] = plan.edge_share;
+  values["edge_share"] = plan.aim.edge_share;
   return {plan, values};
 }
 

@@ -11,13 +11,17 @@ namespace palpation::python {
 struct Concluded {
   Concluded(Surface tissue, Conclusion all)
       : surface(std::move(tissue)), conclusion(std::move(all)) {
-    stddev = conclusion.marginals.variance.cwiseSqrt();
+    const ReadingScale scale = conclusion.scale();
+    const Field& modelled = conclusion.marginals.mean;
+    mean = modelled.unaryExpr([scale](double value) { return as_reading(scale, value); });
+    stddev = conclusion.marginals.variance.cwiseSqrt().binaryExpr(
+        modelled, [scale](double sd, double at) { return sd * reading_per_step(scale, at); });
     if (conclusion.certainty) probability_inside = conclusion.certainty->probability_inside();
   }
 
   Surface surface;
   Conclusion conclusion;
-  Field stddev;
+  Field mean, stddev;          ///< in the readings' unit
   Field probability_inside{};  ///< empty while there is no level
 };
 

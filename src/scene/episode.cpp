@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exploration/coarse_run.h"
+#include "exploration/search_goal.h"
 #include "palpation/base/error.h"
 #include "palpation/geometry/path.h"
 #include "scene/episode_steps.h"
@@ -94,7 +95,7 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
     row.batch = planner.batch() - 1;
     row.measurements = static_cast<int>(planner.conclusion().palpations.size());
     row.path_m = episode.path_m;
-    if (planner.conclusion().level) row.level = planner.conclusion().level->value;
+    if (planner.conclusion().level) row.level = level_in_readings(planner.conclusion())->value;
     if (planner.conclusion().certainty)
       row.expected_error_m2 = planner.conclusion().certainty->expected.symmetric_difference_m2();
     if (!planned.empty()) episode.trace.push_back(row);  // the last one is of the conclusion
@@ -187,15 +188,22 @@ Choice next_of(const Scene& scene, const Surface& surface, const Episode& episod
 Snapshot snapshot(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Marginals& marginals = exploration.conclusion().marginals;
-  Snapshot now{marginals.mean,
-               marginals.variance.cwiseSqrt(),
+  const ReadingScale scale = exploration.conclusion().scale();
+  const auto in_readings = [scale](double value) { return as_reading(scale, value); };
+  Snapshot now{marginals.mean.unaryExpr(in_readings),
+               marginals.variance.cwiseSqrt().binaryExpr(
+                   marginals.mean,
+                   [scale](double sd, double mean) { return sd * reading_per_step(scale, mean); }),
                acquisition_field(exploration.conclusion(), exploration.plan()),
                {},
                {},
                {},
+               {},
                {}};
+  if (const Aim& aim = exploration.plan().aim; aim.has_goal())
+    now.undetected_mm = 1e3 * diameters_undetected_m(exploration.conclusion(), aim.probability);
   if (exploration.conclusion().belief.prior().has_slope())
-    now.mean_detrended = exploration.conclusion().component.mean;
+    now.mean_detrended = exploration.conclusion().component.mean.unaryExpr(in_readings);
   if (const std::optional<Contour>& contour = exploration.conclusion().contour;
       contour && exploration.conclusion().level && exploration.conclusion().belief.site_count() > 0)
     now.above_level = contour->field.array() - contour->level;

@@ -35,6 +35,9 @@ struct Snapshot {
   Field score{}, probability_inside{};  ///< of certainty.h; empty while there is no level
   Field mean_detrended{};               ///< empty where no trend is modelled
   Field above_level{};  ///< what the boundary is the zero line of; empty while there is none
+  /// The least diameter of a tumour around each vertex that would have been found; empty without a
+  /// goal of the search.
+  Field undetected_mm{};
 };
 
 struct Episode {
@@ -52,7 +55,6 @@ struct Episode {
   double cut_risk = 0.05;  ///< of the cut line
   double band_probability = 0.95;
   double level_fraction = 0.5;
-  std::optional<double> min_contrast{};  ///< of tumours that must not be missed, in reading units
   double start_seconds =
       0.0;  ///< until the field could take readings: an intrinsic one finds the surface's waves
   std::vector<double>
@@ -92,6 +94,16 @@ Snapshot snapshot(const Episode& episode);
 /// without readings, where no size can be ruled out, or where something stiff is hidden by the
 /// probe's tip.
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
+/// Where the scene has a goal for the search: how far it is from being reached.
+struct GoalState {
+  double diameter_m = 0.0;
+  double probability = 0.95;
+  std::optional<double> undetected_m{};  ///< diameter_ruled_out_m with that probability
+  std::size_t touches_needed = 0;        ///< further ones, a thousand at most
+
+  bool is_reached() const { return undetected_m && *undetected_m <= diameter_m; }
+};
+std::optional<GoalState> goal_state(const Episode& episode);
 /// Those that are not set aside, the trend taken off.
 std::vector<double> readings_that_count(const Exploration& exploration);
 /// Their standard deviation, or that of a noise that is given, if it is greater; 0 where all are

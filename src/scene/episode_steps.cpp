@@ -39,10 +39,7 @@ Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach giv
       .exploration = Exploration(surface, model_of(scene), std::move(plan), std::move(reach)),
       .cut_risk = scene.number("band.cut_risk"),
       .band_probability = scene.number("band.probability"),
-      .level_fraction = scene.number("level.fraction"),
-      .min_contrast = scene.has("plan.min_contrast")
-                          ? std::optional(scene.number("plan.min_contrast"))
-                          : std::nullopt};
+      .level_fraction = scene.number("level.fraction")};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
@@ -65,8 +62,7 @@ void restate(Episode& episode) {
   if (exploration.conclusion().belief.site_count() > 0) {
     episode.estimate = Region();
     if (exploration.conclusion().level) {
-      const Level level = *exploration.conclusion().level;
-      row.level = level.value;
+      row.level = level_in_readings(exploration.conclusion())->value;
       if (!exploration.conclusion().tip_hides_all)
         row.expected_error_m2 =
             exploration.conclusion().certainty->expected.symmetric_difference_m2();

@@ -64,6 +64,7 @@ NamedFields fields_of(const Episode& episode, const World* world) {
     fields.emplace_back("score", now.score);
     fields.emplace_back("probability_inside", now.probability_inside);
   }
+  if (now.undetected_mm.size() > 0) fields.emplace_back("undetected_mm", now.undetected_mm);
   if (world != nullptr) fields.emplace_back("truth", world->truth);
   // Curved tissue may hide a part of itself: a picture can show it laid flat.
   if (const Surface& surface = episode.exploration.surface(); !surface.is_planar()) {

@@ -81,9 +81,31 @@ std::string level_outside_words(const Exploration& exploration) {
   const auto [least, greatest] = std::ranges::minmax(readings);
   const double level = exploration.conclusion().level->value;
   if (level > least && level < greatest) return "";
-  return "The level " + reading_text(level) + " lies " + (level > least ? "above" : "below") +
-         " every reading, " + reading_text(least) + " to " + reading_text(greatest) + ": " +
+  const auto text = [scale = exploration.conclusion().scale()](double value) {
+    return reading_text(as_reading(scale, value));
+  };
+  return "The level " + text(level) + " lies " + (level > least ? "above" : "below") +
+         " every reading, " + text(least) + " to " + text(greatest) + ": " +
          (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
+}
+
+/// What the search was to rule out and has not.
+std::string goal_words(const Episode& episode) {
+  const std::optional<GoalState> goal = goal_state(episode);
+  if (!goal || goal->is_reached()) return "";
+  const std::string size = fixed(goal->diameter_m * 1e3, 1) + " mm",
+                    chance = percent(goal->probability);
+  if (episode.conclusion().belief.site_count() == 0) return "";
+  std::string words =
+      "The search is not done: " +
+      (goal->undetected_m ? "a tumour up to " + fixed(*goal->undetected_m * 1e3, 1) + " mm wide"
+                          : std::string("a tumour of any width")) +
+      " could still hide, and one of " + size + " was to be found with probability " + chance +
+      " (plan.goal).";
+  if (goal->touches_needed > 0)
+    words += " That takes about " + std::to_string(goal->touches_needed) +
+             (goal->touches_needed == 1 ? " more touch." : " more touches.");
+  return words;
 }
 
 std::string standing_alone_words(const Surface& surface, const std::vector<Palpation>& alone) {
@@ -146,6 +168,9 @@ Remarks field_remarks(const Exploration& exploration) {
   if (!conclusion.evidence.standing_alone.empty())
     remarks.push_back(
         standing_alone_words(exploration.surface(), conclusion.evidence.standing_alone));
+  if (!conclusion.evidence.weaker.empty() && conclusion.level)
+    remarks.push_back(
+        "Weaker than plan.min_contrast, and so no tumour: " + weaker_words(exploration) + ".");
   if (const std::string words = reduced_rank_words(conclusion.belief); !words.empty())
     remarks.push_back(words);
   if (conclusion.lag && conclusion.lag->at_bound) {
@@ -238,7 +263,9 @@ Remarks area_remarks(const Episode& episode, bool has_parts) {
 std::vector<std::string> boundary_remarks(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Conclusion& conclusion = episode.conclusion();
-  Remarks remarks = screening_remarks(exploration);
+  Remarks remarks;
+  if (std::string words = goal_words(episode); !words.empty()) remarks.push_back(std::move(words));
+  std::ranges::move(screening_remarks(exploration), std::back_inserter(remarks));
   const auto add = [&](Remarks&& more) { std::ranges::move(more, std::back_inserter(remarks)); };
   if (conclusion.belief.site_count() == 0) return remarks;
   add(field_remarks(exploration));

@@ -82,7 +82,8 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
     scan(episode, places, world.probe, felt);
     refinement.record(std::span(felt).subspan(before));
     finish_stage(stopwatch);
-    places = refinement.next(episode.conclusion().level ? episode.conclusion().level->value : 0.0);
+    const std::optional<Level> level = level_in_readings(episode.conclusion());
+    places = refinement.next(level ? level->value : 0.0);
   }
   return episode;
 }

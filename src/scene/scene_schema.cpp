@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "palpation/world/catalogue.h"
+
 namespace palpation::tool {
 namespace {
 
@@ -113,6 +115,12 @@ SceneKey tumours(std::string path, int most, std::string meaning) {
   return result;
 }
 
+std::vector<std::string> names_of_worlds() {
+  std::vector<std::string> names;
+  for (const WorldFamily& family : world_families()) names.push_back(family.name);
+  return names;
+}
+
 std::vector<SceneKey> make_scene_keys() {
   const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   return {
@@ -192,6 +200,10 @@ std::vector<SceneKey> make_scene_keys() {
             "readings are z-scored, as GPy does; where anything is learned it matters only to a "
             "trend of zero, which is then about their "
             "mean"),
+      word(
+          "field.transform", {"none", "log"}, "none",
+          "log: a field of the readings' logarithms, for readings that are positive and skewed, "
+          "as real tissue's often are; the level's fraction is then of the way between logarithms"),
       word("field.precision", {"double", "single"}, "double",
            "single: half the memory of the field's model and less time, the field off by a "
            "ten-thousandth of the signal at most; for noise "
@@ -267,10 +279,21 @@ std::vector<SceneKey> make_scene_keys() {
       number("plan.stop.least_gain", "", 0.0, 1.0, 0.0,
              "stop once three batches reduced the expected wrong area by less than this fraction, "
              "and the next would too; 0: when the batches are done"),
-      number("plan.min_contrast", "reading", kLeastReading, kMostReading, nullptr,
-             "least contrast of a tumour that must not be missed: the summary says how wide one "
-             "can be "
-             "and still be undetected; default: four times the readings' scatter"),
+      number(
+          "plan.min_contrast", "reading", kLeastReading, kMostReading, nullptr,
+          "least contrast of a tumour, above healthy tissue (a factor where field.transform is "
+          "log): what surely stands out by less is none, and is named; the summary says how wide "
+          "one of it can be and still be undetected; left out: whatever stands out, and a tumour "
+          "of four times the readings' scatter"),
+      number(
+          "plan.goal.max_undetected_diameter_mm", "mm", 0.1, kMostLength_mm, nullptr,
+          "a tumour as wide as this is not to be missed, wherever it is: what is not spent on the "
+          "boundary goes first where one could still hide, and the run says so where one can; "
+          "left out: no such goal"),
+      number(
+          "plan.goal.probability", "", 0.01, 1.0 - 1e-6, 0.95,
+          "with which such a tumour is to be found; its contrast is plan.min_contrast, else that "
+          "of what was found, else four times the readings' scatter"),
       or_zero(number("plan.explore_mm", "mm", 0.05, 3.0, 0.0,
                      "plan on a coarser mesh with edges of this length, and infer the boundary on "
                      "the full one at the end; 0: all on the full one; without effect on palpate "
@@ -302,6 +325,9 @@ std::vector<SceneKey> make_scene_keys() {
       number("probe.lag_mm", "mm", -100.0, 100.0, 0.0,
              "lag of a simulated reading: at x, travelling along t, it is that of x - lag t"),
       tumours("probe.tumours", kMostTumours, "a list of shapes; several may overlap"),
+      word("probe.world", names_of_worlds(), nullptr,
+           "in place of tumours: what lies there, and what ails the sensor, drawn by the seed from "
+           "a family of the catalogue, on flat tissue; its slope and contrasts, too"),
       number("band.probability", "", 0.01, 1.0 - 1e-6, 0.95,
              "probability that the whole true outline lies between the band's two curves"),
       number("band.cut_risk", "", 1e-6, 0.5, 0.05,

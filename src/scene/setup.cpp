@@ -9,7 +9,6 @@
 #include "palpation/base/error.h"
 #include "palpation/geometry/distance.h"
 #include "scene/registration_file.h"
-#include "scene/tumours.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
@@ -122,6 +121,22 @@ void leave_out_margin(const Scene& scene, const Surface& surface, std::vector<in
     scene.refuse_value("robot.margin_mm", "less: no tissue is left that far from its border");
 }
 
+/// Values in the reading's unit have no meaning beside logarithms.
+ReadingScale scale_of(const Scene& scene) {
+  if (scene.word("field.transform") == "none") return ReadingScale::Raw;
+  for (const char* key : {"field.signal_sd", "field.noise"}) {
+    if (scene.word(key) != "learn")
+      scene.refuse(key,
+                   "is in the reading's unit, which logarithms (field.transform log) do not "
+                   "have: set it to learn");
+  }
+  if (scene.word("level.estimate") == "known" && scene.number("level.value") <= 0.0)
+    scene.refuse_value("level.value", "above 0, where field.transform is log");
+  if (scene.has("plan.min_contrast") && scene.number("plan.min_contrast") <= 1.0)
+    scene.refuse_value("plan.min_contrast", "above 1: where field.transform is log it is a factor");
+  return ReadingScale::Log;
+}
+
 LevelRule level_rule_of(const Scene& scene) {
   LevelRule rule;
   rule.fraction = scene.number("level.fraction");
@@ -157,7 +172,11 @@ Model model_of(const Scene& scene) {
   return {.field = field_of(scene),
           .level = level_rule_of(scene),
           .band_probability = scene.number("band.probability"),
-          .safe_start = scene.truth("plan.safe_start")};
+          .contrast = {.scale = scale_of(scene),
+                       .least = scene.has("plan.min_contrast")
+                                    ? std::optional(scene.number("plan.min_contrast"))
+                                    : std::nullopt,
+                       .safe_start = scene.truth("plan.safe_start")}};
 }
 
 Plan plan_of(const Scene& scene) {
@@ -176,8 +195,11 @@ Plan plan_of(const Scene& scene) {
   plan.stop = {.error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6,
                .band_m = scene.metres("plan.stop.band_mm"),
                .least_gain = scene.number("plan.stop.least_gain")};
-  plan.edge_share =
+  plan.aim.edge_share =
       scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
+  if (scene.has("plan.goal.max_undetected_diameter_mm"))
+    plan.aim.undetected_diameter_m = scene.metres("plan.goal.max_undetected_diameter_mm");
+  plan.aim.probability = scene.number("plan.goal.probability");
   return plan;
 }
 
@@ -232,30 +254,6 @@ std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& 
   if (vertices.empty()) scene.refuse("plan.keep_out_mm", "leaves no tissue that can be touched");
   leave_out_margin(scene, surface, vertices);
   return vertices;
-}
-
-Phantom phantom_of(const Scene& scene, const Surface& surface) {
-  StiffnessModel model;
-  model.low = scene.number("probe.low");
-  model.high = scene.number("probe.high");
-  model.slope_per_m = scene.number("probe.slope_per_m");
-  model.noise = scene.number("probe.noise");
-  model.bias = scene.number("probe.bias");
-  model.fraction = scene.number("level.fraction");
-  model.lag_m = scene.metres("probe.lag_mm");
-  if (scene.gives("probe.bias_axis")) {
-    const std::vector<double> axis = scene.numbers("probe.bias_axis");
-    model.bias_axis = Vec3(axis[0], axis[1], axis[2]).stableNormalized();
-  }
-  const std::vector<Tumour> tumours = tumours_of(scene);
-  try {
-    return Phantom(surface, tumours, model);
-  } catch (const InvalidInput& error) {
-    refuse_tumours(scene, surface, tumours);
-    const std::string words = without("Phantom: ", error.what());
-    const std::string axis = "bias axis ";
-    scene.refuse(words.starts_with(axis) ? "probe.bias_axis" : "probe", without(axis, words));
-  }
 }
 
 }  // namespace palpation::tool

@@ -9,6 +9,7 @@
 #include "palpation/exploration/reach.h"
 #include "palpation/exploration/waypoint.h"
 #include "palpation/geometry/surface.h"
+#include "palpation/world/catalogue.h"
 #include "palpation/world/phantom.h"
 #include "scene/scene.h"
 
@@ -28,6 +29,8 @@ Access access_of(const Scene& scene);
 bool limits_reach(const Scene& scene);
 /// The vertices that can be touched, where it is.
 std::optional<std::vector<int>> reachable_of(const Scene& scene, const Surface& surface);
-Phantom phantom_of(const Scene& scene, const Surface& surface);
+/// What the scene's simulated probe touches.
+DrawnWorld world_of(const Scene& scene, const Surface& surface);
+Phantom phantom_of(const Scene& scene, const Surface& surface, const PhantomDesign& design);
 
 }  // namespace palpation::tool

@@ -82,6 +82,16 @@ json reduced_rank_json(const Belief& belief) {
           {"variance_off_at_most", reduced->variance_error}};
 }
 
+/// Of the search: null where the scene has none.
+json goal_json(const std::optional<GoalState>& goal) {
+  if (!goal) return nullptr;
+  return {{"max_undetected_diameter_mm", goal->diameter_m * kMm},
+          {"probability", goal->probability},
+          {"undetected_mm", maybe(goal->undetected_m, kMm)},
+          {"reached", goal->is_reached()},
+          {"touches_needed", goal->touches_needed}};
+}
+
 }  // namespace
 
 json summary_of(const Episode& episode, const Scene& scene, std::vector<std::string> warnings) {
@@ -89,7 +99,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
   const Surface& surface = exploration.surface();
   json parts = json::array();
   for (const TumourPart& part : parts_of(episode)) parts.push_back(part_json(part, surface));
-  const std::optional<Level>& level = episode.conclusion().level;
+  const std::optional<Level> level = level_in_readings(episode.conclusion());
   const std::vector<std::string> remarks = boundary_remarks(episode);
   warnings.insert(warnings.end(), remarks.begin(), remarks.end());
   json result = {
@@ -112,6 +122,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
        {{"length_mm", episode.conclusion().belief.prior().kernel().length_m * kMm},
         {"signal_sd", episode.conclusion().belief.signal_sd()},
         {"noise_sd", std::sqrt(episode.conclusion().belief.noise_variance())}}},
+      {"transform", episode.conclusion().scale() == ReadingScale::Log ? "log" : "none"},
       {"precision", episode.conclusion().belief.options().single_precision ? "single" : "double"},
       {"reduced_rank", reduced_rank_json(episode.conclusion().belief)},
       {"warnings", warnings},
@@ -127,6 +138,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
   const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
   result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;
   result["no_other_wider_than_mm"] = found ? ruled_out : json(nullptr);
+  result["goal"] = goal_json(goal_state(episode));
   add_certainty(result, episode, scene.number("band.cut_risk"));
   if (episode.truth) {
     result["truth_is"] = episode.truth_is;

@@ -40,6 +40,16 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
          " at any place.\n";
 }
 
+bool has_least_contrast(const Episode& episode) {
+  return episode.conclusion().model.contrast.least.has_value();
+}
+
+std::string least_contrast_words(const Episode& episode) {
+  const Contrast& contrast = episode.conclusion().model.contrast;
+  return std::string("by ") + (contrast.scale == ReadingScale::Log ? "a factor of " : "") +
+         reading_text(*contrast.least) + " or more";
+}
+
 /// What is ruled out where nothing was found.
 std::string nothing_words(const Episode& episode) {
   if (episode.conclusion().evidence.trend_is_missing) return "";
@@ -47,9 +57,11 @@ std::string nothing_words(const Episode& episode) {
   if (!episode.conclusion().level && noise_sd == 0.0) return "";
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode);
   const std::string contrast =
-      episode.min_contrast ? "by " + reading_text(*episode.min_contrast) + " or more"
-      : episode.conclusion().level
-          ? "so that its edge is at that level"
+      has_least_contrast(episode)  ? least_contrast_words(episode)
+      : episode.conclusion().level ? "so that its edge is at that level"
+      : episode.conclusion().scale() == ReadingScale::Log
+          ? "by a factor of " + fixed(std::exp(4.0 * noise_sd), 2) +
+                ", four times the scatter of the readings' logarithms, or more"
           : "by four times the readings' scatter, " + reading_text(4.0 * noise_sd) + ", or more";
   if (!diameter_m)
     return "So few readings cannot rule out any tumour that stands out " + contrast + ".\n";
@@ -69,7 +81,8 @@ std::string found_words(const Episode& episode) {
   if (!episode.conclusion().level)
     return no_level_words(episode.exploration) + "\n" + nothing_words(episode);
   const std::vector<TumourPart> parts = parts_of(episode);
-  const std::string level = "at the level " + reading_text(episode.conclusion().level->value);
+  const std::string level =
+      "at the level " + reading_text(level_in_readings(episode.conclusion())->value);
   if (parts.empty()) {
     if (episode.conclusion().tip_hides_all)
       return "Something stiff was found, but it is nowhere wider than the probe's tip.\n";
@@ -81,11 +94,11 @@ std::string found_words(const Episode& episode) {
   words +=
       band_words(*episode.conclusion().certainty, episode.exploration.surface(), episode.cut_risk);
   if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
-    words += "No other tumour that stands out " +
-             (episode.min_contrast ? "by " + reading_text(*episode.min_contrast) + " or more"
-                                   : std::string("as much")) +
-             " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
-             percent(episode.band_probability) + ".\n";
+    words +=
+        "No other tumour that stands out " +
+        (has_least_contrast(episode) ? least_contrast_words(episode) : std::string("as much")) +
+        " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
+        percent(episode.band_probability) + ".\n";
   return words;
 }
 
@@ -101,12 +114,23 @@ std::string stop_words(const std::string& reason) {
 
 }  // namespace
 
+std::string weaker_words(const Exploration& exploration) {
+  std::string words;
+  for (const WeakerPart& part : exploration.conclusion().evidence.weaker)
+    words += (words.empty() ? "" : ", ") + reading_text(part.contrast) + " around " +
+             place_words(exploration.surface().position(part.where), 1);
+  return "what stands out by less is " + words;
+}
+
 std::string no_level_words(const Exploration& exploration) {
   if (exploration.conclusion().evidence.trend_is_missing) return kTooFewForTrend;
+  if (!exploration.conclusion().evidence.weaker.empty())
+    return "Nothing found that stands out by plan.min_contrast: " + weaker_words(exploration) + ".";
   const std::vector<double> readings = readings_that_count(exploration);
   if (readings.size() > 1 && all_equal(readings))
     return "Nothing found: all " + std::to_string(readings.size()) + " readings are equal, " +
-           reading_text(readings.front()) + ", to the last digit, as if the sensor were stuck.";
+           reading_text(as_reading(exploration.conclusion().scale(), readings.front())) +
+           ", to the last digit, as if the sensor were stuck.";
   return kNoContrast;
 }
 
@@ -193,8 +217,15 @@ std::string episode_words(const Episode& episode) {
 
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m) {
   if (stops.empty()) return "Nothing more to touch. " + stop_words(episode.stop_reason());
-  std::string words = "Touch next, in this order (" + fixed(path_m * 1e3, 0) +
-                      " mm to travel), in the robot's frame [mm]:\n";
+  std::string words;
+  if (const std::optional<GoalState> goal = goal_state(episode);
+      goal && episode.conclusion().belief.site_count() == 0)
+    words = "Readings of so much noise that a tumour stands out by four times it: about " +
+            std::to_string(goal->touches_needed) + " touches rule out one of " +
+            fixed(goal->diameter_m * 1e3, 1) + " mm, with probability " +
+            percent(goal->probability) + ".\n";
+  words += "Touch next, in this order (" + fixed(path_m * 1e3, 0) +
+           " mm to travel), in the robot's frame [mm]:\n";
   for (const Waypoint& stop : stops) {
     words += "  " + fixed(stop.position.x() * 1e3, 2) + "  " + fixed(stop.position.y() * 1e3, 2) +
              "  " + fixed(stop.position.z() * 1e3, 2) + "\n";

@@ -17,6 +17,8 @@ inline constexpr const char* kNoContrast =
 inline constexpr const char* kTooFewForTrend =
     "No conclusion: fewer than 15 places have been touched, too few to tell a tumour from a tilt.";
 
+/// What was taken out as weaker than plan.min_contrast: where, and by how much it stands out.
+std::string weaker_words(const Exploration& exploration);
 /// What is said where no level could be found.
 std::string no_level_words(const Exploration& exploration);
 

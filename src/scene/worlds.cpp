@@ -13,6 +13,7 @@ namespace palpation::tool {
 namespace {
 
 constexpr std::uint64_t kProbeStream = 0x70726f6265u;
+constexpr std::uint64_t kFaultStream = 0x6661756c74u;
 
 /// Tumours that nobody can find, or nobody can miss, are allowed and told.
 std::vector<std::string> warnings_about(const Scene& scene, const Phantom& phantom) {
@@ -60,13 +61,34 @@ std::shared_ptr<const RecordedWorld> world_of(const Surface& surface,
 
 }  // namespace
 
+namespace {
+
+/// What the phantom gives, as a sensor with the world's faults reports it.
+Probe faulty_probe(const Scene& scene, const Surface& surface, const DrawnWorld& drawn,
+                   const std::shared_ptr<const Phantom>& phantom,
+                   const std::shared_ptr<Random>& random) {
+  const auto sensor = std::make_shared<FaultySensor>(
+      drawn.faults, drawn.change, scene.number("probe.low"), scene.number("probe.high"));
+  const auto faults = std::make_shared<Random>(scene.seed() ^ kFaultStream);
+  return [=](const SurfacePoint& where, const Vec3& travel) {
+    Palpation palpation = phantom->touch(sensor->feels_at(surface, where), travel, *random);
+    palpation.where = where;
+    palpation.reading = sensor->reported(palpation.reading, *faults);
+    return std::optional(palpation);
+  };
+}
+
+}  // namespace
+
 World simulated_world(const Scene& scene, const Surface& surface) {
-  const auto phantom = std::make_shared<Phantom>(phantom_of(scene, surface));
+  const DrawnWorld drawn = world_of(scene, surface);
+  const auto phantom = std::make_shared<Phantom>(phantom_of(scene, surface, drawn.design));
   const auto random = std::make_shared<Random>(scene.seed() ^ kProbeStream);
   World world;
   world.probe = [phantom, random](const SurfacePoint& where, const Vec3& travel) {
     return std::optional(phantom->touch(where, travel, *random));
   };
+  if (scene.has("probe.world")) world.probe = faulty_probe(scene, surface, drawn, phantom, random);
   world.truth = phantom->truth();
   world.true_level = phantom->true_level();
   world.warnings = warnings_about(scene, *phantom);

@@ -178,7 +178,9 @@ void add_experiment_command(CLI::App& app, Arguments& arguments) {
           "--only", arguments.experiment.only,
           "for table1, table2 and curved: run only the cells with this text in their names")
       ->allow_extra_args(false);
-  command->add_option("--recordings", arguments.experiment.recordings,
+  command->add_option("--world", arguments.experiment.material.world,
+                      "for experiment coverage: worlds of the catalogue, a family, a kind, or all");
+  command->add_option("--recordings", arguments.experiment.material.recordings,
                       "for experiment recordings: the folder with the physical recordings");
   command->add_flag("--print-scene", arguments.experiment.print_scene,
                     "print the scene of every cell instead of running it; of one cell a scene that "

@@ -73,8 +73,9 @@ TEST(Trend, LeavesAllOpenWhileFewPlacesAreTouched) {
   const Surface tissue = plane(26, 51);
   Random random(4);
   const std::vector<Palpation> readings = bumpy_readings(tissue, 15, random);
-  Exploration exploration(tissue, {.field = {.trend = {.is_linear = true}}, .safe_start = false},
-                          {.batches = 3});
+  Exploration exploration(
+      tissue, {.field = {.trend = {.is_linear = true}}, .contrast = {.safe_start = false}},
+      {.batches = 3});
   exploration.take_up(std::span(readings).first(14));
   EXPECT_TRUE(exploration.conclusion().evidence.trend_is_missing);
   EXPECT_FALSE(exploration.conclusion().level.has_value());

@@ -29,7 +29,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
     try_to([&] { tool::model_of(scene); });
     try_to([&] { tool::plan_of(scene); });
     try_to([&] { tool::robot_of(scene); });
-    try_to([&] { tool::phantom_of(scene, fuzz::sheet()); });
+    try_to([&] {
+      tool::phantom_of(scene, fuzz::sheet(), tool::world_of(scene, fuzz::sheet()).design);
+    });
   });
   return 0;
 }

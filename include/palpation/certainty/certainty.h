@@ -6,6 +6,8 @@
 /// -Phi^-1(1 - r) is the line beyond which tissue is tumour with probability r at most.
 #pragma once
 
+#include <span>
+
 #include "palpation/belief/belief.h"
 #include "palpation/belief/level.h"
 #include "palpation/certainty/edge_belief.h"
@@ -53,6 +55,11 @@ Certainty less_tip(Certainty certainty, const Surface& surface, double radius_m)
 Certainty doubted_where_contact_fades(Certainty certainty, const Surface& surface,
                                       const FadingContact& fading, const Field& sd,
                                       double whole_loss);
+
+/// A part that counts as tumour no more: at these vertices the score is this one, which is
+/// negative.
+Certainty without_part(Certainty certainty, const Surface& surface, std::span<const int> vertices,
+                       double score);
 
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than
 /// the field is of it, and counts among what is expected to be wrong. Far is twice the radius of

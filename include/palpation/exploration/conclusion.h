@@ -17,6 +17,7 @@
 #include "palpation/certainty/certainty.h"
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/exploration/model.h"
+#include "palpation/readings/reading_scale.h"
 
 namespace palpation {
 
@@ -24,6 +25,12 @@ namespace palpation {
 struct Contour {
   Field field;
   double level = 0.0;
+};
+
+/// A part that stands out by less than the model's least contrast (Contrast::least).
+struct WeakerPart {
+  SurfacePoint where;     ///< its highest place
+  double contrast = 0.0;  ///< there, above healthy tissue, in readings
 };
 
 /// Whether the readings tell of a tumour at all.
@@ -35,6 +42,8 @@ struct Evidence {
   /// trend apart, and none of them beside another: what they alone show is no contrast, and where
   /// the others show some and these lie ten times as far out, they are set aside (kStandsAlone).
   std::vector<Palpation> standing_alone{};
+  /// What was taken out of the boundary as too weak for a tumour.
+  std::vector<WeakerPart> weaker{};
 
   /// Whether level and boundary may be concluded.
   bool allows_boundary() const { return contrast_seen && !trend_is_missing; }
@@ -71,7 +80,14 @@ struct Conclusion {
   bool tip_hides_all = false;
   /// How sure the boundary is; nothing where there is no level or no reading.
   std::optional<Certainty> certainty;
+
+  /// That the field is modelled on: belief, marginals, component, level, edge and contour are in
+  /// its units, so that with ReadingScale::Log exp of a mean is a reading (its median).
+  ReadingScale scale() const { return model.contrast.scale; }
 };
+
+/// The level in the readings' own unit, its standard deviation to first order.
+std::optional<Level> level_in_readings(const Conclusion& conclusion);
 
 /// Beliefs that were made on the way to a conclusion, for the next one to grow by its fresh
 /// readings alone. It changes nothing but the time: what is concluded with it is what is concluded

@@ -5,6 +5,7 @@
 
 #include "palpation/base/learnable.h"
 #include "palpation/belief/belief.h"
+#include "palpation/readings/reading_scale.h"
 
 namespace palpation {
 
@@ -91,20 +92,31 @@ struct LevelRule {
   LevelEstimate estimate = LevelEstimate::Edge;
 };
 
-struct Model {
-  FieldModel field{};
-  LevelRule level{};
-  double band_probability = 0.95;  ///< with which the whole true outline lies in the band
+/// What counts as a tumour's contrast.
+struct Contrast {
+  ReadingScale scale = ReadingScale::Raw;  ///< of the readings, before a field is fitted to them
+  /// Above healthy tissue, in the readings' unit (with ReadingScale::Log a factor): what surely
+  /// stands out by less is texture, a vessel, a slow wave, and no tumour. Nothing: whatever stands
+  /// out.
+  std::optional<double> least{};
   /// Until the readings show contrast (contrast.h), conclude nothing, explore by the field's
   /// variance, and where the field is learned, which five readings of healthy tissue would teach
   /// that noise is all, by that of a field of the prior's length, with a second look where readings
   /// were high. Not asked of a field and a level that are both given.
   bool safe_start = true;
-
-  bool needs_contrast() const { return safe_start && (field.learns() || !level.known); }
 };
 
-/// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1).
+struct Model {
+  FieldModel field{};
+  LevelRule level{};
+  double band_probability = 0.95;  ///< with which the whole true outline lies in the band
+  Contrast contrast{};
+
+  bool needs_contrast() const { return contrast.safe_start && (field.learns() || !level.known); }
+};
+
+/// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1) and the
+/// least contrast is positive, or as a factor above 1.
 void check(const Model& model);
 
 }  // namespace palpation

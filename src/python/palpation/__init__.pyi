@@ -206,6 +206,8 @@ class Model:
         level_estimate: Literal["edge", "range"] = ...,
         band_probability: SupportsFloat = ...,
         safe_start: bool = ...,
+        transform: Literal["none", "log"] = ...,
+        min_contrast: SupportsFloat | None = ...,
     ) -> None: ...
     def as_dict(self) -> dict[str, Any]: ...
 

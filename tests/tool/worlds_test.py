@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""The catalogue of worlds, contrasts that do not matter, logarithms and the goal of a search, as the tool has them.
+
+usage: worlds_test.py PALPATE [Worlds.test_...]        needs Python 3
+"""
+
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PALPATE = pathlib.Path(sys.argv[1]).resolve()
+TISSUE = {"surface": {"plane": {"size_mm": [25, 50], "vertices": [26, 51]}}}
+
+
+def palpate(*arguments):
+    return subprocess.run([PALPATE, *map(str, arguments)], capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
+
+
+class Worlds(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def scene(self, **groups):
+        path = self.folder / "scene.json"
+        path.write_text(json.dumps({**TISSUE, **groups}))
+        return path
+
+    def summary(self, command, scene, *arguments):
+        run = palpate(command, scene, "--out", self.folder / "out", "--overwrite", "--quiet", *arguments)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        return json.loads((self.folder / "out" / "summary.json").read_text())
+
+    def refused(self, scene, says):
+        run = palpate("simulate", scene)
+        self.assertEqual(run.returncode, 3, run.stdout + run.stderr)
+        self.assertIn(says, run.stderr)
+
+    def test_a_world_is_drawn_by_the_seed(self):
+        scene = self.scene(probe={"world": "two", "noise": 0.02}, plan={"batches": 4})
+        one, again, other = (self.summary("simulate", scene, "--seed", seed)["error"] for seed in (3, 3, 4))
+        self.assertEqual(one, again)
+        self.assertNotEqual(one, other)
+
+    def test_a_world_stands_in_place_of_tumours(self):
+        disk = {"shape": "disk", "centre_mm": [12, 25, 0], "radius_mm": 5}
+        self.refused(self.scene(probe={"world": "two", "tumours": [disk]}), "stands in place of probe.tumours")
+        self.refused(self.scene(probe={"world": "cube"}), "probe.world")
+        small = {"plane": {"size_mm": [8, 8], "vertices": [9, 9]}}
+        self.refused(self.scene(surface=small, probe={"world": "two"}, plan={"initial": {"count": 4}}), "cannot be drawn on this tissue")
+
+    def test_coverage_runs_over_worlds(self):
+        out = self.folder / "coverage"
+        coarse = ("--trials", 2, "--set", "plan.batches=2", "--quiet", "--out", out)
+        run = palpate("experiment", "coverage", self.scene(probe={"noise": 0.05}), "--world", "profile", *coarse)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for family in ("dome", "cone", "gauss", "hill", "unequal-slopes", "all of profile"):
+            self.assertIn(family, run.stdout)
+        with open(out / "rows.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 10)
+        for row in rows:
+            self.assertEqual((row["kind"], row["true_parts"]), ("profile", "1"))
+            self.assertGreater(float(row["bound_mm2"]), 0.0)
+            if row["outline_by_p"]:
+                self.assertAlmostEqual(sum(map(float, row["outline_by_p"].split())), 1.0, 9)
+            if row["area_by_p"]:
+                self.assertAlmostEqual(sum(map(float, row["area_by_p"].split())), 1250.0, 6)
+        self.assertTrue((out / "coverage_tenths.csv").exists())
+        wrong = palpate("experiment", "coverage", "--world", "cube", "--quiet")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("crescent", wrong.stderr)
+        self.assertEqual(palpate("experiment", "table1", "--world", "all").returncode, 2)
+
+    def test_what_is_weaker_than_matters_is_named_and_no_tumour(self):
+        probe = {"world": "vessel", "noise": 0.02}
+        weak = self.summary("simulate", self.scene(probe=probe, plan={"min_contrast": 1.4}), "--seed", 2)
+        self.assertEqual(weak["parts"], [])
+        self.assertTrue(any("plan.min_contrast" in words for words in weak["warnings"]), weak["warnings"])
+        self.assertNotEqual(self.summary("simulate", self.scene(probe=probe), "--seed", 2)["parts"], [])
+
+    def test_logarithms_are_written_as_readings(self):
+        measured = self.folder / "skewed.csv"
+        with open(measured, "w") as file:
+            file.write("x,y,z,reading\n")
+            for i in range(12):
+                for j in range(24):
+                    x, y = 0.0015 + 0.002 * i, 0.0015 + 0.002 * j
+                    depth = 0.006 - math.hypot(x - 0.0125, y - 0.030)
+                    noise = 0.05 * math.sin(12.9898 * i + 78.233 * j + i * j)
+                    file.write(f"{x},{y},0,{0.2 * math.exp(2.0 / (1.0 + math.exp(-1400.0 * depth)) + noise)}\n")
+        arguments = ("--measurements", measured)
+        log = self.summary("boundary", self.scene(field={"transform": "log"}), *arguments)
+        raw = self.summary("boundary", self.scene(), *arguments)
+        self.assertEqual((log["transform"], raw["transform"]), ("log", "none"))
+        self.assertAlmostEqual(log["level"], 0.2 * math.e, delta=0.05)  # half way between logarithms
+        self.assertGreater(raw["level"], log["level"] + 0.1)
+        self.refused(self.scene(field={"transform": "log", "noise": 0.1}), "field.noise")
+        self.refused(self.scene(field={"transform": "log"}, plan={"min_contrast": 1.0}), "plan.min_contrast")
+
+    def test_a_search_with_a_goal_says_how_far_it_is(self):
+        short = self.scene(plan={"goal": {"max_undetected_diameter_mm": 6}, "batches": 1}, probe={"noise": 0.05})
+        summary = self.summary("simulate", short)
+        goal = summary["goal"]
+        self.assertFalse(goal["reached"])
+        self.assertGreater(goal["touches_needed"], 10)
+        self.assertIn("The search is not done", summary["warnings"][0])
+        self.assertIn(b'"undetected_mm"', (self.folder / "out" / "surface.vtp").read_bytes())
+        planned = palpate("plan", short)
+        self.assertIn("touches rule out one of 6.0 mm", planned.stdout)
+        self.assertIsNone(self.summary("simulate", self.scene(plan={"batches": 1}))["goal"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
