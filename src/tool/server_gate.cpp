@@ -81,6 +81,10 @@ GateStop Server::stop_asked(Request& request) {
 
 json Server::gate(Request& request) {
   const std::string what = request.text("what");
+  if (what == "limits") {
+    request.done();
+    return limits_of_answer(gate_of_run().limits());
+  }
   const double now_s = request.number("now");
   Gate& gate = gate_of_run();
   Verdict verdict;
@@ -100,8 +104,8 @@ json Server::gate(Request& request) {
                                   : gate.finish(now_s);
   } else {
     throw BadRequest("\"what\" is " + shown(what) +
-                     ", but must be pose, force, state, failure, begin, permit, watch, reading or "
-                     "finish");
+                     ", but must be limits, pose, force, state, failure, begin, permit, watch, "
+                     "reading or finish");
   }
   json answer = verdict_of_answer(verdict);
   answer["touches"] = gate.is_touching();

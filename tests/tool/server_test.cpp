@@ -108,6 +108,23 @@ TEST_F(ServerTest, RefusesInWordsWhatItCannotDo) {
   EXPECT_EQ(done({{"do", "show"}})["rows"], 0);
 }
 
+TEST_F(ServerTest, SaysTheWayBetweenStopsAndTheGatesLimits) {
+  open();
+  const json next = done({{"do", "next"}});
+  ASSERT_FALSE(next["way"].empty());
+  double leg = next["way"][0]["leg"];
+  for (const json& place : next["way"]) {
+    EXPECT_GE(place["leg"], leg);
+    leg = place["leg"];
+    EXPECT_DOUBLE_EQ(place["approach_z"], 0.005);
+  }
+  EXPECT_LT(leg, static_cast<double>(next["stops"].size()));
+  const json limits = done({{"do", "gate"}, {"what", "limits"}});
+  EXPECT_EQ(limits["frame"], "PSM1_base");
+  EXPECT_DOUBLE_EQ(limits["box_most"][2], 0.027);  // 20 mm, and the way in and out
+  EXPECT_DOUBLE_EQ(limits["hold_n"], 5.0);
+}
+
 TEST_F(ServerTest, ItsGateLetsATouchBeginAndHoldsUntilItIsAcknowledged) {
   open();
   const json stop = done({{"do", "next"}})["stops"][4];
