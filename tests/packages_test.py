@@ -16,7 +16,8 @@ import sys
 import tempfile
 
 EXPECTED = {
-    "palpation": ["usr/bin/palpate", "usr/bin/palpate-draw", "usr/share/man/man1/palpate.1.gz", "usr/share/bash-completion/completions/palpate"],
+    "palpation": ["usr/bin/palpate", "usr/bin/palpate-draw", "usr/share/man/man1/palpate.1.gz", "usr/share/bash-completion/completions/palpate",
+                  "usr/bin/palpate-arm", "usr/share/palpation/ros/palpation_arm/driver.py", "usr/share/palpation/ros/msg/OperatingState.msg"],
     "libpalpation-dev": ["usr/include/palpation/palpation.h", "usr/include/palpation/version.h", "usr/lib/cmake/palpation/palpationConfig.cmake"],
     "python3-palpation": ["usr/lib/python3/dist-packages/palpation/__init__.py", "usr/lib/python3/dist-packages/palpation/py.typed"],
 }

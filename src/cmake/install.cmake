@@ -24,6 +24,13 @@ foreach(tool palpate palpate-draw)
   endif()
 endforeach()
 
+# The driver of an arm and the simulated one: two scripts, and what they share.
+if(TARGET palpate)
+  install(PROGRAMS src/robot/ros/palpate-arm src/robot/ros/palpate-simulated-arm DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT palpation)
+  install(DIRECTORY src/robot/ros/palpation_arm src/robot/ros/msg DESTINATION share/palpation/ros COMPONENT palpation
+          PATTERN "__pycache__" EXCLUDE)
+endif()
+
 if(TARGET palpate_told)
   install(FILES ${PROJECT_BINARY_DIR}/told/palpate.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT palpation)
   install(FILES ${PROJECT_BINARY_DIR}/told/palpate DESTINATION share/bash-completion/completions COMPONENT palpation)

@@ -60,7 +60,12 @@ if(NOT palpation_no_gzip)
   palpation_package(libpalpation-dev libdevel "This package has headers, the library to link and its CMake package." "${palpation_dev_needs}")
   if(PALPATION_PROGRAMS)
     set(CPACK_DEBIAN_PALPATION_PACKAGE_RECOMMENDS libgl1-mesa-dri)  # draws where there is no graphics card
-    palpation_package(palpation science "This package has the programs palpate and palpate-draw." "${palpation_linked}")
+    set(CPACK_DEBIAN_PALPATION_PACKAGE_SUGGESTS "python3-numpy, python3-rospy, python3-rosmaster, python3-geometry-msgs, python3-sensor-msgs, python3-netifaces")
+    set(palpation_needs python3)  # palpate-arm
+    if(palpation_linked)
+      string(APPEND palpation_needs ", ${palpation_linked}")
+    endif()
+    palpation_package(palpation science "This package has the programs palpate, palpate-draw and palpate-arm." "${palpation_needs}")
   endif()
   if(TARGET palpation_python)
     set(python "python3-numpy, python3 (>= ${palpation_this_python}), python3 (<< ${palpation_next_python})")
