@@ -22,8 +22,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-TISSUE = ["robot.frame=PSM1_base", "robot.from_tissue=[1,0,0,-0.01,0,1,0,-0.02,0,0,1,-0.12,0,0,0,1]", "robot.limits.data_age_ms=150",
-          "robot.limits.stiffest_n_per_mm=3", "robot.standoff_mm=3", "robot.indent_mm=1.5", "probe.low=0.3", "probe.high=0.5", "probe.noise=0.005"]
+TISSUE = ["robot.frame=PSM1_base", "robot.from_tissue=[1,0,0,-0.01,0,1,0,-0.02,0,0,1,-0.12,0,0,0,1]",  "robot.standoff_mm=3", "robot.indent_mm=1.5", "probe.low=0.3", "probe.high=0.5", "probe.noise=0.005"]
 PLACES = [((a + (1 / 3)) / 8, (b + (1 / 3)) / 8) for a in range(8) for b in range(8 - a)]
 
 

@@ -14,7 +14,8 @@ from palpation_arm.messages import crtk_message
 
 TICK_S = 0.01
 MOST_MESSAGES = 10000  # that wait while a plan is made: the oldest are dropped
-CLOCK_STANDS_S = 0.5
+CLOCK_STANDS_S = 2.0
+MESSAGE_WITHIN_S, POLL_S = 0.05, 0.0005  # under a simulated clock, in the machine's time
 MASTER_EVERY_S = 0.02
 CONNECTED_WITHIN_S = 10.0
 A_DAY_S = 86400.0  # so far from the machine's is a simulated clock
@@ -45,6 +46,7 @@ class CrtkLink:
         self.queue = collections.deque(maxlen=MOST_MESSAGES)
         self.due, self.clock = time.monotonic(), (0.0, time.monotonic())
         self.servo = ral.publisher("servo_cp", self.kind, queue_size=1)
+        self.has_heard, self.newest_s = ral.publisher("simulation/heard", Float64, queue_size=1), 0.0
         self.holding = ral.publisher("hold", Empty, queue_size=1)
         ral.subscriber("measured_cp", self.kind, lambda message: self.say(pose_message(message, ral.to_sec(message))))
         ral.subscriber("operating_state", crtk_message("OperatingState"), self.hear_state)
@@ -93,9 +95,15 @@ class CrtkLink:
         return self.ral.to_sec(self.ral.now())
 
     def wait(self):
-        """By the machine's clock: a simulated one may stand still, which is a fault."""
-        self.due = max(self.due + TICK_S, time.monotonic() - TICK_S)
-        time.sleep(max(0.0, self.due - time.monotonic()))
+        """By the machine's clock. A simulated one waits for who says how far it has heard, and may stand still, which is a fault."""
+        if self.is_simulated():
+            self.has_heard.publish(Float64(self.newest_s))
+            until = time.monotonic() + MESSAGE_WITHIN_S
+            while time.monotonic() < until and not any(self.newest_s < message.get("stamp", 0.0) <= self.now() for message in list(self.queue)):
+                time.sleep(POLL_S)
+        else:
+            self.due = max(self.due + TICK_S, time.monotonic() - TICK_S)
+            time.sleep(max(0.0, self.due - time.monotonic()))
         if self.now() != self.clock[0]:
             self.clock = (self.now(), time.monotonic())
         elif time.monotonic() - self.clock[1] > CLOCK_STANDS_S:
@@ -104,10 +112,13 @@ class CrtkLink:
     def heard(self):
         """All that came. What is ahead of a simulated clock, which comes by a topic of its own, waits until that has come, too."""
         now, messages = self.now(), []
-        is_simulated = abs(now - time.time()) > A_DAY_S
-        while self.queue and not (is_simulated and self.queue[0].get("stamp", now) > now):
+        while self.queue and not (self.is_simulated() and self.queue[0].get("stamp", now) > now):
             messages.append(self.queue.popleft())
+        self.newest_s = max([self.newest_s, *(message["stamp"] for message in messages if message["what"] in ("pose", "force"))])
         return messages
+
+    def is_simulated(self):
+        return abs(self.now() - time.time()) > A_DAY_S
 
     def send(self, set_point):
         stamped = stamped_pose(self.kind, set_point["position"], set_point["quaternion"])

@@ -13,6 +13,7 @@ from palpation_arm.way import approach, rotation, stop_below, triple, way_to
 
 SHARE = 0.9  # of the speeds that the gate permits
 LONGEST_TICK_S = 0.02  # what was late is not made up for
+LISTEN_TICKS = 100
 REST_S = 0.15  # at the indentation, while the reading is taken
 
 
@@ -32,7 +33,7 @@ class Driver:
         self.limits = serve.ask(do="gate", what="limits")
         self.plan, self.pose, self.sent, self.sent_s = None, None, None, 0.0
         self.contact, self.felt, self.is_at_rest, self.only_back = None, None, False, ""
-        self.normal = None
+        self.normal, self.has_force = None, False
 
     # The gate
 
@@ -56,8 +57,10 @@ class Driver:
             self.only_back = answer["words"]
         if request["what"] == "pose":
             self.pose = (request["position"], request["quaternion"])
-        if request["what"] == "force" and answer["touches"]:
-            self.touches(request["force"])
+        if request["what"] == "force":
+            self.has_force = True
+            if answer["touches"]:
+                self.touches(request["force"])
 
     def touches(self, force_n):
         if self.contact is None:
@@ -165,7 +168,7 @@ class Driver:
             self.plan = self.serve.ask(do="next")
             if not self.plan["stops"]:
                 return self.plan["finished"]
-            self.tick()
+            self.listen()
             self.climb_out()
             for stop in self.plan["stops"]:
                 if stop["state"] == "open":
@@ -173,12 +176,15 @@ class Driver:
             batches = None if batches is None else batches - 1
         return "batches"
 
+    def listen(self):
+        """Until pose and force were heard, if they are: the gate says what is missing."""
+        for _ in range(LISTEN_TICKS):
+            self.tick()
+            if self.pose is not None and self.has_force:
+                return
+
     def climb_out(self):
         """Where a death or a hold left the tip in the tissue."""
-        for _ in range(100):
-            if self.pose is not None:
-                break
-            self.tick()
         stop = stop_below(self.plan, self.pose[0]) if self.pose is not None else None
         if stop is not None:
             self.say(f"the tip is at stop {stop['index']}: back along its normal first")

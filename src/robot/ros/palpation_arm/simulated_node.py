@@ -14,10 +14,12 @@ from palpation_arm.messages import crtk_message
 
 TICK_S = 0.01
 SIMULATED_BEGIN_S = 1000.0
+HEARD_WITHIN_S, POLL_S = 0.2, 0.0005
 
 
 class SimulatedNode:
-    """`speed`: of simulated time, whose /clock it keeps then (use_sim_time must be set); None: the machine's."""
+    """`speed`: of simulated time at most, whose /clock it keeps then (use_sim_time must be set); None: the machine's. The clock waits for who says on
+    simulation/heard how far it has heard, so that a loaded machine makes nothing late."""
 
     def __init__(self, psm, name, frame, pose_kind="pose", speed=None):
         self.psm, self.name, self.frame, self.speed = psm, "/" + name.strip("/"), frame, speed
@@ -29,6 +31,7 @@ class SimulatedNode:
             "measured_cp": self.kind, "setpoint_cp": self.kind, "measured_js": JointState, "setpoint_js": JointState, "measured_cv": TwistStamped,
             "body/measured_cf": WrenchStamped, "probe/force": Float64, "probe/displacement": Float64, "goal_reached": Bool, "error": self.text,
             "warning": self.text}.items()}
+        self.heard_s = None
         self.topics["operating_state"] = self.publisher("operating_state", self.state, latch=True)
         self.clock = rospy.Publisher("/clock", Clock, queue_size=1) if speed else None
         self.subscribe()
@@ -53,6 +56,7 @@ class SimulatedNode:
         on("hold", Empty, lambda message: psm.hold())
         on("state_command", self.text, lambda message: psm.state_command(message.string))
         on("trajectory_j/set_ratio", Float64, lambda message: setattr(psm, "ratio", min(1.0, max(0.01, message.data))))
+        rospy.Subscriber(f"{self.name}/simulation/heard", Float64, lambda message: setattr(self, "heard_s", message.data), queue_size=1)
         on("simulation/fault", String, lambda message: self.switch(message.data))
 
     def switch(self, fault):
@@ -62,20 +66,26 @@ class SimulatedNode:
             rospy.logwarn(str(error))
 
     def run(self, faults=()):
-        """Until ROS shuts down. `faults`: each with the second from which on it is there."""
+        """Until ROS shuts down. `faults`: each with the second after the first command from which on it is there."""
         faults, begun, due = sorted(faults, key=lambda fault: fault[1]), None, time.monotonic()
         while not rospy.is_shutdown():
             due = max(due + TICK_S / (self.speed or 1.0), time.monotonic() - TICK_S)
             time.sleep(max(0.0, due - time.monotonic()))
+            self.wait_until_heard()
             self.stamp = self.advance()
-            begun = begun or self.stamp
-            while faults and faults[0][1] <= self.stamp - begun:
+            begun = begun or (self.stamp if self.commands else None)
+            while begun and faults and faults[0][1] <= self.stamp - begun:
                 self.switch(faults.pop(0)[0])
             while self.commands:
                 act, message = self.commands.pop(0)
                 act(message)
             self.psm.step(TICK_S)
             self.tell(self.stamp)
+
+    def wait_until_heard(self):
+        until = time.monotonic() + HEARD_WITHIN_S
+        while self.clock and self.heard_s is not None and self.heard_s < self.stamp - TICK_S / 2 and time.monotonic() < until:
+            time.sleep(POLL_S)
 
     def advance(self):
         """The seconds of this step. A simulated clock is a step ahead of what was measured, so that no message is of the future."""

@@ -1,6 +1,6 @@
 """The tissue under a simulated arm, from tissue.csv of `palpate export RUN --for csv`: its shape, and as stiffness, N/mm, the truth that a simulated run knew.
 
-Between vertices it is the plane through those around, weighted by their distance: within some hundredths of a millimetre of the mesh. It must face up.
+Its shape is the plane through the vertices around, weighted by their distance: within some hundredths of a millimetre of the mesh. It must face up.
 """
 
 import csv
@@ -9,6 +9,7 @@ import math
 import numpy
 
 AROUND = 10  # vertices
+SAME_PLACE_M = 1e-6
 
 
 class Tissue:
@@ -45,8 +46,7 @@ class Tissue:
         beside = math.sqrt(max(0.0, squares[near].min() - height * height))
         if beside > 0.003:
             return math.inf, normal, 0.0
-        design = spread @ numpy.linalg.pinv(spread.T @ spread + 1e-12 * numpy.eye(3))
-        values = self.stiffness[near]
-        gradient = design.T @ (numpy.sqrt(weights) * (values - weights @ values))
-        here = -centre - height * normal  # of the foot, from the centre
-        return height, normal, float(numpy.clip(weights @ values + gradient @ here, values.min(), values.max()))
+        # Shepard's interpolation at the foot: at a vertex what is there, and between vertices nothing that is not around.
+        beside_all = away[near] + height * normal
+        closeness = 1.0 / (numpy.einsum("ij,ij->i", beside_all, beside_all) ** 2 + SAME_PLACE_M**4)
+        return height, normal, float(closeness @ self.stiffness[near] / closeness.sum())
