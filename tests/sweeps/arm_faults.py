@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Each fault of the simulated arm, over a ROS 1 master and in the machine's time: how long until `hold` goes out, and what is sent after it.
+"""Each fault of the simulated arm, over a ROS 1 master: how long until `hold` goes out, and what is sent after it.
 
-Both are recorded by this process, which is neither arm nor driver. A run whose driver held before its fault, as on a machine without time for it, is
-told and counts for nothing.
+Both are recorded by this process, which is neither arm nor driver, by the arm's clock, which waits for the driver: what this process is late by on a
+loaded machine counts as the driver's. A run whose driver held before its fault is told and counts for nothing.
 
 usage: arm_faults.py PALPATE PROJECT_ROOT [TIMES]        needs ROS 1 and numpy
 """
@@ -34,10 +34,11 @@ class Recorder:
         from geometry_msgs.msg import PoseStamped
         from std_msgs.msg import Empty, String
 
+        rospy.set_param("/use_sim_time", True)
         rospy.init_node("recorder", disable_signals=True)
-        self.sent, self.held = [], []
-        rospy.Subscriber("/PSM1/servo_cp", PoseStamped, lambda message: self.sent.append((time.time(), message.pose.position.z)))
-        rospy.Subscriber("/PSM1/hold", Empty, lambda message: self.held.append(time.time()))
+        self.now, self.sent, self.held = rospy.get_time, [], []
+        rospy.Subscriber("/PSM1/servo_cp", PoseStamped, lambda message: self.sent.append((self.now(), message.pose.position.z)))
+        rospy.Subscriber("/PSM1/hold", Empty, lambda message: self.held.append(self.now()))
         self.switch = rospy.Publisher("/PSM1/simulation/fault", String, queue_size=1)
 
     def wait_until(self, is_so):
@@ -53,7 +54,7 @@ def start(*words, **streams):
 
 def one(recorder, fault, folder, dice):
     """(seconds to hold, set points after it, false readings), or the words of a run that is none."""
-    arm = start(sys.executable, ROS / "palpate-simulated-arm", "--tissue", folder / "world", stdout=subprocess.PIPE)
+    arm = start(sys.executable, ROS / "palpate-simulated-arm", "--tissue", folder / "world", "--speed", 1, stdout=subprocess.PIPE)
     arm.stdout.readline()
     session = pathlib.Path(tempfile.mkdtemp(dir=folder)) / "session"
     recorder.sent.clear(), recorder.held.clear()
@@ -62,7 +63,7 @@ def one(recorder, fault, folder, dice):
         # In the tissue, or a random while after: a stuck force says nothing in the air.
         recorder.wait_until(lambda: recorder.held or (recorder.sent and recorder.sent[-1][1] < -0.1185))
         time.sleep(0.0 if fault == "stuck_force" else dice.uniform(0, 2.5))
-        since = time.time()
+        since = recorder.now()
         recorder.switch.publish(fault)
         early = bool(recorder.held)
         said, _ = driver.communicate(timeout=PATIENCE_S)

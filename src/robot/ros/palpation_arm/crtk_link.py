@@ -4,6 +4,7 @@ Under ROS 1 by rospy or crtk.ral; under ROS 2 by crtk.ral, which is untested.
 """
 
 import collections
+import math
 import threading
 import time
 
@@ -46,7 +47,7 @@ class CrtkLink:
         self.queue = collections.deque(maxlen=MOST_MESSAGES)
         self.due, self.clock = time.monotonic(), (0.0, time.monotonic())
         self.servo = ral.publisher("servo_cp", self.kind, queue_size=1)
-        self.has_heard, self.newest_s = ral.publisher("simulation/heard", Float64, queue_size=1), 0.0
+        self.has_heard, self.newest_s = ral.publisher("simulation/heard", Float64, queue_size=1), {"pose": 0.0, "force": 0.0}
         self.holding = ral.publisher("hold", Empty, queue_size=1)
         ral.subscriber("measured_cp", self.kind, lambda message: self.say(pose_message(message, ral.to_sec(message))))
         ral.subscriber("operating_state", crtk_message("OperatingState"), self.hear_state)
@@ -97,9 +98,9 @@ class CrtkLink:
     def wait(self):
         """By the machine's clock. A simulated one waits for who says how far it has heard, and may stand still, which is a fault."""
         if self.is_simulated():
-            self.has_heard.publish(Float64(self.newest_s))
+            self.has_heard.publish(Float64(min(self.newest_s.values())))
             until = time.monotonic() + MESSAGE_WITHIN_S
-            while time.monotonic() < until and not any(self.newest_s < message.get("stamp", 0.0) <= self.now() for message in list(self.queue)):
+            while time.monotonic() < until and not self.has_news():
                 time.sleep(POLL_S)
         else:
             self.due = max(self.due + TICK_S, time.monotonic() - TICK_S)
@@ -114,8 +115,15 @@ class CrtkLink:
         now, messages = self.now(), []
         while self.queue and not (self.is_simulated() and self.queue[0].get("stamp", now) > now):
             messages.append(self.queue.popleft())
-        self.newest_s = max([self.newest_s, *(message["stamp"] for message in messages if message["what"] in ("pose", "force"))])
+        for message in messages:
+            if message["what"] in self.newest_s:
+                self.newest_s[message["what"]] = message["stamp"]
         return messages
+
+    def has_news(self):
+        """Of pose and force both."""
+        now = self.now()
+        return {"pose", "force"} <= {message["what"] for message in list(self.queue) if message.get("stamp", math.inf) <= now}
 
     def is_simulated(self):
         return abs(self.now() - time.time()) > A_DAY_S
