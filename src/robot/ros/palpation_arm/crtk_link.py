@@ -15,7 +15,7 @@ from palpation_arm.messages import crtk_message
 
 TICK_S = 0.01
 MOST_MESSAGES = 10000  # that wait while a plan is made: the oldest are dropped
-CLOCK_STANDS_S = 2.0
+CLOCK_STANDS_S = 5.0
 MESSAGE_WITHIN_S, POLL_S = 0.05, 0.0005  # under a simulated clock, in the machine's time
 MASTER_EVERY_S = 0.02
 CONNECTED_WITHIN_S = 10.0

@@ -14,7 +14,7 @@ from palpation_arm.messages import crtk_message
 
 TICK_S = 0.01
 SIMULATED_BEGIN_S = 1000.0
-HEARD_WITHIN_S, POLL_S = 0.2, 0.0005
+HEARD_WITHIN_S, POLL_S = 1.0, 0.0005  # in the machine's time
 
 
 class SimulatedNode:
