@@ -50,10 +50,11 @@ class CrtkLink:
         self.has_heard, self.newest_s = ral.publisher("simulation/heard", Float64, queue_size=1), {"pose": 0.0, "force": 0.0}
         self.holding = ral.publisher("hold", Empty, queue_size=1)
         ral.subscriber("measured_cp", self.kind, lambda message: self.say(pose_message(message, ral.to_sec(message))))
-        ral.subscriber("operating_state", crtk_message("OperatingState"), self.hear_state)
+        ral.subscriber("operating_state", crtk_message("OperatingState"), self.hear_state, latch=True)
         ral.subscriber("goal_reached", Bool, lambda message: message.data or self.say({"what": "failure", "words": "goal_reached(false)"}))
         ral.subscriber("error", crtk_message("StringStamped"), lambda message: self.say({"what": "failure", "words": message.string}))
         self.listen_to_force(*force)
+        ral.spin()
         self.wait_for_all()
         if ping is not None:
             threading.Thread(target=self.watch_master, args=(ping,), daemon=True).start()
@@ -98,7 +99,7 @@ class CrtkLink:
     def wait(self):
         """By the machine's clock. A simulated one waits for who says how far it has heard, and may stand still, which is a fault."""
         if self.is_simulated():
-            self.has_heard.publish(Float64(min(self.newest_s.values())))
+            self.has_heard.publish(Float64(data=min(self.newest_s.values())))
             until = time.monotonic() + MESSAGE_WITHIN_S
             while time.monotonic() < until and not self.has_news():
                 time.sleep(POLL_S)

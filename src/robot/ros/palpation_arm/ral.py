@@ -18,7 +18,7 @@ class RospyRal:
     def publisher(self, topic, message, queue_size=10, latch=False):
         return self.rospy.Publisher(f"{self.name_space}/{topic}", message, queue_size=queue_size, latch=latch)
 
-    def subscriber(self, topic, message, callback, queue_size=10):
+    def subscriber(self, topic, message, callback, queue_size=10, latch=False):  # that a topic is latched ROS 1 knows by itself
         return self.rospy.Subscriber(f"{self.name_space}/{topic}", message, callback, queue_size=queue_size)
 
     def now(self):
@@ -31,6 +31,9 @@ class RospyRal:
     def set_timestamp(self, message):
         message.header.stamp = self.now()
         return message
+
+    def spin(self):
+        """rospy's threads run by themselves."""
 
     def is_shutdown(self):
         return self.rospy.is_shutdown()
