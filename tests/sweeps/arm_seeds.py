@@ -22,7 +22,9 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-TISSUE = ["robot.frame=PSM1_base", "robot.from_tissue=[1,0,0,-0.01,0,1,0,-0.02,0,0,1,-0.12,0,0,0,1]",  "robot.standoff_mm=3", "robot.indent_mm=1.5", "probe.low=0.3", "probe.high=0.5", "probe.noise=0.005"]
+TISSUE = ["robot.frame=PSM1_base", "robot.from_tissue=[1,0,0,-0.01,0,1,0,-0.02,0,0,1,-0.12,0,0,0,1]", "robot.standoff_mm=3", "robot.indent_mm=1.5",
+          "probe.low=0.3", "probe.high=0.5", "probe.noise=0.05"]
+NOISE = 0.05 * (0.5 - 0.3)  # of the arm's touches: as simulate's
 PLACES = [((a + (1 / 3)) / 8, (b + (1 / 3)) / 8) for a in range(8) for b in range(8 - a)]
 
 
@@ -95,10 +97,10 @@ def one(asked, seed, folder):
     words = [sys.executable, programs / "palpate-arm", asked.scene, folder / "session", "--palpate", palpate, "--yes", *settings]
     begun = time.monotonic()
     if asked.ros:
-        with arm_over_ros(programs, folder / "world", 0.005, seed, asked.ros, folder) as environment:
+        with arm_over_ros(programs, folder / "world", NOISE, seed, asked.ros, folder) as environment:
             done = subprocess.run([str(word) for word in words], capture_output=True, text=True, env=environment)
     else:
-        done = subprocess.run([str(word) for word in [*words, "--simulated", folder / "world", "--noise", 0.005, "--seed", seed]], capture_output=True, text=True)
+        done = subprocess.run([str(word) for word in [*words, "--simulated", folder / "world", "--noise", NOISE, "--seed", seed]], capture_output=True, text=True)
     seconds = time.monotonic() - begun
     if done.returncode != 0:
         return print(f"seed {seed}: {done.returncode} {done.stdout[-500:]}{done.stderr[-500:]}", flush=True)
