@@ -5,6 +5,8 @@ usage: arm_test.py PALPATE PROJECT_ROOT [Arm.test_...]        needs numpy; ends 
 """
 
 import pathlib
+import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,15 +22,48 @@ except ImportError:
     sys.exit(77)
 
 from arm_scene import STOPS, rows_of, world_of  # noqa: E402
+from palpation_arm import wrist  # noqa: E402
 from palpation_arm.driver import Driver, Held  # noqa: E402
 from palpation_arm.in_process import InProcess  # noqa: E402
 from palpation_arm.serve import Serve  # noqa: E402
-from palpation_arm.simulated_psm import FAULTS, SimulatedPsm  # noqa: E402
+from palpation_arm.simulated_psm import AFTER, FAULTS, SimulatedPsm  # noqa: E402
 from palpation_arm.world import World  # noqa: E402
 
 HOLD_WITHIN_S = 0.1
 # A fault comes with so many set points of a phase.
 MOMENTS = {"air": 30, "search": 20, "press": 5}
+
+
+class Psm(unittest.TestCase):
+    def test_its_states_follow_the_table_of_the_library(self):
+        rows = re.findall(r"\{(\w+), (\w+), (\w+)\},", (ROOT / "src" / "robot" / "crtk.cpp").read_text(encoding="utf-8"))
+        self.assertEqual({(a.upper(), b.lower()): c.upper() for a, b, c in rows}, AFTER)
+
+    def test_joints_and_poses_are_each_others_inverse(self):
+        dice = random.Random(1)
+        for _ in range(1000):
+            joints = [dice.uniform(max(a, -1.3), min(b, 1.3)) for a, b in zip(wrist.LEAST, wrist.MOST)]
+            joints[2] = max(joints[2], 0.01)
+            for a, b in zip(wrist.joints_of(*wrist.pose_of(joints)), joints):
+                self.assertAlmostEqual(a, b, delta=1e-12)
+
+    def test_a_move_that_joints_do_not_reach_says_so_and_one_that_they_do_is_busy_until_it_arrives(self):
+        psm = SimulatedPsm(joints=[0.0, 0.0, 0.1, 0.0, 0.0, 0.0])
+        psm.move_cp([0.0, 0.0, -0.5], psm.pose()[1])
+        self.assertIn(("goal_reached", False), psm.events)
+        self.assertFalse(psm.is_busy)
+        psm.events.clear()
+        psm.move_cp([0.0, 0.0, -0.12], psm.pose()[1])
+        steps = 0
+        while psm.is_busy:
+            psm.step(0.01)
+            steps += 1
+        self.assertIn(("goal_reached", True), psm.events)
+        self.assertEqual(steps, 11)  # 20 mm at 0.2 m/s, and one to say so
+        psm.state_command("pause")
+        psm.servo_cp([0.0, 0.0, -0.13], psm.pose()[1])
+        psm.step(0.01)
+        self.assertAlmostEqual(psm.pose()[0][2], -0.12)
 
 
 class Killed(Exception):
