@@ -25,6 +25,7 @@ from arm_scene import STOPS, rows_of, world_of  # noqa: E402
 from palpation_arm import wrist  # noqa: E402
 from palpation_arm.driver import Driver, Held  # noqa: E402
 from palpation_arm.in_process import InProcess  # noqa: E402
+from palpation_arm.poses import on_the_way, unit  # noqa: E402
 from palpation_arm.serve import Serve  # noqa: E402
 from palpation_arm.simulated_psm import AFTER, FAULTS, SimulatedPsm  # noqa: E402
 from palpation_arm.world import World  # noqa: E402
@@ -46,6 +47,15 @@ class Psm(unittest.TestCase):
             joints[2] = max(joints[2], 0.01)
             for a, b in zip(wrist.joints_of(*wrist.pose_of(joints)), joints):
                 self.assertAlmostEqual(a, b, delta=1e-12)
+
+    def test_a_way_ends_at_its_goal_also_where_the_quaternion_is_the_other_of_two(self):
+        start, goal = ([0.0, 0.0, 0.0], [0.6, 0.0, 0.0, -0.8]), ([0.01, 0.0, 0.0], [-0.6, 0.02, 0.0, 0.8])
+        goal = (goal[0], unit(goal[1]))
+        steps = 0
+        while start != goal:
+            start = on_the_way(start, goal, 0.003, 0.02)
+            steps += 1
+            self.assertLess(steps, 10)
 
     def test_a_move_that_joints_do_not_reach_says_so_and_one_that_they_do_is_busy_until_it_arrives(self):
         psm = SimulatedPsm(joints=[0.0, 0.0, 0.1, 0.0, 0.0, 0.0])

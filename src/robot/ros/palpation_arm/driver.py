@@ -6,13 +6,15 @@ wait() until the next hundredth of a second, now() in seconds, heard() since the
 
 import math
 
-from palpation_arm.poses import dot, minus, norm, on_the_way, plus
+from palpation_arm.poses import dot, minus, norm, on_the_way, plus, turn_between
 from palpation_arm.reading import Felt
 from palpation_arm.serve import Refused
 from palpation_arm.way import approach, rotation, stop_below, triple, way_to
 
 SHARE = 0.9  # of the speeds that the gate permits
 LONGEST_TICK_S = 0.02  # what was late is not made up for
+LATE_S, TIMES_AS_LONG = 5.0, 4  # seconds and so many times the shortest time: then a motion is a failure
+PHASES = {"air": "in the air", "search": "to the tissue", "press": "into the tissue", "retract": "out of the tissue"}
 LISTEN_TICKS = 100
 REST_S = 0.15  # at the indentation, while the reading is taken
 
@@ -88,8 +90,13 @@ class Driver:
         """Set points to a pose; True there, False where the gate permits no more of them (it touches, or the tip only goes back)."""
         speed = SHARE * self.limits["air_m_per_s" if phase == "air" else "contact_m_per_s"]
         turn = SHARE * self.limits["turn_rad_per_s"]
+        begun = self.sent or self.pose
+        least_s = norm(minus(goal[0], begun[0])) / speed + turn_between(begun[1], goal[1]) / turn
+        until = self.arm.now() + LATE_S + TIMES_AS_LONG * least_s
         while True:
             self.tick()
+            if self.arm.now() > until:
+                self.gate([{"what": "failure", "words": f"the way {PHASES[phase]} takes more than {TIMES_AS_LONG} times as long as it may"}])
             elapsed = min(self.arm.now() - self.sent_s, LONGEST_TICK_S)
             step = min(speed * elapsed, SHARE * self.limits["step_m"])
             pose = on_the_way(self.sent or self.pose, goal, step, turn * elapsed)
@@ -116,7 +123,7 @@ class Driver:
         self.back_out(stop)
 
     def feel(self, stop):
-        far = 1.0  # metres: the gate ends a search
+        far = 0.1  # metres: the gate ends a search
         if self.go("search", (plus(triple(stop), self.normal, -far), rotation(stop))) or self.only_back or self.contact is None:
             return
         indent = norm(minus(triple(stop), triple(stop, "indented_")))

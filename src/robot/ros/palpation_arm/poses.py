@@ -56,4 +56,4 @@ def on_the_way(start, goal, most_m, most_rad):
     share = min(1.0, most_m / distance if distance > 0 else 1.0)
     turn_share = min(1.0, most_rad / turn if turn > 0 else 1.0)
     position = list(goal[0]) if share == 1.0 else plus(start[0], minus(goal[0], start[0]), share)
-    return position, turned(start[1], goal[1], turn_share)
+    return position, list(goal[1]) if turn_share == 1.0 else turned(start[1], goal[1], turn_share)
