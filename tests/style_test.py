@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The style that a machine can hold: clang-format's layout, and a comment at the head of every public header that says what it is.
+"""The style that a machine can hold: clang-format's layout, a comment at the head of every public header that says what it is, and nothing at the top
+level but what belongs there.
 
 usage: style_test.py PROJECT_ROOT [CLANG_FORMAT]        needs Python 3 and nothing else
 Ends with 77 (ctest: skipped) where all is well but the layout could not be checked: versions of clang-format disagree, so only 14 counts.
@@ -12,6 +13,7 @@ import sys
 
 VERSION = 14
 SKIPPED = 77
+AT_THE_TOP = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "examples", "include", "meshes", "src", "tests"}
 
 
 def sources_of(root):
@@ -31,6 +33,8 @@ def test_itself():
     for text in good + bad:
         if has_leading_comment(text) != (text in good):
             sys.exit(f"this test is broken: it misjudges {text!r}")
+    if strangers_at_the_top(["src/a.cpp", ".gitignore", "a.cpp", "notes/b"]) != ["a.cpp", "notes"]:
+        sys.exit("this test is broken: it misjudges the top level")
 
 
 def silent_headers_of(root):
@@ -38,6 +42,21 @@ def silent_headers_of(root):
     if not headers:
         sys.exit(f"no headers in {root / 'include'}: that is not the project")
     return [path for path in headers if not has_leading_comment(path.read_text(encoding="utf-8"))]
+
+
+def strangers_at_the_top(paths):
+    """Of paths that git follows, the first parts that belong elsewhere; files whose name begins with a dot may lie there."""
+    first = {path.split("/", 1)[0] for path in paths}
+    return sorted(name for name in first - AT_THE_TOP if not name.startswith("."))
+
+
+def paths_in_git(root):
+    """What git follows; nothing where the project is no clone, or git is not there."""
+    try:
+        words = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return []
+    return [path for path in words.split("\0") if path]
 
 
 def version_of(clang_format):
@@ -61,6 +80,10 @@ def main():
     for path in silent:
         print(f"{path.relative_to(root)}:1: the first line of a public header is a /// comment that says what it is")
 
+    strangers = strangers_at_the_top(paths_in_git(root))
+    for name in strangers:
+        print(f"{name}: does not belong at the top level, where only {', '.join(sorted(AT_THE_TOP))} lie")
+
     version = version_of(clang_format)
     misshapen = False
     if version == VERSION:
@@ -69,7 +92,7 @@ def main():
         if misshapen:
             print(f"clang-format -i (version {VERSION}) puts the layout right")
 
-    if silent or misshapen:
+    if silent or strangers or misshapen:
         sys.exit(1)
     if version != VERSION:
         print(f"layout not checked: {clang_format} is {f'version {version}' if version else 'not installed'}, and only version {VERSION} counts")
