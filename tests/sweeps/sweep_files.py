@@ -7,7 +7,6 @@ Full disks are small tmpfs, which only root can mount: else they are left out, a
 """
 
 import json
-import os
 import pathlib
 import random
 import shutil

@@ -2,17 +2,15 @@
 """What pictures show, read back from their pixels. Usage: draw_test.py PALPATE [Draw.test_...] (Python 3, standard library only)."""
 
 import json
-import pathlib
 import re
 import struct
-import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 import zlib
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import InFolder, PALPATE, palpate
+
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [41, 41]}},
     "plan": {"batches": 2},
@@ -67,18 +65,15 @@ def is_strong(red, green, blue):
     return max(red, green, blue) - min(red, green, blue) > 90
 
 
-class Draw(unittest.TestCase):
+class Draw(InFolder):
     def setUp(self):
         if not (PALPATE.parent / "palpate-draw").exists():
-            print("skipped: palpate-draw is not built", file=sys.stderr)
-            self.skipTest("palpate-draw is not built")
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        (self.folder / "scene.json").write_text(json.dumps(SCENE))
+            self.skip("palpate-draw is not built")
+        super().setUp()
+        self.write("scene.json", json.dumps(SCENE))
 
     def picture_of(self, command, out, *arguments):
-        subprocess.run([PALPATE, command, self.folder / "scene.json", "--out", self.folder / out, "--quiet", *map(str, arguments)], check=True, timeout=120)
+        self.done(command, self.folder / "scene.json", "--out", self.folder / out, "--quiet", *arguments)
         return self.folder / out / "picture.png"
 
     def test_a_plan_shows_where_to_touch_next_and_a_boundary_does_not(self):
@@ -111,7 +106,7 @@ class Draw(unittest.TestCase):
         self.assertGreater(corner, grid + 0.1)
 
     def draw(self, *arguments):
-        result = subprocess.run([PALPATE, "draw", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+        result = palpate("draw", *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_a_figure_has_the_size_that_is_asked_for_and_each_format_its_words(self):
@@ -164,7 +159,7 @@ class Draw(unittest.TestCase):
                                        (2, (self.folder / "run", self.folder / "run"), "name its file by --out"),
                                        (2, (self.folder / "run", "--limits", 9, 7), "the first must be below the second"),
                                        (3, (self.folder, "--out", self.folder / "a.png"), "holds no run of palpate")):
-            result = subprocess.run([PALPATE, "draw", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+            result = palpate("draw", *arguments)
             self.assertEqual(result.returncode, code, result.stderr)
             self.assertIn(words, result.stderr)
         self.assertEqual((self.folder / "mine.svg").read_text(), "what a person wrote\n")

@@ -4,21 +4,19 @@
 usage: export_test.py PALPATE [Export.test_...]        needs Python 3; Debian's python3-vtk9 for what is read back
 """
 
-import csv
 import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
+
+from support import palpate, rows_of
 
 try:
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 except ImportError:
     vtkXMLPolyDataReader = None
-
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
 
 # Tissue that is its own mirror image in no direction: a corner is missing, and it rises towards another. Millimetres.
 STEPS, EDGE_MM = 24, 1.0
@@ -62,17 +60,8 @@ DISPLAY = {"visibility": bool, "color": list, "selectedColor": list, "properties
            "glyphSize": float}
 
 
-def palpate(*arguments):
-    return subprocess.run([PALPATE, *map(str, arguments)], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
-
-
 def names_in(folder):
     return {path.name for path in folder.iterdir()}
-
-
-def rows_of(path):
-    with path.open(newline="") as table:
-        return list(csv.DictReader(table))
 
 
 def read(path):

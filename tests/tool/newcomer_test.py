@@ -4,31 +4,21 @@
 usage: newcomer_test.py PALPATE PROJECT_ROOT [Newcomer.test_...]        needs Python 3 and bash; groff checks the manual page where it is installed
 """
 
-import csv
 import json
 import math
 import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import InFolder, PALPATE, palpate, rows_of
+
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 PLANE = {"surface": {"plane": {"size_mm": [20, 30], "vertices": [41, 61]}}}
 
 
-def palpate(*arguments):
-    return subprocess.run([PALPATE, *map(str, arguments)], capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
-
-
-class Newcomer(unittest.TestCase):
-    def setUp(self):
-        self.holder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.holder.cleanup)
-        self.folder = pathlib.Path(self.holder.name)
-
+class Newcomer(InFolder):
     def scene(self, **groups):
         path = self.folder / "scene.json"
         path.write_text(json.dumps({**PLANE, **groups}))
@@ -40,8 +30,7 @@ class Newcomer(unittest.TestCase):
         return run
 
     def table(self, name):
-        with open(self.folder / name, newline="") as file:
-            return list(csv.DictReader(file))
+        return rows_of(self.folder / name)
 
     def test_a_plan_begins_without_measurements(self):
         scene = self.scene(plan={"initial": {"count": 7}})

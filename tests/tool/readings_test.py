@@ -3,16 +3,14 @@
 
 Usage: readings_test.py PALPATE PROJECT_ROOT (Python 3; the plain script needs numpy and the recordings, and skips where either is absent)."""
 
-import csv
 import math
 import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import InFolder, palpate, rows_of
+
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 REAL = ROOT.parent.parent / "shared" / "data" / "vu-arma"
 if not REAL.is_dir():
@@ -59,19 +57,14 @@ def changed(rows, index, column, value):
     return rows
 
 
-class Readings(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
+class Readings(InFolder):
     def run_on(self, content, *options):
         path = self.folder / "log.csv"
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
         out = self.folder / "readings.csv"
         out.unlink(missing_ok=True)
-        result = subprocess.run([PALPATE, "readings", path, "--out", out, *map(str, options)], capture_output=True, text=True, timeout=120)
-        rows = list(csv.DictReader(out.read_text().splitlines())) if out.exists() else []
+        result = palpate("readings", path, "--out", out, *options)
+        rows = rows_of(out) if out.exists() else []
         return result, rows
 
     def good(self, content, count, *options, says="", near=STIFFNESS, within=0.03):
@@ -261,7 +254,7 @@ class Readings(unittest.TestCase):
         self.refused(content, "no unit that is known", "--unit", "force=stone", code=2)
         self.refused(content, "ROLE=NAME", "--column", "force", code=2)
         path = self.folder / "log.csv"
-        result = subprocess.run([PALPATE, "readings", path, "--out", path], capture_output=True, text=True)
+        result = palpate("readings", path, "--out", path)
         self.assertEqual((result.returncode, path.read_text()), (2, content))
 
     # Real logs against a plain script.
@@ -273,8 +266,7 @@ class Readings(unittest.TestCase):
             self.skipTest("numpy is not installed")
         path = REAL / name
         if not path.exists():
-            print(f"skipped: {path} is absent", file=sys.stderr)
-            self.skipTest(f"{path} is absent")
+            self.skip(f"{path} is absent")
         return numpy, numpy.genfromtxt(path, delimiter=",", names=True), path
 
     def test_real_probings_have_the_slopes_of_a_plain_script(self):

@@ -7,13 +7,11 @@ usage: register_test.py PALPATE        needs Python 3 and nothing else
 import csv
 import json
 import math
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import InFolder
+
 TURN = math.radians(30)
 SHIFT = (0.10, -0.05, 0.20)
 CORNERS = ((0.0, 0.0, 0.0), (0.025, 0.0, 0.0), (0.0, 0.05, 0.0), (0.025, 0.05, 0.0))
@@ -24,18 +22,11 @@ def in_robot(place):
     return (math.cos(TURN) * x - math.sin(TURN) * y + SHIFT[0], math.sin(TURN) * x + math.cos(TURN) * y + SHIFT[1], z + SHIFT[2])
 
 
-class Register(unittest.TestCase):
+class Register(InFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        super().setUp()
         self.mesh = self.folder / "tissue.ply"
-        self.palpate("mesh", "plane", "--size-mm", 25, 50, "--vertices", 14, 26, self.mesh)
-
-    def palpate(self, *arguments, code=0):
-        done = subprocess.run([PALPATE, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=240)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout if code == 0 else done.stderr
+        self.done("mesh", "plane", "--size-mm", 25, 50, "--vertices", 14, 26, self.mesh)
 
     def touched(self, rows, name="touched.csv"):
         path = self.folder / name
@@ -44,7 +35,7 @@ class Register(unittest.TestCase):
         return path
 
     def register(self, rows, *options, code=0):
-        return self.palpate("register", self.mesh, "--unit", "mm", "--touched", self.touched(rows), "--out", self.folder / "T.json", *options, code=code)
+        return self.ends(code, "register", self.mesh, "--unit", "mm", "--touched", self.touched(rows), "--out", self.folder / "T.json", *options)
 
     def test_a_scene_that_names_the_file_plans_in_the_robots_frame(self):
         said = self.register([(*in_robot(corner), *corner) for corner in CORNERS])
@@ -58,14 +49,14 @@ class Register(unittest.TestCase):
         scene.write_text(json.dumps({"surface": {"mesh": "tissue.ply", "unit": "mm"}, "robot": {"registration": "T.json"}}), encoding="utf-8")
         felt = self.folder / "felt.csv"
         felt.write_text("x,y,z,reading\n", encoding="utf-8")
-        self.palpate("plan", scene, "--measurements", felt, "--out", self.folder / "a", "--quiet")
-        self.palpate("plan", scene, "--measurements", felt, "--out", self.folder / "b", "--quiet", "--set", "robot.registration=null")
+        self.done("plan", scene, "--measurements", felt, "--out", self.folder / "a", "--quiet")
+        self.done("plan", scene, "--measurements", felt, "--out", self.folder / "b", "--quiet", "--set", "robot.registration=null")
         with open(self.folder / "a/waypoints.csv", encoding="utf-8") as a, open(self.folder / "b/waypoints.csv", encoding="utf-8") as b:
             for moved, plain in zip(csv.DictReader(a), csv.DictReader(b)):
                 place = in_robot([float(plain[axis]) for axis in "xyz"])
                 for axis, value in zip("xyz", place):
                     self.assertAlmostEqual(float(moved[axis]), value, places=12)
-        self.assertIn("give one of them", self.palpate("plan", scene, "--measurements", felt, "--set", "robot.from_tissue=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", code=3))
+        self.assertIn("give one of them", self.ends(3, "plan", scene, "--measurements", felt, "--set", "robot.from_tissue=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"))
 
     def test_what_cannot_be_one_is_refused_in_words(self):
         line = ((0.0, 0.0, 0.0), (0.0, 0.02, 0.0), (0.0, 0.05, 0.0))

@@ -5,16 +5,13 @@ usage: serve_test.py PALPATE [Serve.test_...]        needs Python 3 and nothing 
 """
 
 import json
-import pathlib
 import random
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
-PATIENCE_S = 240
+from support import InFolder, PALPATE, PATIENCE_S
 
 SCENE = {"surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}}, "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2}}
 
@@ -48,12 +45,10 @@ def felt(place, number):
     return {"do": "record", "place": place, "reading": 7 + 0.001 * (number % 97), "t": 0.01 * number, "kind": "way"}
 
 
-class Serve(unittest.TestCase):
+class Serve(InFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        (self.folder / "scene.json").write_text(json.dumps(SCENE), encoding="utf-8")
+        super().setUp()
+        self.write("scene.json", json.dumps(SCENE))
 
     def rows(self):
         lines = (self.folder / "run" / "journal.jsonl").read_text().splitlines()

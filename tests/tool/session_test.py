@@ -4,19 +4,15 @@
 usage: session_test.py PALPATE [Session.test_...]        needs Python 3 and nothing else
 """
 
-import csv
 import json
-import pathlib
 import random
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
-PATIENCE_S = 240
+from support import InFolder, PALPATE, PATIENCE_S, palpate, rows_of
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}},
@@ -25,32 +21,14 @@ SCENE = {
 }
 
 
-def palpate(*arguments):
-    return subprocess.run([PALPATE, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE_S)
-
-
-def rows_of(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
-class Session(unittest.TestCase):
+class Session(InFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        self.scene = self.folder / "scene.json"
-        self.scene.write_text(json.dumps(SCENE), encoding="utf-8")
+        super().setUp()
+        self.scene = self.write("scene.json", json.dumps(SCENE))
         self.run_folder = self.folder / "run"
 
     def session(self, *words, code=0):
-        done = palpate("session", self.scene, self.run_folder, *words)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout if code == 0 else done.stderr
-
-    def done(self, *words):
-        done = palpate(*words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.ends(code, "session", self.scene, self.run_folder, *words)
 
     def record(self, rows, columns=("x", "y", "z", "reading")):
         felt = self.folder / "felt.csv"

@@ -7,12 +7,11 @@ import os
 import pathlib
 import random
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import InFolder, palpate
+
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 RECORDINGS = ROOT.parent / "shared" / "data" / "dvrk-palp"
 LIVER = ROOT.parent / "shared" / "data" / "meshes" / "liver-smooth.obj"
@@ -26,30 +25,10 @@ SCENE = {
 FILES = {"summary.json", "timings.json", "trace.csv", "measurements.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp", "surface.vtp", "steps.pvd", "steps"}
 
 
-def palpate(*arguments):
-    return subprocess.run([PALPATE, *map(str, arguments)], capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
-
-
-class Tool(unittest.TestCase):
+class Tool(InFolder):
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        super().setUp()
         self.scene = self.write("scene.json", json.dumps(SCENE))
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def skip(self, reason):
-        print(f"skipped: {reason}", file=sys.stderr)
-        self.skipTest(reason)
-
-    def done(self, *arguments):
-        result = palpate(*arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout
 
     def refused(self, code, *arguments):
         result = palpate(*arguments)

@@ -4,29 +4,17 @@
 usage: worlds_test.py PALPATE [Worlds.test_...]        needs Python 3
 """
 
-import csv
 import json
 import math
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import InFolder, palpate, rows_of
+
 TISSUE = {"surface": {"plane": {"size_mm": [25, 50], "vertices": [26, 51]}}}
 
 
-def palpate(*arguments):
-    return subprocess.run([PALPATE, *map(str, arguments)], capture_output=True, text=True, timeout=300, stdin=subprocess.DEVNULL)
-
-
-class Worlds(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
+class Worlds(InFolder):
     def scene(self, **groups):
         path = self.folder / "scene.json"
         path.write_text(json.dumps({**TISSUE, **groups}))
@@ -62,8 +50,7 @@ class Worlds(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         for family in ("dome", "cone", "gauss", "hill", "unequal-slopes", "all of profile"):
             self.assertIn(family, run.stdout)
-        with open(out / "rows.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = rows_of(out / "rows.csv")
         self.assertEqual(len(rows), 10)
         for row in rows:
             self.assertEqual((row["kind"], row["true_parts"]), ("profile", "1"))
