@@ -197,7 +197,7 @@ std::string recordings_digest(const std::filesystem::path& folder) {
 
 Study recordings_study(const ExperimentArguments& arguments) {
   const Scene scene = base_scene(arguments, replay_scene());
-  Study study{.columns = {"name", "what", "value", "least", "most", "good"}};
+  Study study{.columns = {"goal", "what", "value", "least", "most", "good"}};
   for (const Groups& group : groups()) {
     const bool is_given =
         !arguments.scene.empty() && group.path == "field.trend" && group.value == "linear";
@@ -218,7 +218,7 @@ Study recordings_study(const ExperimentArguments& arguments) {
     std::vector<Figures> rows;
     for (const Figure& figure : figures)
       rows.push_back(Figures()
-                         .set("name", figure.name)
+                         .set("goal", figure.name)
                          .set("what", figure.what)
                          .set("value", figure.value)
                          .set("least", figure.least)
@@ -230,14 +230,14 @@ Study recordings_study(const ExperimentArguments& arguments) {
 }
 
 void report_recordings(const Results& results, const ReportFolder& folder) {
-  std::string csv = "name,what,value,least,most,good\n";
+  std::string csv = "goal,what,value,least,most,good\n";
   for (const Row& row : results.rows) {
     const Figures& figure = row.figures;
-    std::printf("%-3s %-66s %9.3f  [%g, %g]%s\n", figure.word("name").c_str(),
+    std::printf("%-3s %-66s %9.3f  [%g, %g]%s\n", figure.word("goal").c_str(),
                 figure.word("what").c_str(), figure.number("value"), figure.number("least"),
                 figure.number("most"), figure.flag("good") ? "" : "  MISSED");
     std::vector<std::string> cells;
-    for (const char* column : {"name", "what", "value", "least", "most", "good"})
+    for (const char* column : {"goal", "what", "value", "least", "most", "good"})
       cells.push_back(figure.word(column));
     csv += csv_line(cells);
   }

@@ -27,6 +27,8 @@ std::vector<std::string> columns_of(const Manifest& manifest, bool of_the_machin
   std::vector<std::string> columns = kMarks;
   if (of_the_machine) columns.resize(kTimeMarks);
   for (const std::string& column : manifest.columns) {
+    require(std::ranges::find(kMarks, column) == kMarks.end(), "rows", column,
+            "is the name of a mark: no figure can have it");
     if (is_of_the_machine(column) == of_the_machine) columns.push_back(column);
   }
   return columns;

@@ -64,6 +64,14 @@ TEST(RowFiles, InAnyOrderGiveTheSameBytes) {
     EXPECT_EQ(read_file(folder.path() / "a" / file), read_file(folder.path() / "b" / file));
 }
 
+TEST(RowFiles, RefuseAFigureThatIsCalledAsAMark) {
+  const TemporaryFolder folder;
+  Manifest manifest = two_cells();
+  manifest.columns.push_back("name");
+  expect_in("name is the name of a mark",
+            words_of([&] { RowFiles(folder.path() / "a", manifest, {}); }));
+}
+
 TEST(RowFiles, KeepATrialOnceItIsThere) {
   const TemporaryFolder folder;
   write_shard(folder.path(), {}, std::vector{all_rows()[2]});
