@@ -57,19 +57,30 @@ MeshFile mesh_of(const Sheet& sheet, double edge_m, double jitter, std::uint64_t
   });
 }
 
+/// A rectangle that is bent to one radius.
+template <typename Options>
+void bind_bent(py::module_& module, const char* name, Sheet (*sheet_of)(const Options&),
+               const char* what) {
+  const Options usual;
+  module.def(
+      name,
+      [name, sheet_of](double radius_m, py::handle size_m, double edge_m, double jitter,
+                       std::uint64_t seed) {
+        const Options options{radius_m, pair_of(size_m, {name, "size_m"})};
+        return mesh_of(sheet_of(options), edge_m, jitter, seed);
+      },
+      py::kw_only(), "radius_m"_a = usual.radius_m,
+      "size_m"_a = py::make_tuple(usual.size_m.x(), usual.size_m.y()), "edge_m"_a = 0.0005,
+      "jitter"_a = 0.3, "seed"_a = 1, what);
+}
+
 void bind_generators(py::module_& module) {
   module.def("make_plane", &plane, py::kw_only(), "size_m"_a = py::make_tuple(0.025, 0.050),
              "columns"_a = 200, "rows"_a = 200, "corner_m"_a = py::make_tuple(0.0, 0.0),
              "jitter"_a = 0.0, "seed"_a = 1,
              "A rectangle in the plane z = 0, columns x rows vertices.");
-  module.def(
-      "make_cylinder",
-      [](double radius_m, py::handle size_m, double edge_m, double jitter, std::uint64_t seed) {
-        const CylinderOptions options{radius_m, pair_of(size_m, {"make_cylinder", "size_m"})};
-        return mesh_of(cylinder_sheet(options), edge_m, jitter, seed);
-      },
-      py::kw_only(), "radius_m"_a = 0.015, "size_m"_a = py::make_tuple(0.025, 0.050),
-      "edge_m"_a = 0.0005, "jitter"_a = 0.3, "seed"_a = 1,
+  bind_bent<CylinderOptions>(
+      module, "make_cylinder", &cylinder_sheet,
       "A part of a cylinder about an axis along y; size along the arc and along the axis.");
   module.def(
       "make_dome",
@@ -79,15 +90,8 @@ void bind_generators(py::module_& module) {
       py::kw_only(), "radius_m"_a = 0.025, "reach_m"_a = 0.0205, "edge_m"_a = 0.0005,
       "jitter"_a = 0.3, "seed"_a = 1,
       "A spherical cap with its top at the origin: all within reach_m of it along the surface.");
-  module.def(
-      "make_saddle",
-      [](double radius_m, py::handle size_m, double edge_m, double jitter, std::uint64_t seed) {
-        const SaddleOptions options{radius_m, pair_of(size_m, {"make_saddle", "size_m"})};
-        return mesh_of(saddle_sheet(options), edge_m, jitter, seed);
-      },
-      py::kw_only(), "radius_m"_a = 0.025, "size_m"_a = py::make_tuple(0.025, 0.050),
-      "edge_m"_a = 0.0005, "jitter"_a = 0.3, "seed"_a = 1,
-      "z = (x^2 - y^2) / (2 radius_m) over a rectangle around the origin.");
+  bind_bent<SaddleOptions>(module, "make_saddle", &saddle_sheet,
+                           "z = (x^2 - y^2) / (2 radius_m) over a rectangle around the origin.");
   module.def(
       "make_wave",
       [](double amplitude_m, double wavelength_m, py::handle size_m, double edge_m, double jitter,
