@@ -90,6 +90,12 @@ struct Rows {
   }
 };
 
+/// As palpate readings writes them: nx, ny, nz point out of the tissue there.
+bool is_of_readings(const CsvTable& table) {
+  return find_column(table, "reading_unit") && find_column(table, "contact") &&
+         find_column(table, "probing");
+}
+
 class CsvContacts {
  public:
   CsvContacts(const CsvTable& table, const ContactColumns& columns)
@@ -102,6 +108,9 @@ class CsvContacts {
     } else if (const auto normal = find_axes(table, "normal_*", {""})) {
       normal_ = normal;
       file_.outward_from = "the columns normal_x, normal_y, normal_z";
+    } else if (is_of_readings(table)) {
+      normal_ = find_axes(table, "n*", {""});
+      if (normal_) file_.outward_from = "the columns nx, ny, nz of these readings";
     } else {
       force_ = find_axes(table, "f*", force_units);
     }

@@ -32,7 +32,7 @@ std::string probed_csv(const ProbedLog& result) {
       "x,y,z,reading,noise_variance,batch,kind,tx,ty,tz,set_aside,t,session,withdrawn,"
       "reading_unit,nx,ny,nz,contact,probing,line\n";
   for (const Probed& probed : result.probed) {
-    if (!probed.reason.empty()) continue;
+    if (!probed.reason.empty() && !probed.is_missed) continue;
     const auto travel = direction_text(probed.travel), normal = direction_text(probed.normal);
     const bool is_stop = probed.contact != "sliding";
     text += csv_line(std::vector<std::string>{number_text(probed.place_m.x()),

@@ -45,7 +45,8 @@ double range_of(const Eigen::VectorXd& values) {
   return most >= least ? most - least : 0.0;
 }
 
-/// Where the probe was when it was so deep: between the two samples around, on the way in.
+/// Where the probe was when it was so deep: between the two samples around, on the way in; beyond
+/// all of them at the nearest.
 Vec3 place_at_depth(const RobotLog& log, const AxialProbing& probing, double depth_m) {
   std::vector<Eigen::Index> used;
   for (std::size_t i = 0; i < probing.rows.size(); ++i) {
@@ -64,10 +65,11 @@ Vec3 place_at_depth(const RobotLog& log, const AxialProbing& probing, double dep
     const double share = (depth_m - before_m) / (after_m - before_m);
     return (1.0 - share) * place(used[k - 1]) + share * place(used[k]);
   }
-  const auto shallowest = std::min_element(used.begin(), used.end(), [&](auto a, auto b) {
-    return probing.indentation.depth_m[a] < probing.indentation.depth_m[b];
-  });
-  return place(*shallowest);
+  const auto [shallowest, deepest] =
+      std::minmax_element(used.begin(), used.end(), [&](auto a, auto b) {
+        return probing.indentation.depth_m[a] < probing.indentation.depth_m[b];
+      });
+  return place(depth_m > probing.indentation.depth_m[*deepest] ? *deepest : *shallowest);
 }
 
 Vec3 place_of(const RobotLog& log, const AxialProbing& probing, const ContactFit& fit) {
@@ -75,6 +77,7 @@ Vec3 place_of(const RobotLog& log, const AxialProbing& probing, const ContactFit
     const Vec3 named = median_point(log.contact_m, probing.rows);
     if (named.allFinite()) return named;
   }
+  if (fit.outcome == ContactOutcome::NoContact) return place_at_depth(log, probing, INFINITY);
   return place_at_depth(log, probing, fit.approach_seen ? fit.contact_depth_m : -INFINITY);
 }
 
@@ -150,9 +153,10 @@ class Reader {
     probed.time_s = mean_time(log_, probing.rows);
     probed.place_m = place_of(log_, probing, fit);
     probed.normal = probing.outward;
-    probed.contact = fit.approach_seen ? "from the air" : "all in contact";
+    const bool touched = fit.outcome != ContactOutcome::NoContact;
+    probed.contact = !touched ? "none" : fit.approach_seen ? "from the air" : "all in contact";
     probed.reason = reason_of(probing, probed, fit);
-    probed.is_missed = fit.outcome == ContactOutcome::NoContact && probed.place_m.allFinite();
+    probed.is_missed = !touched && probed.reason == fit.reason;  // where it was is known
     if (!probed.reason.empty()) return probed;
     probed.reading = fit.value * scale_.factor;
     probed.noise_variance = fit.variance * scale_.factor * scale_.factor;

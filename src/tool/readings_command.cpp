@@ -135,6 +135,14 @@ std::string left_out_words(const ProbedLog& result) {
   return words;
 }
 
+std::string missed_words(const ProbedLog& result) {
+  const auto missed = std::count_if(result.probed.begin(), result.probed.end(),
+                                    [](const Probed& probed) { return probed.is_missed; });
+  if (missed == 0) return "";
+  return "  " + std::to_string(missed) + (missed == 1 ? " of them is a row" : " of them are rows") +
+         " of kind missed: the probe came and touched nothing, so palpate plan goes elsewhere.\n";
+}
+
 std::string result_words(const ProbedLog& result, std::size_t samples) {
   std::vector<double> readings, sds;
   int unknown = 0;
@@ -190,9 +198,11 @@ void readings(const ReadingsArguments& arguments) {
   for (const std::string& remark : result.remarks) words += remark + "\n";
   words += result_words(result, static_cast<std::size_t>(file.log.size()));
   if (failed > 0)
-    words += "No reading from " + std::to_string(failed) + ":\n" + left_out_words(result);
+    words += "No reading from " + std::to_string(failed) + ":\n" + left_out_words(result) +
+             missed_words(result);
   words += "Next: palpate boundary SCENE.json --measurements " + arguments.files.out.string() +
            ", on a mesh of this tissue (of a flat one: palpate mesh plane --around " +
+           arguments.files.out.string() + "; of a curved one: palpate mesh surface --points " +
            arguments.files.out.string() + "); \"reading_unit\": \"" + result.unit +
            "\" in the scene holds others to it.\n";
   std::fputs(words.c_str(), stdout);

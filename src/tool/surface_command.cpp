@@ -18,6 +18,7 @@
 #include "scene/exit_code.h"
 #include "scene/mesh_words.h"
 #include "scene/single_file.h"
+#include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
@@ -166,6 +167,19 @@ void print_points(const SurfaceArguments& arguments, const ContactsFile& file,
         ".");
 }
 
+/// Boundaries are drawn on what can be laid flat.
+void print_whether_flat(const Surface& surface) {
+  try {
+    surface.chart();
+  } catch (const InvalidInput& error) {
+    print("Warning: no boundary can be drawn on all of it: " +
+          without("Surface::chart: ", error.what()) +
+          ". A wider --gap closes holes and notches of the rim; of a slide, the readings that "
+          "palpate "
+          "readings makes of it are better contacts than its log.");
+  }
+}
+
 }  // namespace
 
 void make_surface(const SurfaceArguments& arguments) {
@@ -193,6 +207,7 @@ void make_surface(const SurfaceArguments& arguments) {
     print("Warning: it runs through itself at " + std::to_string(crossings.pairs) +
           " pairs of triangles: contacts are too sparse there, or steep. More --noise-mm or a "
           "longer --edge-mm may help.");
+  print_whether_flat(surface);
   print("Next: palpate info " + arguments.output.string() + " --unit mm");
 }
 

@@ -18,15 +18,18 @@ void add_surface_command(CLI::App& mesh, SurfaceArguments& arguments) {
                    "of the points, where names of columns do not tell: mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->add_option("--columns", contacts.columns, "of a CSV: where its points are, x y z")
-      ->expected(3);
+      ->expected(3)
+      ->allow_extra_args(false);
   command
       ->add_option("--normals", contacts.normals,
                    "of a CSV: columns of a direction out of the tissue, x y z")
-      ->expected(3);
+      ->expected(3)
+      ->allow_extra_args(false);
   command
       ->add_option("--up", contacts.up,
                    "the side from which the probe came, x y z, in place of what the file says")
-      ->expected(3);
+      ->expected(3)
+      ->allow_extra_args(false);
   command->add_option("--edge-mm", arguments.edge_mm,
                       "of the triangles; 0: half the distance of the contacts");
   command->add_option("--gap", arguments.gap,

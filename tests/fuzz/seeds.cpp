@@ -67,6 +67,35 @@ constexpr const char* kBoundary =
     "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">5 "
     "9</DataArray></Lines></Piece></PolyData></VTKFile>";
 
+/// A bent sheet of 5 x 5 contacts, 4 mm apart: a line each, with `before` and `behind` its three
+/// numbers.
+std::string contacts(const std::string& header, const std::string& separator,
+                     const std::string& before, const std::string& behind) {
+  std::string text = header;
+  for (int x = -8; x <= 8; x += 4) {
+    for (int y = -8; y <= 8; y += 4) {
+      text += before;
+      text += std::to_string(x) + separator + std::to_string(y) + separator +
+              std::to_string(x * x / 16) + behind;
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+void add_contacts(Folder& folder) {
+  folder.add("contacts", contacts("x_mm,y_mm,z_mm\n", ",", "", ""));
+  folder.add("contacts", contacts("probe,contact_x_mm,contact_y_mm,contact_z_mm,normal_x,normal_y,"
+                                  "normal_z,kind\n",
+                                  ",", "1,", ",0,0.5,2,stop"));
+  folder.add("contacts", contacts("x_mm,y_mm,z_mm,fx_n,fy_n,fz_n\n", ",", "", ",0.1,nan,1"));
+  folder.add("contacts", contacts("# a cloud\n", " ", "", ""));
+  folder.add("contacts", contacts("", "\t", "", " 0 0 1"));
+  folder.add("contacts", contacts("ply\nformat ascii 1.0\nelement vertex 25\nproperty float x\n"
+                                  "property float y\nproperty float z\nend_header\n",
+                                  " ", "", ""));
+}
+
 std::string random_bytes(Random& random, int size) {
   std::string bytes;
   for (int i = 0; i < size; ++i) bytes += static_cast<char>(random.below(256));
@@ -92,6 +121,7 @@ int main(int argc, char** argv) {
   }
   for (const char* outline : kOutlines) folder.add("wkt", outline);
   folder.add("boundary", kBoundary);
+  add_contacts(folder);
   Random random(1);
   for (int size : {30, 100, 300}) {
     folder.add("rings", random_bytes(random, size));

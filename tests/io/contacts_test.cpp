@@ -35,6 +35,15 @@ TEST(Contacts, TakesTheMeanForceForOutAndNothingForAnAxisOfUnknownSign) {
   EXPECT_EQ(read("x,y,z,nx,ny,nz\n0,0,0,0,0,-1\n0.01,0,0,0,0,-1\n").outward.rows(), 0);
 }
 
+TEST(Contacts, KnowsThatNormalsOfReadingsPointOut) {
+  const ContactsFile file = read(
+      "x,y,z,reading,kind,reading_unit,nx,ny,nz,contact,probing\n0,0,0,1,stop,N,0,0,-1,sliding,a\n"
+      "0.01,0,0,1,way,N,0,0,-1,sliding,b\n0.02,0,0,,missed,N,0,0,-1,none,c\n");
+  ASSERT_EQ(file.points.rows(), 2);
+  EXPECT_EQ(file.outward(1, 2), -1.0);
+  EXPECT_NE(file.outward_from.find("of these readings"), std::string::npos);
+}
+
 TEST(Contacts, ReadsPlainLinesInTheUnitThatIsAskedFor) {
   const std::string text = "# a cloud\n0 0 0\n10 0 0\n";
   EXPECT_EQ(read(text, {.unit = LengthUnit::Millimetre}).points(1, 0), 0.010);

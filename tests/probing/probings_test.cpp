@@ -94,6 +94,10 @@ TEST(ProbingReadings, TellsAMissedStopFromAFailedOne) {
   }
   const ProbedLog result = probing_readings(log);
   EXPECT_TRUE(result.probed[1].is_missed) << result.probed[1].reason << result.probed[1].reading;
+  EXPECT_EQ(result.probed[1].contact, "none");
+  // Where it was deepest: eleven steps past the plane where the others met the tissue.
+  EXPECT_NEAR((result.probed[1].place_m - Vec3(0.01, 0.0, 0.0) + 2.2e-3 * kOutward).norm(), 0.0,
+              1e-12);
   EXPECT_FALSE(result.probed[2].is_missed);
   EXPECT_NE(result.probed[2].reason.find("stuck"), std::string::npos);
   EXPECT_NEAR(result.probed[3].reading, 0.5, 0.02);

@@ -3,6 +3,7 @@
 
 Usage: readings_test.py PALPATE PROJECT_ROOT (Python 3; the plain script needs numpy and the recordings, and skips where either is absent)."""
 
+import json
 import math
 import pathlib
 import random
@@ -112,6 +113,21 @@ class Readings(InFolder):
                 z, t = float(row[5]), float(row[2])
                 rows += [[f"{t + 0.1 * i:.3f}", row[3], row[4], f"{z + 0.5 * i:.3f}", f"{STIFFNESS * max(0.0, -(z + 0.5 * i)):.4f}"] for i in range(1, 12)]
         self.good(text(rows, "t_s,x_mm,y_mm,z_mm,force_N"), 6, says="found by contact")
+
+    def test_a_probing_without_contact_is_a_row_of_kind_missed(self):
+        rows = [row[:6] + [f"{random.Random(i).gauss(0, 0.004):.5f}"] if row[0] == 4 else row for i, row in enumerate(log(9))]
+        rows = self.good(text(rows), 8, "--left-out", self.folder / "left.csv", says="1 of them is a row of kind missed")
+        (missed,) = [row for row in rows if row["kind"] == "missed"]
+        self.assertEqual((missed["reading"], missed["noise_variance"], missed["contact"], missed["probing"]), ("", "", "none", "4"))
+        self.assertIn(",missed,no contact", (self.folder / "left.csv").read_text())
+        # As any measurements: the plane spans it, the boundary counts the others, and no stop is planned there again.
+        mesh, scene, readings = self.folder / "plane.ply", self.folder / "scene.json", self.folder / "readings.csv"
+        scene.write_text('{"surface": {"mesh": "plane.ply", "unit": "mm"}, "plan": {"batch": 20}}')
+        for command in (["mesh", "plane", "--around", readings, "--edge-mm", 1, mesh], ["boundary", scene, "--measurements", readings], ["plan", scene, "--measurements", readings, "--out", self.folder / "plan"]):
+            self.done(*command)
+        stops = rows_of(self.folder / "plan" / "waypoints.csv")
+        self.assertGreater(len(stops), 10)
+        self.assertTrue(all(math.dist((float(stop["x"]), float(stop["y"])), (0.003, 0.003)) > 1e-4 for stop in stops))
 
     def test_a_slide_gives_its_spring(self):
         rows = self.good(text(slide(), SLIDE), 20, says="Hz, found in the log", within=0.01)
@@ -287,6 +303,30 @@ class Readings(InFolder):
                 self.assertAlmostEqual(float(row["reading"]) / slope, 1.0, delta=0.02, msg=f"{name}, {probe}")
                 used += 1
             self.assertGreaterEqual(used, 0.98 * len(np.unique(d["probe"])))
+
+    def test_real_logs_become_a_boundary_in_three_commands(self):
+        scene = self.write("tissue.json", '{"surface": {"mesh": "tissue.ply", "unit": "mm"}, "field": {"metric": "ambient"}}')
+        readings, mesh = self.folder / "readings.csv", self.folder / "tissue.ply"
+        for name in ["probing_ridge.csv", "probing_small_balls.csv", "probing_pig_liver.csv", "continuous_ridge.csv"]:
+            if not (REAL / name).exists():
+                self.skip(f"{REAL / name} is absent")
+            with self.subTest(name):
+                self.done("readings", REAL / name, "--out", readings, "--overwrite")
+                told = self.done("mesh", "surface", "--points", readings, "--gap", 8, mesh, "--overwrite")
+                self.assertIn("No holes", told)
+                self.assertIn("of these readings", told)
+                self.done("boundary", scene, "--measurements", readings, "--out", self.folder / name)
+                summary = json.loads((self.folder / name / "summary.json").read_text())
+                # The ridge is 59 x 15 mm and both ways of touching it find it; the ball of 5 mm and the liver are only to be answered.
+                if "ridge" in name:
+                    (part,) = summary["parts"]
+                    self.assertAlmostEqual(max(part["extent_mm"]), 59, delta=8)
+
+    def test_a_slide_as_points_is_told_to_be_no_tissue(self):
+        points = "x_mm,y_mm,z_mm,fx_n,fy_n,fz_n\n" + "".join(
+            f"{x},{y},{math.sin(3 * x + y) * 0.01},0,0,1\n" for x in range(0, 40, 2) for y in range(0, 40, 2) if (x - 20) ** 2 + (y - 20) ** 2 > 100)
+        told = self.done("mesh", "surface", "--points", self.write("ring.csv", points), self.folder / "ring.ply")
+        self.assertIn("no boundary can be drawn on all of it", told)
 
     def test_a_real_slide_has_the_slope_of_a_plain_script(self):
         np, d, path = self.plain("continuous_ridge.csv")

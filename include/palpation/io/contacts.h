@@ -6,10 +6,11 @@
 /// this project's CSV files are; of XYZ and PLY it must be asked for. Rows without a finite number
 /// in one of them, of kind "missed", or with a word in set_aside are left out and counted.
 ///
-/// Which side is out: by the columns normal_x, normal_y, normal_z (unit, outward), else by the
-/// mean of fx, fy, fz (with a unit or without), the force that the probe felt, which points out of
-/// the tissue; of XYZ by the fourth to sixth number of every line. Nothing else tells, as nx, ny,
-/// nz is outward in some files and the probe's axis in others: then `outward` is empty.
+/// Which side is out: by the columns normal_x, normal_y, normal_z (unit, outward), or nx, ny, nz of
+/// a table of readings (probed_csv), else by the mean of fx, fy, fz (with a unit or without), the
+/// force that the probe felt, which points out of the tissue; of XYZ by the fourth to sixth number
+/// of every line. Nothing else tells, as nx, ny, nz is outward in some files and the probe's axis
+/// in others: then `outward` is empty.
 #pragma once
 
 #include <filesystem>

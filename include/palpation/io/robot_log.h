@@ -69,7 +69,8 @@ LogFile parse_robot_log(std::string_view text, const std::string& name, const Lo
 
 /// Readings as a table of measurements: x,y,z [m], reading, noise_variance, batch, kind, tx,ty,tz,
 /// set_aside, t, session, withdrawn, then reading_unit, nx,ny,nz, contact, probing and the log's
-/// line. What failed is not in it.
+/// line. What was missed is a row of that kind, without a reading, so that it is not planned again;
+/// what else failed is not in it.
 std::string probed_csv(const ProbedLog& result);
 /// What failed: x,y,z [m], t, session, probing, line, kind (missed: the probe came and touched
 /// nothing; else empty), reason.

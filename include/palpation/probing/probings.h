@@ -12,7 +12,8 @@
 /// by fit_contact; whether probings begin in the air is decided for all together, by most of them.
 ///
 /// The place is, in this order: the contact point that the log names; where the probe was at the
-/// contact depth, if the fit found that in the air; where it was at the shallowest sample.
+/// contact depth, if the fit found that in the air; where it was at the shallowest sample, or,
+/// without contact, at the deepest.
 ///
 /// A probing that fails is reported with its reason, missed if there was no contact; so is one
 /// whose depths or value are 300 times those of most, or a 300th: it is in another unit.

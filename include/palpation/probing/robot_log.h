@@ -39,7 +39,8 @@ struct Probed {
   double time_s = std::numeric_limits<double>::quiet_NaN();          ///< NaN: not known
   Vec3 travel = Vec3::Zero();  ///< unit direction of travel; zero: none, or not known
   Vec3 normal = Vec3::Zero();  ///< unit, out of the tissue; zero: not known
-  std::string contact{};  ///< how contact was known: "from the air", "all in contact", "sliding"
+  std::string contact{};  ///< how contact was known: "from the air", "all in contact", "sliding";
+                          ///< "none" where there was none
   std::string probing{};  ///< its name in the log, or its number
   std::string session{};
   int line = 0;            ///< of the log, its first
