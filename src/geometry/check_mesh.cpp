@@ -202,7 +202,10 @@ void check_fans(const TriangleMesh& mesh, const Connectivity& connectivity) {
 
 bool has_area(const TriangleMesh& mesh, Eigen::Index face) {
   const Eigen::Vector3i t = mesh.triangles.row(face);
-  const Vec3 a = mesh.vertices.row(t[0]), b = mesh.vertices.row(t[1]), c = mesh.vertices.row(t[2]);
+  return has_area(mesh.vertices.row(t[0]), mesh.vertices.row(t[1]), mesh.vertices.row(t[2]));
+}
+
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double longest_squared =
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
   return (b - a).cross(c - a).norm() > kNoArea * longest_squared;

@@ -15,6 +15,7 @@ struct Connectivity {
 
 /// Whether a triangle has an area that is more than rounding: see surface.h.
 bool has_area(const TriangleMesh& mesh, Eigen::Index face);
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Throws InvalidMesh, naming the first element at fault, its position and the rule of surface.h
 /// that it breaks.

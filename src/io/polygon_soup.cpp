@@ -6,7 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/cut_polygon.h"
 #include "io/bucket_sort.h"
+#include "io/soup_repairs.h"
 
 namespace palpation {
 namespace {
@@ -15,8 +17,7 @@ namespace {
 constexpr double kLeastFanArea = 1e-12;
 
 void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_t face,
-                   std::vector<int>& sorted) {
-  const std::span<const int> corners = soup.face(face);
+                   std::span<const int> corners, std::vector<int>& sorted) {
   const auto count = static_cast<std::int64_t>(soup.points.size());
   for (const int corner : corners) {
     if (corner >= 0 && corner < count) continue;
@@ -31,6 +32,12 @@ void check_corners(const MeshSource& source, const PolygonSoup& soup, std::size_
   if (twice != sorted.end())
     soup.fail_at_face(source, face,
                       "uses vertex " + std::to_string(*twice + soup.first_number) + " twice");
+}
+
+/// Without corners that follow themselves.
+void drop_steps_on_the_spot(std::vector<int>& corners) {
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
 }
 
 /// Twice the vector area of a polygon (Newell), relative to its first corner.
@@ -74,6 +81,17 @@ void append_fan(std::span<const int> corners, std::size_t apex, int face,
     triangles.push_back(
         {{corners[apex], corners[(apex + i) % count], corners[(apex + i + 1) % count]}, face});
   }
+}
+
+/// False where the polygon crosses itself.
+bool append_cut(const PolygonSoup& soup, std::span<const int> corners, int face,
+                std::vector<SoupTriangle>& triangles) {
+  std::vector<Vec3> places;
+  for (const int corner : corners) places.push_back(soup.points[corner]);
+  const std::vector<std::array<int, 3>> cut = cut_polygon(places);
+  for (const auto& [a, b, c] : cut)
+    triangles.push_back({{corners[a], corners[b], corners[c]}, face});
+  return !cut.empty();
 }
 
 std::array<int, 3> sorted_corners(const SoupTriangle& triangle) {
@@ -139,22 +157,36 @@ void refuse_crowds(const MeshSource& source, const PolygonSoup& soup) {
       " vertices are more than three for each: a surface has about two, so these cannot be one");
 }
 
-std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup) {
+std::vector<SoupTriangle> triangles_of(const MeshSource& source, PolygonSoup& soup,
+                                       const MeshRepair& repair) {
   constexpr auto kMost = static_cast<std::size_t>(kMostPoints);
   if (soup.corners.size() > kMost || soup.points.size() > kMost)
     source.fail("more than 2^31 corners or vertices");
   std::vector<SoupTriangle> triangles;
   triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.face_count()));
-  std::vector<int> sorted;
+  std::vector<int> corners, sorted;
+  Repaired thin, cut;
   for (std::size_t face = 0; face < soup.face_count(); ++face) {
-    check_corners(source, soup, face, sorted);
-    const std::span<const int> corners = soup.face(face);
+    corners.assign(soup.face(face).begin(), soup.face(face).end());
+    if (repair.drop_flat) drop_steps_on_the_spot(corners);
+    check_corners(source, soup, face, corners, sorted);
+    if (corners.size() < 3) {
+      thin.take(soup, static_cast<int>(face), corners);
+      continue;
+    }
+    if (corners.size() > 3) cut.take(soup, static_cast<int>(face), corners);
     const std::optional<std::size_t> apex = corners.size() == 3 ? 0 : fan_apex(soup, corners);
-    if (!apex)
+    if (apex)
+      append_fan(corners, *apex, static_cast<int>(face), triangles);
+    else if (!repair.cut_polygons || !append_cut(soup, corners, static_cast<int>(face), triangles))
       soup.fail_at_face(source, face,
                         "is a polygon that no fan of triangles covers once: cut it into triangles");
-    append_fan(corners, *apex, static_cast<int>(face), triangles);
   }
+  thin.tell(soup, "face with fewer than three different corners was dropped",
+            "faces with fewer than three different corners were dropped", "As was asked for.");
+  if (repair.cut_polygons)
+    cut.tell(soup, "face with more than three corners was cut into triangles",
+             "faces with more than three corners were cut into triangles", "As was asked for.");
   return triangles;
 }
 

@@ -82,8 +82,10 @@ void refuse_crowds(const MeshSource& source, const PolygonSoup& soup);
 
 /// All faces as fans of triangles, after the check of every corner. Throws IoError for a corner out
 /// of range or used twice, and for a polygon that none of its corners sees as a whole: its fan
-/// would overlap itself.
-std::vector<SoupTriangle> triangles_of(const MeshSource& source, const PolygonSoup& soup);
+/// would overlap itself. Asked for, such a polygon is cut otherwise, corners that follow themselves
+/// count once and faces without three of them go, with a warning.
+std::vector<SoupTriangle> triangles_of(const MeshSource& source, PolygonSoup& soup,
+                                       const MeshRepair& repair = {});
 
 /// Throws IoError if two triangles have the same three corners.
 void refuse_duplicates(const MeshSource& source, const PolygonSoup& soup,

@@ -7,6 +7,7 @@
 #include "io/length_scale.h"
 #include "io/mesh_text.h"
 #include "io/polygon_soup.h"
+#include "io/soup_repairs.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
 
@@ -155,8 +156,12 @@ MeshFile assembled(const MeshSource& source, LengthUnit unit, const MeshRepair& 
                 "As was asked for.");
   }
   refuse_crowds(source, soup);
-  std::vector<SoupTriangle> triangles = triangles_of(source, soup);
+  std::vector<SoupTriangle> triangles = triangles_of(source, soup, repair);
+  if (repair.drop_duplicates) drop_duplicates(soup, triangles);
+  if (repair.drop_flat) drop_flat(soup, triangles, unit);
+  if (triangles.empty()) source.fail("no face has an area: nothing is left of the " + soup.format);
   refuse_duplicates(source, soup, triangles);
+  if (repair.keep_largest) keep_largest(soup, triangles);
   orient_alike(triangles, soup);
   const std::int64_t unused = drop_unused_points(soup, triangles);
   if (unused > 0) {

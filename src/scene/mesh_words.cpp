@@ -263,8 +263,8 @@ std::string fault_words(const TriangleMesh& mesh, const std::string& reason) {
     if (count > 0) words += "  " + counted(count, one, many) + ": " + meaning + "\n";
   };
   say(faults.flat_triangles, "triangle has no area", "triangles have no area",
-      "corners on one line or in one place. Remove such faces, or collapse their shortest edges, "
-      "in a mesh editor.");
+      "corners on one line or in one place. palpate mesh repair --drop-degenerate (with --weld) "
+      "removes them.");
   say(faults.crowded_edges, "edge is in more than two triangles",
       "edges are in more than two triangles",
       "sheets that meet there, or a wall inside the tissue. Delete the triangles that are not its "

@@ -35,9 +35,10 @@ MeshFile read(const InfoArguments& arguments, const MeshRepair& repair = {}) {
   } catch (const IoError& error) {
     const std::string message = error.what();
     if (message.find(": cannot read: ") != std::string::npos) throw;
-    throw IoError(message +
-                  "\n  Repair the file at that place, or export it again from the program that "
-                  "made it: PLY is the safest choice.");
+    throw IoError(
+        message +
+        "\n  Repair the file at that place (palpate help mesh repair), or export it again "
+        "from the program that made it: PLY is the safest choice.");
   }
 }
 
@@ -123,7 +124,9 @@ void info_on_mesh(const InfoArguments& arguments) {
   }
   if (file.equal_vertices > 0) print(weld_words(arguments));
   if (!mesh.surface)
-    print("Next: repair it in a mesh editor at these places, and run this again.\n");
+    print(
+        "Next: repair it, by palpate mesh repair or in a mesh editor at these places, and run this "
+        "again.\n");
 }
 
 }  // namespace

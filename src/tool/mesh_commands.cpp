@@ -10,14 +10,11 @@
 #include "palpation/base/error.h"
 #include "palpation/geometry/make_phantom.h"
 #include "palpation/geometry/make_plane.h"
-#include "palpation/io/atomic_file.h"
-#include "palpation/io/read_mesh.h"
 #include "palpation/io/recording.h"
 #include "scene/exit_code.h"
 #include "scene/mesh_words.h"
-#include "scene/run_record.h"
-#include "scene/single_file.h"
 #include "tool/commands.h"
+#include "tool/mesh_file.h"
 
 namespace palpation::tool {
 namespace {
@@ -163,19 +160,6 @@ TriangleMesh curved_of(const MeshArguments& arguments) {
   return make_phantom(sheet, edge_m, arguments.jitter, random).mesh;
 }
 
-/// The same mesh again is no loss.
-void write_without_loss(const MeshArguments& arguments, const TriangleMesh& mesh) {
-  const std::filesystem::path& output = arguments.output;
-  const LengthUnit unit = length_unit(arguments.unit);
-  remove_leftovers(output);
-  if (!std::filesystem::exists(output)) return write_mesh(output, mesh, unit);
-  write_atomically(output, [&](const std::filesystem::path& beside) {
-    write_mesh(beside, mesh, unit);
-    if (fingerprint_of_file(beside) != fingerprint_of_file(output))
-      refuse_to_replace(output, arguments.overwrite ? Existing::Replaced : Existing::Kept);
-  });
-}
-
 }  // namespace
 
 std::vector<std::string> mesh_kinds() {
@@ -185,7 +169,8 @@ std::vector<std::string> mesh_kinds() {
 void make_mesh(const MeshArguments& arguments) {
   check_options(arguments);
   const TriangleMesh mesh = arguments.kind == "plane" ? plane_of(arguments) : curved_of(arguments);
-  write_without_loss(arguments, mesh);
+  write_mesh_file(arguments.output, mesh, length_unit(arguments.unit), {},
+                  arguments.overwrite ? Existing::Replaced : Existing::Kept);
   std::printf("%s: %ld vertices, %ld triangles, %s\n", arguments.output.string().c_str(),
               static_cast<long>(mesh.vertices.rows()), static_cast<long>(mesh.triangles.rows()),
               size_words(mesh).c_str());

@@ -1,11 +1,13 @@
 #include "tool/mesh_options.h"
 
 #include "tool/option_checks.h"
+#include "tool/repair_command.h"
 
 namespace palpation::tool {
 
 void add_mesh_command(CLI::App& app, MeshArguments& mesh, SurfaceArguments& surface) {
-  CLI::App* making = app.add_subcommand("mesh", "Make a phantom; or a surface from contacts");
+  CLI::App* making =
+      app.add_subcommand("mesh", "Make a phantom, or a surface from contacts; or repair one");
   CLI::Option* kind =
       making->add_option("KIND", mesh.kind, "which phantom")->check(CLI::IsMember(mesh_kinds()));
   CLI::Option* output =
@@ -51,6 +53,7 @@ void add_mesh_command(CLI::App& app, MeshArguments& mesh, SurfaceArguments& surf
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   making->add_flag("--overwrite", mesh.overwrite, "replace another mesh of that name");
   add_surface_command(*making, surface);
+  add_repair_command(*making);
   making->callback([&, making, kind, output] {
     if (!making->get_subcommands().empty()) return;
     for (const CLI::Option* needed : {kind, output}) {

@@ -33,10 +33,14 @@ void use(const Surface& surface) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace palpation;
   const fuzz::MemoryFile file(bytes, size);
-  for (const bool weld : {false, true}) {
+  constexpr MeshRepair kAll{.weld_equal_vertices = true,
+                            .cut_polygons = true,
+                            .drop_duplicates = true,
+                            .drop_flat = true,
+                            .keep_largest = true};
+  for (const MeshRepair& repair : {MeshRepair{}, MeshRepair{.weld_equal_vertices = true}, kAll}) {
     try {
-      const MeshFile read =
-          read_mesh_of_any_size(file.path(), LengthUnit::Millimetre, {.weld_equal_vertices = weld});
+      const MeshFile read = read_mesh_of_any_size(file.path(), LengthUnit::Millimetre, repair);
       fuzz::check_promises(read.mesh);
       const Surface surface(read.mesh);
       if (surface.face_count() <= fuzz::kSmall) fuzz::use(surface);

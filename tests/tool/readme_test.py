@@ -112,7 +112,7 @@ class Readme(unittest.TestCase):
             shown = "\n".join([*indented(text), *re.findall(r"`([^`\n]*)`", prose(text)), *blocks(text, "sh")])
             for line in re.findall(r"^(?:\w+=\S+ )?palpate [a-z][^\n]*|(?<=do )palpate [^\n]*", shown, re.MULTILINE):
                 words = line.split()
-                command = tuple(words[1:3]) if words[1:3] == ["mesh", "surface"] else (words[1],)
+                command = tuple(words[1:3]) if words[1:3] in (["mesh", "surface"], ["mesh", "repair"]) else (words[1],)
                 if command not in help_of:
                     result = palpate(*command, "--help")
                     self.assertEqual(result.returncode, 0, f"{path.relative_to(ROOT)}: {line}")

@@ -35,10 +35,21 @@ struct MeshFile {
   Frame frame = Frame::Mesh;        ///< what the field data of a VTP say
 };
 
-/// What is repaired only on request.
+/// What is repaired only on request, in this order. Each that was done is a warning of the result,
+/// with how many elements it took and where the first of them lies.
 struct MeshRepair {
-  bool weld_equal_vertices =
-      false;  ///< vertices with equal coordinates become one; STL corners always do
+  /// Vertices with equal coordinates become one; STL corners always do.
+  bool weld_equal_vertices = false;
+  /// Polygons are cut also where none of their corners sees them as a whole, which is refused else.
+  bool cut_polygons = false;
+  /// Of triangles with the same corners, in whatever order, the first is kept.
+  bool drop_duplicates = false;
+  /// Corners that follow themselves count once, and what has no area (as Surface measures it) goes.
+  /// A triangle whose middle corner lies on its longest side leaves no crack: its neighbour there
+  /// is cut at that corner. Where two corners are in one place a seam is left, unless welded.
+  bool drop_flat = false;
+  /// Of the parts that hang together by edges the one of the largest area is kept.
+  bool keep_largest = false;
 };
 
 /// Reads and validates syntax, counts, indices and numbers, then the size: tissue is between 1 mm
