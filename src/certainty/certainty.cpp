@@ -6,6 +6,7 @@
 
 #include "base/normal.h"
 #include "boundary/erosion.h"
+#include "boundary/outline_length.h"
 #include "certainty/layout.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
@@ -17,16 +18,7 @@ namespace {
 constexpr double kFar_m = 0.008;
 
 double boundary_length(const Surface& surface, const Field& score) {
-  double length = 0.0;
-  for (const LevelLoop& loop : level_loops(surface, score, 0.0)) {
-    for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      if (loop.on_border[i]) continue;
-      length += (surface.position(loop.points[(i + 1) % loop.points.size()]) -
-                 surface.position(loop.points[i]))
-                    .norm();
-    }
-  }
-  return length;
+  return outline_length(surface, level_loops(surface, score, 0.0));
 }
 
 /// Area between the score's level sets at -q and q, over twice the boundary's length.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boundary/outline_length.h"
 #include "boundary/superlevel_parts.h"
 #include "experiments/coverage.h"
 #include "experiments/experiment.h"
@@ -66,19 +67,6 @@ double felt_slope_per_m(const Surface& surface, const World& world, double range
   return rise_per_m / (fraction * (1.0 - fraction));
 }
 
-double outline_length(const Surface& surface, const std::vector<LevelLoop>& loops) {
-  double length = 0.0;
-  for (const LevelLoop& loop : loops) {
-    for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      if (loop.on_border[i]) continue;
-      length += (surface.position(loop.points[(i + 1) % loop.points.size()]) -
-                 surface.position(loop.points[i]))
-                    .norm();
-    }
-  }
-  return length;
-}
-
 /// Of the parts of one region, how many the other does not touch.
 int parts_apart(const std::vector<std::vector<int>>& parts, const Field* other, double level) {
   return static_cast<int>(std::ranges::count_if(parts, [&](const std::vector<int>& part) {
@@ -95,10 +83,7 @@ std::vector<double> outline_in_tenths(const Surface& surface, const std::vector<
   double all = 0.0;
   for (const LevelLoop& loop : loops) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      if (loop.on_border[i]) continue;
-      const double length = (surface.position(loop.points[(i + 1) % loop.points.size()]) -
-                             surface.position(loop.points[i]))
-                                .norm();
+      const double length = piece_length(surface, loop, i);
       const double p = surface.interpolate(probability, loop.points[i]);
       tenths[std::min(kBins - 1, static_cast<std::size_t>(kBins * p))] += length;
       all += length;
