@@ -24,6 +24,7 @@
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/expected_error.h"
 #include "palpation/certainty/level_estimate.h"
+#include "palpation/certainty/misfit.h"
 #include "palpation/certainty/reference_bound.h"
 #include "palpation/decision/acquisition.h"
 #include "palpation/decision/baseline.h"

@@ -34,7 +34,7 @@ EdgeProfile EdgeBelief::Fit::edge_profile() const {
 }
 
 Eigen::MatrixXd EdgeBelief::Fit::readings_with_depths(std::span<const SurfacePoint> points) const {
-  Eigen::MatrixXd shared = edge.by_depth.asDiagonal() * correction.covariance(places, points);
+  Eigen::MatrixXd shared = edge.by_depth.asDiagonal() * correction.covariance(data.places, points);
   // depth = distance + correction - logit(fraction) / slope, whose derivative by log slope is the
   // shift.
   shared.colwise() += edge.by_profile.col(2) * (prior.variance[2] * shift_m());
@@ -53,7 +53,7 @@ Eigen::MatrixXd EdgeBelief::Fit::depth_covariance(std::span<const SurfacePoint> 
 
 Field EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const {
   const Surface& surface = correction.surface();
-  Field depth = distance.array() - shift_m();
+  Field at_vertices = distance.array() - shift_m();
   std::vector<SurfacePoint> near;
   std::vector<int> vertices;
   for (int vertex = 0; vertex < distance.size(); ++vertex) {
@@ -63,9 +63,9 @@ Field EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const 
   }
   // Corrections alone move it: the shift is that of the most probable slope already.
   const Eigen::VectorXd moved =
-      correction.covariance(near, places) * edge.by_depth.cwiseProduct(edge.pull);
-  for (std::size_t i = 0; i < vertices.size(); ++i) depth[vertices[i]] += moved[i];
-  return depth;
+      correction.covariance(near, data.places) * edge.by_depth.cwiseProduct(edge.pull);
+  for (std::size_t i = 0; i < vertices.size(); ++i) at_vertices[vertices[i]] += moved[i];
+  return at_vertices;
 }
 
 }  // namespace palpation

@@ -13,8 +13,10 @@ struct EdgeBelief::Fit {
   ProfilePrior prior;
   double fraction;
   double touch_variance;  ///< noise of a reading to come
-  std::vector<SurfacePoint> places;
+  EdgeData data;
   EdgeFit edge;
+  double weight = 1.0;  ///< posterior probability of its kind of outline
+  Field depth{};        ///< at the vertices
 
   /// Of the boundary below the middle of the profile: logit(fraction) / slope.
   double shift_m() const;

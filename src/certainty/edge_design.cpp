@@ -75,7 +75,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   require(count >= 0, "most_telling", "count = " + std::to_string(count), "must not be negative");
   require(field_variance.size() == surface_.vertex_count(), "most_telling",
           std::to_string(field_variance.size()) + " variances", "must be one for each vertex");
-  const Fit& fit = *fit_;
+  const Fit& fit = most_likely();
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
   const std::vector<int> candidates = one_per_cell(Layout(fit.correction), all_candidates);
   std::vector<int> picks;
@@ -97,7 +97,7 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
 
   // Whitened covariances with the readings so far.
   Eigen::MatrixXd of_candidates = fit.edge.by_depth.asDiagonal() *
-                                  fit.correction.covariance(fit.places, points) *
+                                  fit.correction.covariance(fit.data.places, points) *
                                   by_depth.asDiagonal();
   of_candidates += fit.edge.by_profile * by_profile_variance.transpose();
   fit.edge.covariance.matrixL().solveInPlace(of_candidates);

@@ -27,8 +27,9 @@ ReadingSlopes profile_slopes(const ProfileParameters& profile, double depth_m);
 struct EdgeData {
   std::vector<SurfacePoint> places;
   Eigen::VectorXd reading;
-  Eigen::VectorXd variance;  ///< of the noise
-  Eigen::VectorXd depth_m;   ///< from the first boundary
+  Eigen::VectorXd variance;               ///< of the noise
+  Eigen::VectorXd depth_m;                ///< from the first boundary
+  std::vector<std::vector<int>> batches;  ///< that the readings of each were made in
 };
 
 struct ProfilePrior {

@@ -106,6 +106,17 @@ void add_reliability(const Surface& surface, const World& world, const Field& pr
   row.set("area_by_p", list_text(area)).set("tumour_by_p", list_text(tumour));
 }
 
+/// What surprised, and by how many nats.
+std::string misfit_text(const Conclusion& conclusion) {
+  constexpr std::array kNames = {"zero", "gain", "weaker"};
+  std::string text;
+  if (!conclusion.edge) return text;
+  for (const Misfit& one : conclusion.edge->misfits())
+    text += (text.empty() ? "" : " ") + std::string(kNames[static_cast<std::size_t>(one.kind)]) +
+            "=" + fixed(one.evidence, 1);
+  return text;
+}
+
 Figures run_of(const Scene& scene, const Surface& surface) {
   const World world = simulated_world(scene, surface);
   const Episode episode = run_episode(scene, surface, world);
@@ -115,6 +126,7 @@ Figures run_of(const Scene& scene, const Surface& surface) {
                fraction = scene.number("level.fraction"),
                range = scene.number("probe.high") - scene.number("probe.low");
   Figures row = against_truth(episode, world);
+  row.set("misfits", misfit_text(conclusion));
   const bool has_tumour = perimeter_m > 0.0;
   row.set("has_tumour", has_tumour);
   const Field* found = conclusion.contour ? &conclusion.contour->field : nullptr;
@@ -176,8 +188,8 @@ Study worlds_study(const ExperimentArguments& arguments) {
   for (std::string& column : columns_against_truth()) study.columns.push_back(std::move(column));
   study.columns.insert(
       study.columns.end(),
-      {"has_tumour", "true_parts", "missed_parts", "false_parts", "slope_per_m", "bound_mm2",
-       "bound_half_width_mm", "area_by_p", "tumour_by_p", "outline_by_p"});
+      {"has_tumour", "misfits", "true_parts", "missed_parts", "false_parts", "slope_per_m",
+       "bound_mm2", "bound_half_width_mm", "area_by_p", "tumour_by_p", "outline_by_p"});
   study.facts = {{"worlds", arguments.material.world},
                  {"band.probability", text_of(base.number("band.probability"))}};
   std::vector<LazyTissue> tissues;

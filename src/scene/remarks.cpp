@@ -12,6 +12,7 @@
 #include "palpation/readings/screening.h"
 #include "readings/contact.h"
 #include "readings/readings.h"
+#include "scene/misfit_words.h"
 #include "scene/parts.h"
 #include "scene/words.h"
 
@@ -275,6 +276,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   }
   add(level_remarks(exploration));
   const std::vector<TumourPart> parts = parts_of(episode);
+  add(misfit_words(conclusion));
   add(part_remarks(conclusion, parts));
   add(area_remarks(episode, !parts.empty()));
   return remarks;

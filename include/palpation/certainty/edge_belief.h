@@ -4,13 +4,16 @@
 /// What readings tell of the edge is clearer in depths. With d(x) the signed distance from a first
 /// boundary (positive inside), across the edge
 ///
-///     depth(x) = d(x) + c(x),      c ~ GP(0, correction_sd^2 Matern-5/2 of the correction length),
+///     depth(x) = d(x) + c(x),      c ~ GP(0, correction_sd^2 Matern of the correction length),
 ///     reading  = low + (high - low) / (1 + exp(-slope depth)) + noise (equation 4 of Garg et al.
 ///     2016)
 ///
 /// and c, low, high and log slope are found together, with their covariance: Laplace's
 /// approximation at the most probable values, by Gauss and Newton's steps. So the level's
-/// uncertainty is part of the depth's. The boundary lies where the reading is `fraction` of the way
+/// uncertainty is part of the depth's. Outlines are smooth (Matern 5/2) or have corners (3/2, and a
+/// shorter length): both are fitted, and weighed by how probable they make the readings; how sure
+/// the boundary is takes both for as likely, since a corner is seen only where it is touched. The
+/// boundary lies where the reading is `fraction` of the way
 /// from low to high: there the depth handed out is zero.
 #pragma once
 
@@ -21,6 +24,7 @@
 
 #include "palpation/belief/belief.h"
 #include "palpation/certainty/edge_profile.h"
+#include "palpation/certainty/misfit.h"
 
 namespace palpation {
 
@@ -30,6 +34,7 @@ struct ShapePrior {
       0.001;  ///< how far off the first boundary may be: a millimetre is most of an edge's width
   double correction_length_m = 0.009;  ///< over which it is off the same way: the least radius of
                                        ///< curvature of tumours of a few cm2
+  double corner_length_m = 0.006;      ///< the same of outlines with corners
   double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
   /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's
@@ -61,19 +66,18 @@ class EdgeBelief {
   const Level& level() const { return profile_.level; }
   /// Of a reading, as they scatter about the profile: more than the belief's where the edge is no
   /// sigmoid; less where the noise was learned with a field that could not follow the edge.
-  double noise_variance() const;
+  double noise_variance() const { return noise_variance_; }
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.
   const Field& offset_sd() const { return offset_sd_; }
   /// Expected area between the boundary and the true one: the integral along it of the offset's
-  /// mean absolute value, sqrt(2 / pi) sd, less what the prior of corrections overstates where
-  /// readings are sharp.
+  /// mean absolute value, sqrt(2 / pi) sd.
   double expected_error_m2() const { return expected_error_m2_; }
   /// How many standard deviations the true boundary stays within, all along, with the given
   /// probability: by Rice's formula for the upcrossings of a Gaussian process, from the offsets'
-  /// correlation along the boundary, the noise integrated out; widened for the tails of an unsure
-  /// edge and the bends of a slender tumour.
+  /// correlation along the boundary, the noise integrated out; widened for tails that are heavier
+  /// than a normal's.
   double band_score(double probability) const;
 
   /// Where touches would tell the most: one after the other, the candidate whose reading lowers the
@@ -85,20 +89,25 @@ class EdgeBelief {
   std::vector<int> most_telling(std::span<const int> candidates, int count, double least_spacing_m,
                                 const Field& field_variance) const;
 
+  /// What of the readings this boundary and its profile do not explain (misfit.h): what surprises,
+  /// each kind once, the strongest first. `false_alarms`: the share of runs in which a true model
+  /// may be doubted, all kinds together. Throws InvalidInput unless it lies in (0, 1).
+  std::vector<Misfit> misfits(double false_alarms = 0.02) const;
+
  private:
   struct Fit;
-  EdgeBelief(Surface surface, std::shared_ptr<const Fit> fit);
+  explicit EdgeBelief(Surface surface);
+  void mix();
   void survey_boundary();
+  const Fit& most_likely() const { return *fits_.front(); }
 
   Surface surface_;
-  std::shared_ptr<const Fit> fit_;
+  std::vector<std::shared_ptr<const Fit>> fits_;  // the most likely first
+  double noise_variance_ = 0.0;
   EdgeProfile profile_;
   Field depth_;
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
-  double breadth_m_ = 0.0;  // twice the area inside over the boundary's length: a disk's radius
-  double mean_part_of_edge_ =
-      0.0;  // the offset's standard deviation over the edge's width, 1 / slope
   double noise_log_sd_ = 0.0;
   double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
 };

@@ -1,0 +1,26 @@
+/// The readings as a boundary's fit takes them: one per place, with its depth.
+#pragma once
+
+#include "certainty/edge_fit.h"
+#include "certainty/layout.h"
+#include "palpation/belief/belief.h"
+
+namespace palpation {
+
+/// More places than this are many; beyond so deep an edge of any slope in the prior is over (98 %
+/// at 500 per metre).
+inline constexpr Eigen::Index kMany = 300;
+
+/// One reading per place, of those that are used; depths are still to be measured.
+EdgeData gathered_for_edge(const Belief& belief);
+
+/// Signed distances of the vertices and of the readings from { field = level }; false where there
+/// is no boundary.
+bool measure_depths(const Layout& layout, const Field& field, double level,
+                    Eigen::VectorXd& vertices, EdgeData& data);
+
+/// Where there are many, the readings deep on one plateau as one, at their mean depth: they tell of
+/// the plateau alone, and the fit costs the third power of their number.
+EdgeData with_plateaus_merged(const EdgeData& data);
+
+}  // namespace palpation

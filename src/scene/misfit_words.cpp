@@ -1,0 +1,46 @@
+#include "scene/misfit_words.h"
+
+#include <cmath>
+
+#include "scene/words.h"
+
+namespace palpation::tool {
+namespace {
+
+std::string since_words(const Misfit& misfit) {
+  return "From batch " + std::to_string(misfit.from_batch) + " on ";
+}
+
+std::string side_words(double amount, const std::string& more, const std::string& less) {
+  return reading_text(std::abs(amount)) + " " + (amount > 0.0 ? more : less);
+}
+
+std::string words_of(const Surface& surface, const Misfit& misfit) {
+  switch (misfit.kind) {
+    case MisfitKind::Zero:
+      return since_words(misfit) + "readings lie " + side_words(misfit.amount, "higher", "lower") +
+             " than before, wherever they are: set the sensor's zero again and touch anew, or take "
+             "the earlier ones out.";
+    case MisfitKind::Gain:
+      return since_words(misfit) + "what stands out does so " + fixed(1.0 + misfit.amount, 2) +
+             " times as much as before: the sensor or the contact has changed.";
+    case MisfitKind::WeakerPart:
+      return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
+             (misfit.amount > 0.0 ? "stands out by " : "reads less by ") +
+             reading_text(std::abs(misfit.amount)) +
+             ", which the outline does not hold. Touch there.";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> misfit_words(const Conclusion& conclusion) {
+  std::vector<std::string> words;
+  if (!conclusion.edge) return words;
+  for (const Misfit& misfit : conclusion.edge->misfits())
+    words.push_back(words_of(conclusion.belief.prior().surface(), misfit));
+  return words;
+}
+
+}  // namespace palpation::tool

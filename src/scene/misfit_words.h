@@ -1,0 +1,14 @@
+/// What of the readings the outline does not explain, in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/episode.h"
+
+namespace palpation::tool {
+
+/// A sentence each, the strongest first; none where no edge is known.
+std::vector<std::string> misfit_words(const Conclusion& conclusion);
+
+}  // namespace palpation::tool

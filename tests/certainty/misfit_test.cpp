@@ -1,0 +1,133 @@
+#include "palpation/certainty/misfit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "palpation/base/error.h"
+#include "palpation/base/random.h"
+#include "palpation/certainty/edge_belief.h"
+#include "palpation/geometry/make_plane.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kRadius_m = 0.006, kSlope = 1400.0, kNoise = 0.1;
+constexpr int kReadings = 100;  // in ten batches
+
+Surface tissue() {
+  Random random(0);
+  return Surface(make_plane({.size_m = {0.025, 0.025}, .columns = 51, .rows = 51}, random));
+}
+
+double depth_in_disk(const Vec3& place) {
+  return kRadius_m - (place - Vec3(0.0105, 0.0125, 0.0)).norm();
+}
+
+/// The disk's, 7 outside and 9 inside.
+double stiffness(const Vec3& place) {
+  return 7.0 + 2.0 / (1.0 + std::exp(-kSlope * depth_in_disk(place)));
+}
+
+/// What is felt at a place in a batch, without noise.
+using World = std::function<double(const Vec3&, int batch)>;
+
+/// What surprises, of readings at random vertices, half of them near the edge.
+std::vector<Misfit> misfits_of(const World& world, std::uint64_t seed, int readings) {
+  const Surface surface = tissue();
+  Random random(seed);
+  const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
+  std::vector<Palpation> palpations;
+  while (static_cast<int>(palpations.size()) < readings) {
+    const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
+    const Vec3 place = surface.vertex(vertex);
+    if (palpations.size() % 2 != 0 && std::abs(depth_in_disk(place)) > 0.0015) continue;
+    const int batch = static_cast<int>(palpations.size()) / (readings / 10);
+    palpations.push_back({.where = surface.at_vertex(vertex),
+                          .reading = world(place, batch) + kNoise * random.normal(),
+                          .batch = batch});
+  }
+  const Belief belief = Belief(prior, {.noise_sd = kNoise}).condition_on(palpations);
+  constexpr double kFirstLevels[] = {8.0};
+  return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value().misfits();
+}
+
+/// Of twenty runs, how many are surprised by that before all else.
+int said_in(const World& world, MisfitKind kind, int readings = kReadings) {
+  int said = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<Misfit> found = misfits_of(world, seed, readings);
+    said += !found.empty() && found.front().kind == kind;
+  }
+  return said;
+}
+
+/// Of the first run that is surprised, what surprises the most.
+Misfit first_of(const World& world, int readings = kReadings) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<Misfit> found = misfits_of(world, seed, readings);
+    if (!found.empty()) return found.front();
+  }
+  ADD_FAILURE() << "nothing surprises";
+  return {};
+}
+
+TEST(Misfit, IsSeldomSeenWhereTheModelIsTrue) {
+  const World sound = [](const Vec3& place, int) { return stiffness(place); };
+  int doubted = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    doubted += !misfits_of(sound, seed, kReadings).empty();
+  EXPECT_LE(doubted, 6);  // 2 in 100; more than 6 in one of 200 such tests
+}
+
+TEST(Misfit, IsAZeroThatMovedByAQuarterOfTheContrast) {
+  const World shifted = [](const Vec3& place, int batch) {
+    return stiffness(place) + (batch >= 6 ? 0.5 : 0.0);
+  };
+  EXPECT_GE(said_in(shifted, MisfitKind::Zero), 18);
+  const Misfit first = first_of(shifted);
+  EXPECT_NEAR(first.amount, 0.5, 0.2);
+  EXPECT_NEAR(first.from_batch, 6, 1);
+}
+
+TEST(Misfit, IsAGainThatChanged) {
+  const World weaker = [](const Vec3& place, int batch) {
+    return 7.0 + (stiffness(place) - 7.0) * (batch >= 5 ? 0.6 : 1.0);
+  };
+  EXPECT_GE(said_in(weaker, MisfitKind::Gain), 18);
+  EXPECT_NEAR(first_of(weaker).amount, -0.4, 0.15);
+}
+
+TEST(Misfit, IsOftenAWeakerPartBesideTheTumour) {
+  const Vec3 there(0.021, 0.0125, 0.0);
+  const World two = [&](const Vec3& place, int) {
+    return stiffness(place) + 0.6 / (1.0 + std::exp(1000.0 * ((place - there).norm() - 0.004)));
+  };
+  EXPECT_GE(said_in(two, MisfitKind::WeakerPart, 200), 7);
+  const Misfit first = first_of(two, 200);
+  ASSERT_TRUE(first.where);
+  EXPECT_LT((tissue().position(*first.where) - there).norm(), 0.003);
+  EXPECT_GT(first.amount, 0.0);
+}
+
+TEST(Misfit, RefusesARateThatIsNone) {
+  const Surface surface = tissue();
+  const World sound = [](const Vec3& place, int) { return stiffness(place); };
+  const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
+  std::vector<Palpation> palpations;
+  for (int vertex = 0; vertex < surface.vertex_count(); vertex += 40)
+    palpations.push_back(
+        {.where = surface.at_vertex(vertex), .reading = sound(surface.vertex(vertex), 0)});
+  const Belief belief = Belief(prior, {.noise_sd = kNoise}).condition_on(palpations);
+  constexpr double kFirstLevels[] = {8.0};
+  const EdgeBelief edge =
+      EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value();
+  EXPECT_THROW(static_cast<void>(edge.misfits(0.0)), InvalidInput);
+  EXPECT_THROW(static_cast<void>(edge.misfits(1.0)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace palpation
