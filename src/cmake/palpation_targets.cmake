@@ -4,7 +4,13 @@
 add_library(palpation_flags INTERFACE)
 # -Wno-restrict: GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
 target_compile_options(palpation_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -ffp-contract=off)
+if(PALPATION_UNITY)
+  # A name of one source may be hidden by a local one of another; and no type of a source is private to what the compiler takes for a header.
+  target_compile_options(palpation_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local -Wno-subobject-linkage>)
+else()
+  target_compile_options(palpation_flags INTERFACE -Wshadow)
+endif()
 if(PALPATION_WERROR)
   target_compile_options(palpation_flags INTERFACE -Werror)
 endif()
