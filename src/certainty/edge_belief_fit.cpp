@@ -4,26 +4,20 @@
 #include <cmath>
 
 namespace palpation {
-namespace {
-
-/// No correction moves a boundary farther than this many of its standard deviations: depths beyond
-/// keep their side.
-constexpr double kReach = 6.0;
-
-}  // namespace
 
 double EdgeBelief::Fit::shift_m() const {
   return std::log(fraction / (1.0 - fraction)) / std::exp(edge.profile[2]);
 }
 
-Eigen::Matrix3d EdgeBelief::Fit::profile_covariance() const {
-  const Eigen::Matrix3d variance = prior.variance.asDiagonal();
+Eigen::MatrixXd EdgeBelief::Fit::profile_covariance() const {
+  const Eigen::MatrixXd variance = prior.variance.asDiagonal();
   const ProfileSlopes shared = edge.by_profile * variance;
   return variance - shared.transpose() * edge.covariance.solve(shared);
 }
 
 EdgeProfile EdgeBelief::Fit::edge_profile() const {
-  const Eigen::Vector3d of_level(1.0 - fraction, fraction, 0.0);
+  Eigen::VectorXd of_level = Eigen::VectorXd::Zero(edge.profile.size());
+  of_level.head<2>() << 1.0 - fraction, fraction;
   const double variance = of_level.dot(profile_covariance() * of_level);
   const double low = edge.profile[0], high = edge.profile[1];
   return {.low = low,

@@ -15,13 +15,14 @@ struct EdgeBelief::Fit {
   double touch_variance;  ///< noise of a reading to come
   EdgeData data;
   EdgeFit edge;
-  double weight = 1.0;  ///< posterior probability of its kind of outline
-  Field depth{};        ///< at the vertices
+  std::vector<int> part;  ///< that each vertex is nearest to
+  double weight = 1.0;    ///< posterior probability of its kind of outline
+  Field depth{};          ///< at the vertices
 
   /// Of the boundary below the middle of the profile: logit(fraction) / slope.
   double shift_m() const;
-  /// Posterior covariance of low, high and log slope.
-  Eigen::Matrix3d profile_covariance() const;
+  /// Posterior covariance of the profile's parameters.
+  Eigen::MatrixXd profile_covariance() const;
   EdgeProfile edge_profile() const;
   /// `distance`: of each vertex from the first boundary, signed.
   Field depth_at_vertices(const Eigen::VectorXd& distance) const;

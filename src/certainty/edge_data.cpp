@@ -1,7 +1,10 @@
 #include "certainty/edge_data.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <map>
+#include <utility>
 
 #include "belief/sites.h"
 #include "certainty/depth.h"
@@ -11,11 +14,67 @@ namespace palpation {
 namespace {
 
 constexpr double kDeep_m = 0.008;
+/// Of what is merged far from the boundary: something else that stands out there is still seen.
+constexpr double kCell_m = 0.004;
 
 std::vector<Vec3> places_of(const Layout& layout, std::span<const SurfacePoint> points) {
   std::vector<Vec3> places;
   for (const SurfacePoint& point : points) places.push_back(layout.at(point));
   return places;
+}
+
+/// Numbers of the readings that become one: those deep on one side in one cell of space, of one
+/// part.
+std::vector<std::vector<std::size_t>> rows_together(const EdgeData& data, std::span<const Vec3> at,
+                                                    double cell_m) {
+  std::vector<std::vector<std::size_t>> rows;
+  std::map<std::array<long, 5>, std::size_t> row_of_cell;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double depth = data.depth_m[static_cast<Eigen::Index>(i)];
+    if (std::abs(depth) < kDeep_m) {
+      rows.push_back({i});
+      continue;
+    }
+    const Vec3 cell = (at[i] / cell_m).array().floor();
+    const auto [known, is_new] =
+        row_of_cell.insert({{std::lround(cell[0]), std::lround(cell[1]), std::lround(cell[2]),
+                             depth > 0.0, data.part[i]},
+                            rows.size()});
+    if (is_new) rows.emplace_back();
+    rows[known->second].push_back(i);
+  }
+  return rows;
+}
+
+/// Readings and depths are means with the readings' precisions as weights.
+EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t>> rows) {
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  EdgeData merged{.places = {},
+                  .reading = Eigen::VectorXd::Zero(count),
+                  .variance = Eigen::VectorXd::Zero(count),
+                  .depth_m = Eigen::VectorXd::Zero(count),
+                  .part = {},
+                  .batches = {}};
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const std::vector<std::size_t>& together = rows[static_cast<std::size_t>(row)];
+    double precisions = 0.0;
+    std::vector<int> batches;
+    for (const std::size_t i : together) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double precision = 1.0 / data.variance[at];
+      precisions += precision;
+      merged.reading[row] += precision * data.reading[at];
+      merged.depth_m[row] += precision * data.depth_m[at];
+      batches.insert(batches.end(), data.batches[i].begin(), data.batches[i].end());
+    }
+    merged.reading[row] /= precisions;
+    merged.depth_m[row] /= precisions;
+    merged.variance[row] = 1.0 / precisions;
+    merged.places.push_back(data.places[together.front()]);
+    merged.part.push_back(data.part[together.front()]);
+    merged.batches.push_back(std::move(batches));
+  }
+  return merged;
 }
 
 }  // namespace
@@ -27,6 +86,7 @@ EdgeData gathered_for_edge(const Belief& belief) {
   data.reading.resize(count);
   data.variance.resize(count);
   data.depth_m.resize(count);
+  data.part.assign(sites.size(), 0);
   for (Eigen::Index i = 0; i < count; ++i) {
     const MergedReading merged = merge(sites[i], belief.noise_variance());
     data.places.push_back(sites[i].where);
@@ -57,50 +117,14 @@ bool measure_depths(const Layout& layout, const Field& field, double level,
   return true;
 }
 
-EdgeData with_plateaus_merged(const EdgeData& data) {
+EdgeData with_plateaus_merged(const Layout& layout, const EdgeData& data) {
   if (data.reading.size() <= kMany) return data;
-  struct Plateau {
-    std::optional<SurfacePoint> place;
-    double precision = 0.0, reading = 0.0, depth_m = 0.0;
-    std::vector<int> batches{};
-  };
-  Plateau plateaus[2];
-  EdgeData merged;
-  std::vector<double> reading, variance, depth_m;
-  for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
-    const SurfacePoint& place = data.places[i];
-    if (std::abs(data.depth_m[i]) < kDeep_m) {
-      merged.places.push_back(place);
-      merged.batches.push_back(data.batches[i]);
-      reading.push_back(data.reading[i]);
-      variance.push_back(data.variance[i]);
-      depth_m.push_back(data.depth_m[i]);
-      continue;
-    }
-    Plateau& plateau = plateaus[data.depth_m[i] > 0.0];
-    const double precision = 1.0 / data.variance[i];
-    if (!plateau.place) plateau.place = place;
-    plateau.precision += precision;
-    plateau.reading += precision * data.reading[i];
-    plateau.depth_m += precision * data.depth_m[i];
-    plateau.batches.insert(plateau.batches.end(), data.batches[i].begin(), data.batches[i].end());
+  const std::vector<Vec3> at = places_of(layout, data.places);
+  for (double cell_m = kCell_m;; cell_m *= 1.5) {
+    const std::vector<std::vector<std::size_t>> rows = rows_together(data, at, cell_m);
+    const auto merged = std::ranges::count_if(rows, [](const auto& row) { return row.size() > 1; });
+    if (merged <= kMany) return summed_up(data, rows);
   }
-  for (const Plateau& plateau : plateaus) {
-    if (!plateau.place) continue;
-    merged.places.push_back(*plateau.place);
-    merged.batches.push_back(plateau.batches);
-    reading.push_back(plateau.reading / plateau.precision);
-    variance.push_back(1.0 / plateau.precision);
-    depth_m.push_back(plateau.depth_m / plateau.precision);
-  }
-  const auto vector_of = [](const std::vector<double>& values) {
-    return Eigen::VectorXd(
-        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
-  };
-  merged.reading = vector_of(reading);
-  merged.variance = vector_of(variance);
-  merged.depth_m = vector_of(depth_m);
-  return merged;
 }
 
 }  // namespace palpation

@@ -19,8 +19,9 @@ EdgeData gathered_for_edge(const Belief& belief);
 bool measure_depths(const Layout& layout, const Field& field, double level,
                     Eigen::VectorXd& vertices, EdgeData& data);
 
-/// Where there are many, the readings deep on one plateau as one, at their mean depth: they tell of
-/// the plateau alone, and the fit costs the third power of their number.
-EdgeData with_plateaus_merged(const EdgeData& data);
+/// Where there are many, the readings deep on one plateau as one in each cell of some millimetres,
+/// at their mean depth: they tell of the plateau alone, and the fit costs the third power of their
+/// number.
+EdgeData with_plateaus_merged(const Layout& layout, const EdgeData& data);
 
 }  // namespace palpation

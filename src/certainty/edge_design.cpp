@@ -84,16 +84,16 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
   std::vector<SurfacePoint> points;
   const auto size = static_cast<Eigen::Index>(candidates.size());
   Eigen::VectorXd by_depth(size);
-  ProfileSlopes by_profile(size, 3);
+  ProfileSlopes by_profile(size, fit.edge.profile.size());
   for (Eigen::Index i = 0; i < size; ++i) {
     const int vertex = candidates[i];
     points.push_back(surface_.at_vertex(vertex));
-    const ReadingSlopes slopes = profile_slopes(fit.edge.profile, depth_[vertex] + fit.shift_m());
+    const ReadingSlopes slopes =
+        profile_slopes(fit.edge.profile, fit.part[vertex], depth_[vertex] + fit.shift_m());
     by_depth[i] = slopes.by_depth;
     by_profile.row(i) = slopes.by_profile;
   }
-  const Eigen::Matrix3d profile_variance = fit.prior.variance.asDiagonal();
-  const ProfileSlopes by_profile_variance = by_profile * profile_variance;
+  const ProfileSlopes by_profile_variance = by_profile * fit.prior.variance.asDiagonal();
 
   // Whitened covariances with the readings so far.
   Eigen::MatrixXd of_candidates = fit.edge.by_depth.asDiagonal() *

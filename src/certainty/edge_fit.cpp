@@ -19,7 +19,7 @@ double misfit(const EdgeData& data, const ProfilePrior& prior, const ProfilePara
                ((profile - prior.mean).array().square() / prior.variance.array()).sum();
   for (Eigen::Index i = 0; i < data.reading.size(); ++i) {
     const double residual =
-        data.reading[i] - profile_reading(profile, data.depth_m[i] + correction[i]);
+        data.reading[i] - profile_reading(profile, data.part[i], data.depth_m[i] + correction[i]);
     sum += residual * residual / data.variance[i];
   }
   return sum;
@@ -31,15 +31,22 @@ double profile_share(const ProfileParameters& profile, double depth_m) {
   return sigmoid(std::exp(profile[2]) * depth_m);
 }
 
-double profile_reading(const ProfileParameters& profile, double depth_m) {
-  return profile[0] + (profile[1] - profile[0]) * profile_share(profile, depth_m);
+double profile_contrast(const ProfileParameters& profile, int part) {
+  return profile[1] - profile[0] + (part > 0 ? profile[kCommonParameters + part - 1] : 0.0);
 }
 
-ReadingSlopes profile_slopes(const ProfileParameters& profile, double depth_m) {
+double profile_reading(const ProfileParameters& profile, int part, double depth_m) {
+  return profile[0] + profile_contrast(profile, part) * profile_share(profile, depth_m);
+}
+
+ReadingSlopes profile_slopes(const ProfileParameters& profile, int part, double depth_m) {
   const double share = profile_share(profile, depth_m);
-  const double rise = share * (1.0 - share) * (profile[1] - profile[0]);
+  const double rise = share * (1.0 - share) * profile_contrast(profile, part);
   const double slope = std::exp(profile[2]);
-  return {rise * slope, {1.0 - share, share, rise * slope * depth_m}};
+  ReadingSlopes slopes{rise * slope, ProfileParameters::Zero(profile.size())};
+  slopes.by_profile.head<kCommonParameters>() << 1.0 - share, share, rise * slope * depth_m;
+  if (part > 0) slopes.by_profile[kCommonParameters + part - 1] = share;
+  return slopes;
 }
 
 EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covariance,
@@ -48,7 +55,7 @@ EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covar
   EdgeFit fit{.profile = prior.mean,
               .correction_m = Eigen::VectorXd::Zero(count),
               .by_depth = Eigen::VectorXd(count),
-              .by_profile = ProfileSlopes(count, 3),
+              .by_profile = ProfileSlopes(count, prior.mean.size()),
               .pull = {},
               .covariance = {},
               .log_evidence = 0.0};
@@ -58,11 +65,11 @@ EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covar
     Eigen::VectorXd linearized(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const double depth = data.depth_m[i] + fit.correction_m[i];
-      const ReadingSlopes slopes = profile_slopes(fit.profile, depth);
-      fit.by_depth[i] = slopes.by_depth;
+      const ReadingSlopes slopes = profile_slopes(fit.profile, data.part[i], depth);
+      fit.by_depth[i] = prior_covariance(i, i) > 0.0 ? slopes.by_depth : 0.0;
       fit.by_profile.row(i) = slopes.by_profile;
-      linearized[i] = data.reading[i] - profile_reading(fit.profile, depth) +
-                      slopes.by_depth * fit.correction_m[i] +
+      linearized[i] = data.reading[i] - profile_reading(fit.profile, data.part[i], depth) +
+                      fit.by_depth[i] * fit.correction_m[i] +
                       slopes.by_profile.dot(fit.profile - prior.mean);
     }
     Eigen::MatrixXd covariance =

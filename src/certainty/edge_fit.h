@@ -9,19 +9,27 @@
 
 namespace palpation {
 
-/// low, high, log slope.
-using ProfileParameters = Eigen::Vector3d;
-using ProfileSlopes = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+/// No correction moves a boundary farther than this many of its standard deviations: depths beyond
+/// keep their side.
+inline constexpr double kReach = 6.0;
+
+/// low, high, log slope; then, for each part but the first, how much higher than high it reaches.
+using ProfileParameters = Eigen::VectorXd;
+using ProfileSlopes = Eigen::MatrixXd;
+inline constexpr Eigen::Index kCommonParameters = 3;
 
 /// A reading's derivatives by the correction at its place, and by the profile's parameters.
 struct ReadingSlopes {
   double by_depth = 0.0;
-  ProfileParameters by_profile = ProfileParameters::Zero();
+  ProfileParameters by_profile;
 };
 
+/// Of the way up, at a depth. Parts count from 0, the one that high is of.
 double profile_share(const ProfileParameters& profile, double depth_m);
-double profile_reading(const ProfileParameters& profile, double depth_m);
-ReadingSlopes profile_slopes(const ProfileParameters& profile, double depth_m);
+/// From low to that part's plateau.
+double profile_contrast(const ProfileParameters& profile, int part);
+double profile_reading(const ProfileParameters& profile, int part, double depth_m);
+ReadingSlopes profile_slopes(const ProfileParameters& profile, int part, double depth_m);
 
 /// The readings, one per place.
 struct EdgeData {
@@ -29,12 +37,13 @@ struct EdgeData {
   Eigen::VectorXd reading;
   Eigen::VectorXd variance;               ///< of the noise
   Eigen::VectorXd depth_m;                ///< from the first boundary
+  std::vector<int> part;                  ///< that each is nearest to
   std::vector<std::vector<int>> batches;  ///< that the readings of each were made in
 };
 
 struct ProfilePrior {
-  ProfileParameters mean = ProfileParameters::Zero();
-  Eigen::Vector3d variance = Eigen::Vector3d::Ones();
+  ProfileParameters mean;
+  Eigen::VectorXd variance;
 };
 
 /// Readings are linear in corrections and profile around the most probable ones: their covariance
@@ -52,7 +61,8 @@ struct EdgeFit {
       0.0;  ///< of the linearized readings, without what depends on their number alone
 };
 
-/// `prior_covariance`: K, of the corrections at the places. Throws NumericalError if C is not
+/// `prior_covariance`: K, of the corrections at the places; where its variance is 0 no correction
+/// reaches. Throws NumericalError if C is not
 /// positive definite.
 EdgeFit fit_edge_belief(const EdgeData& data, const Eigen::MatrixXd& prior_covariance,
                         const ProfilePrior& prior);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "exploration/field_fit.h"
 #include "exploration/search_goal.h"
@@ -16,6 +17,12 @@ namespace {
 /// noise is what tells a tumour's few readings from a fluke least hastily.
 constexpr double kSecondLooks = 0.3;
 constexpr double kDoubt = 0.7;
+
+/// How far from what the outline does not explain its summit is looked for: the radius of a nodule
+/// that its skirt alone gives away.
+constexpr double kSummit_m = 0.006;
+/// What the field may yet reach: standard deviations.
+constexpr double kMayReach = 2.0;
 
 /// A batch in the making.
 struct Batching {
@@ -105,6 +112,26 @@ void add_apart(const Batching& batch, std::span<const int> more, std::vector<int
   }
 }
 
+/// Where readings stand out that the boundary does not explain: near each, what may yet be highest.
+void add_unexplained(const Batching& batch, std::vector<int>& stops) {
+  const Marginals& marginals = batch.conclusion.marginals;
+  const auto may_reach = [&](int vertex) {
+    return marginals.mean[vertex] + kMayReach * std::sqrt(marginals.variance[vertex]);
+  };
+  for (const Misfit& misfit : batch.conclusion.edge->misfits()) {
+    if (misfit.kind != MisfitKind::WeakerPart || !(misfit.amount > 0.0)) continue;
+    const Surface& surface = batch.surface();
+    const int centre = surface.nearest_vertex(surface.position(*misfit.where));
+    const std::vector<int> near = vertices_near(surface, centre, kSummit_m);
+    std::vector<int> outside;
+    std::ranges::set_intersection(batch.candidates, near, std::back_inserter(outside));
+    std::erase_if(outside,
+                  [&](int vertex) { return batch.conclusion.edge->depth()[vertex] >= 0.0; });
+    if (outside.empty()) continue;
+    add_apart(batch, std::vector{*std::ranges::max_element(outside, {}, may_reach)}, stops);
+  }
+}
+
 /// No contrast is seen yet: spread over the tissue, and a second look where readings were high.
 /// What is lacking to a goal goes before what is spread.
 std::vector<int> searching_stops(const Batching& batch, std::span<const int> lacking) {
@@ -157,8 +184,12 @@ std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, in
   const int at_edge = static_cast<int>(
       std::lround(std::min(plan.aim.edge_share * (0.5 + progress), 1.0) * options.size));
   const int count = std::min(at_edge, options.size - due(batch, lacking, batches));
-  std::vector<int> stops = conclusion.edge->most_telling(candidates, count, options.least_spacing_m,
-                                                         conclusion.marginals.variance);
+  std::vector<int> stops;
+  if (count > 0) add_unexplained(batch, stops);
+  add_apart(batch,
+            conclusion.edge->most_telling(candidates, count - static_cast<int>(stops.size()),
+                                          options.least_spacing_m, conclusion.marginals.variance),
+            stops);
   add_apart(batch, lacking, stops);
   return with_others(batch, std::move(stops), searching_belief(conclusion));
 }

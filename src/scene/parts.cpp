@@ -96,6 +96,17 @@ bool has_border_corner(const TumourPart& part, const Surface& surface) {
   return false;
 }
 
+/// Of the part of the belief whose summit lies within this one; nothing where one contrast explains
+/// all.
+std::optional<PartContrast> contrast_of(const TumourPart& part, const Surface& surface,
+                                        const EdgeBelief& edge) {
+  for (const PartContrast& one : edge.parts()) {
+    const Vec2 summit = surface.chart().uv.row(surface.vertex_at(one.where)).transpose();
+    if (contains(part.polygon, summit)) return one;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 TumourPart measured(const Ring& ring, const Surface& surface) {
@@ -110,6 +121,8 @@ std::vector<TumourPart> parts_of(const Episode& episode) {
     if (exploration.conclusion().certainty)
       look_inside(part, exploration.surface(), exploration.conclusion().certainty->score);
     part.touches_border = has_border_corner(part, exploration.surface());
+    if (exploration.conclusion().edge)
+      part.contrast = contrast_of(part, exploration.surface(), *exploration.conclusion().edge);
   }
   return parts;
 }

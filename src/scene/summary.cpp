@@ -46,6 +46,9 @@ json part_json(const TumourPart& part, const Surface& surface) {
                            part.position_m.z() * kMm};
   result["probability"] = part.probability;
   result["touches_border"] = part.touches_border;
+  result["contrast_of_strongest"] =
+      part.contrast ? json(part.contrast->of_strongest) : json(nullptr);
+  result["contrast_sd"] = part.contrast ? json(part.contrast->stddev) : json(nullptr);
   result["holes"] = json::array();
   for (const Ring& hole : part.polygon.holes)
     result["holes"].push_back(place_json(measured(hole, surface)));

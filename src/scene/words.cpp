@@ -20,6 +20,10 @@ std::string part_words(const TumourPart& part) {
   if (part.touches_border) words += ", reaching the border of the tissue";
   if (part.probability < kSure)
     words += ", tumour with probability " + percent(part.probability) + " only";
+  if (part.contrast && part.contrast->stddev > 0.0)
+    words += ", standing out by " + fixed(100.0 * part.contrast->of_strongest, 0) + " (sd " +
+             fixed(100.0 * part.contrast->stddev, 0) +
+             ") % of what the strongest does, and cut on its own way up";
   return words + "\n";
 }
 

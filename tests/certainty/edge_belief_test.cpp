@@ -219,6 +219,7 @@ TEST(FitEdgeBelief, EndsWhereThePosteriorDensityIsGreatest) {
   data.reading.resize(count);
   data.variance = Eigen::VectorXd::Constant(count, 0.01);
   data.depth_m.resize(count);
+  data.part.assign(count, 0);
   for (int i = 0; i < count; ++i) {
     const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
     data.places.push_back(surface.at_vertex(vertex));
@@ -228,7 +229,8 @@ TEST(FitEdgeBelief, EndsWhereThePosteriorDensityIsGreatest) {
                       0.1 * random.normal();
   }
   const Eigen::MatrixXd covariance = correction.covariance(data.places, data.places);
-  const ProfilePrior prior{{7.0, 9.0, std::log(1200.0)}, {4.0, 4.0, 0.25}};
+  const ProfilePrior prior{Eigen::Vector3d(7.0, 9.0, std::log(1200.0)),
+                           Eigen::Vector3d(4.0, 4.0, 0.25)};
   const EdgeFit fit = fit_edge_belief(data, covariance, prior);
   const Eigen::MatrixXd precision = covariance.inverse();
   const auto misfit = [&](const ProfileParameters& profile, const Eigen::VectorXd& offset) {

@@ -28,6 +28,8 @@
 
 namespace palpation {
 
+struct OwnPart;  // certainty/own_parts.h
+
 /// What is known of a boundary's shape beforehand.
 struct ShapePrior {
   double correction_sd_m =
@@ -40,11 +42,19 @@ struct ShapePrior {
   /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's
   /// own width reaches four fifths of its height.
   double plateau_error = 0.25;
+  double own_contrast_sd = 0.5;  ///< of a part beside the strongest, of its contrast
 };
 
 /// What is not known of a noise that `readings` readings taught: the standard deviation of the
 /// logarithm of its own, 1 / sqrt(2 readings).
 double learned_noise_log_sd(int readings);
+
+/// A part of the boundary's inside, by its contrast.
+struct PartContrast {
+  SurfacePoint where;         ///< its highest place
+  double of_strongest = 1.0;  ///< contrast, of that of the strongest part
+  double stddev = 0.0;        ///< of that; 0: taken for the same
+};
 
 class EdgeBelief {
  public:
@@ -64,6 +74,9 @@ class EdgeBelief {
   const EdgeProfile& profile() const { return profile_; }
   /// Between low and high, with its standard deviation.
   const Level& level() const { return profile_.level; }
+  /// Where some part has a contrast of its own, all parts, the strongest first: the boundary of
+  /// each is at `fraction` of its own way. Empty where one contrast explains all.
+  const std::vector<PartContrast>& parts() const { return parts_; }
   /// Of a reading, as they scatter about the profile: more than the belief's where the edge is no
   /// sigmoid; less where the noise was learned with a field that could not follow the edge.
   double noise_variance() const { return noise_variance_; }
@@ -96,13 +109,20 @@ class EdgeBelief {
 
  private:
   struct Fit;
+  struct Task;
   explicit EdgeBelief(Surface surface);
+  static std::optional<EdgeBelief> fitted(const Task& task, const std::vector<OwnPart>& parts,
+                                          double low);
+  std::vector<OwnPart> parts_apart(const Field& field) const;
+  std::vector<OwnPart> told_apart(std::vector<OwnPart> parts) const;
+  void name_parts(const std::vector<OwnPart>& parts, const Field& field);
   void mix();
   void survey_boundary();
   const Fit& most_likely() const { return *fits_.front(); }
 
   Surface surface_;
   std::vector<std::shared_ptr<const Fit>> fits_;  // the most likely first
+  std::vector<PartContrast> parts_;
   double noise_variance_ = 0.0;
   EdgeProfile profile_;
   Field depth_;

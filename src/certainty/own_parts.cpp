@@ -1,0 +1,124 @@
+#include "certainty/own_parts.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "boundary/superlevel_parts.h"
+#include "palpation/geometry/distance.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kStep_m = 0.001;
+
+int corner_at(const Surface& surface, const SurfacePoint& place) {
+  Eigen::Index corner = 0;
+  place.barycentric.maxCoeff(&corner);
+  return surface.triangle(place.face)[corner];
+}
+
+/// The strongest first, plateaus and contrasts by their height above low.
+OwnParts ordered(OwnParts parts, const Field& field, double low) {
+  for (OwnPart& part : parts) part.contrast = field(part.vertices).maxCoeff() - low;
+  std::ranges::sort(parts, std::greater{}, &OwnPart::contrast);
+  for (std::size_t i = parts.size(); i-- > 0;) {
+    parts[i].contrast /= parts.front().contrast;
+    parts[i].plateau = static_cast<int>(i);
+  }
+  return parts;
+}
+
+/// Uphill from a place, by steps of a millimetre at most.
+int summit_near(const Surface& surface, const Field& field, const SurfacePoint& place) {
+  int summit = corner_at(surface, place);
+  for (;;) {
+    int next = summit;
+    for (const int other : vertices_near(surface, summit, kStep_m))
+      if (field[other] > field[next]) next = other;
+    if (next == summit) return summit;
+    summit = next;
+  }
+}
+
+/// Of rising lists.
+bool share_one(const std::vector<int>& some, const std::vector<int>& others) {
+  return std::ranges::any_of(others,
+                             [&](int one) { return std::ranges::binary_search(some, one); });
+}
+
+bool meets_any(const OwnParts& parts, const std::vector<int>& vertices) {
+  return std::ranges::any_of(
+      parts, [&](const OwnPart& part) { return share_one(part.vertices, vertices); });
+}
+
+}  // namespace
+
+OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& field, double low,
+                      const EdgeData& data) {
+  OwnParts felt;
+  for (std::vector<int>& vertices : superlevel_parts(surface, depth, 0.0)) {
+    const bool is_felt = std::ranges::any_of(data.places, [&](const SurfacePoint& place) {
+      return std::ranges::binary_search(vertices, corner_at(surface, place));
+    });
+    if (is_felt) felt.push_back({.vertices = std::move(vertices)});
+  }
+  return ordered(std::move(felt), field, low);
+}
+
+OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
+                      const SurfacePoint& place) {
+  const int summit = summit_near(surface, field, place);
+  const double height = field[summit] - low;
+  if (!(height > 0.0)) return parts;
+  for (std::vector<int>& vertices : superlevel_parts(surface, field, low + 0.5 * height)) {
+    if (!std::ranges::binary_search(vertices, summit)) continue;
+    if (!meets_any(parts, vertices)) parts.push_back({.vertices = std::move(vertices)});
+    break;
+  }
+  return ordered(std::move(parts), field, low);
+}
+
+std::vector<int> nearest_parts(const Layout& layout, const OwnParts& parts) {
+  const std::vector<Vec3> at = layout.vertices();
+  std::vector<int> nearest(at.size(), 0);
+  if (parts.size() < 2) return nearest;
+  for (std::size_t vertex = 0; vertex < at.size(); ++vertex) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      for (const int inside : parts[part].vertices) {
+        const double squared = (at[inside] - at[vertex]).squaredNorm();
+        if (!(squared < least)) continue;
+        least = squared;
+        nearest[vertex] = static_cast<int>(part);
+      }
+    }
+  }
+  return nearest;
+}
+
+std::vector<int> plateaus_of(const Surface& surface, const OwnParts& parts,
+                             const std::vector<int>& nearest,
+                             std::span<const SurfacePoint> places) {
+  std::vector<int> plateaus(places.size(), 0);
+  if (parts.empty()) return plateaus;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    plateaus[i] = parts[nearest[corner_at(surface, places[i])]].plateau;
+  return plateaus;
+}
+
+Field levelled(const Surface& surface, Field field, double low, double level, const OwnParts& parts,
+               const std::vector<int>& nearest) {
+  if (parts.size() < 2) return field;
+  const Field before = field;
+  for (Eigen::Index vertex = 0; vertex < field.size(); ++vertex)
+    field[vertex] = low + (field[vertex] - low) / parts[nearest[vertex]].contrast;
+  for (const std::vector<int>& found : superlevel_parts(surface, field, level)) {
+    if (meets_any(parts, found)) continue;
+    for (const int vertex : found) field[vertex] = std::min(field[vertex], before[vertex]);
+  }
+  return field;
+}
+
+}  // namespace palpation

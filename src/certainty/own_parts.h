@@ -1,0 +1,43 @@
+/// Parts of a tumour that stand out each by its own contrast: where each is, and the field with all
+/// of them as high as the strongest.
+#pragma once
+
+#include <vector>
+
+#include "certainty/edge_fit.h"
+#include "certainty/layout.h"
+
+namespace palpation {
+
+struct OwnPart {
+  std::vector<int> vertices;  ///< inside, rising
+  double contrast = 1.0;      ///< of what the strongest part has
+  int plateau = 0;            ///< of the profile's; 0: it is as high as the strongest
+};
+
+/// The strongest first; none: one contrast for all.
+using OwnParts = std::vector<OwnPart>;
+
+/// The parts of { depth >= 0 } that readings lie in, by the field's height above low, each with a
+/// plateau of its own.
+OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& field, double low,
+                      const EdgeData& data);
+
+/// With one more, around the summit next to a place, down to half its height; without it, where
+/// that reaches another part.
+OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
+                      const SurfacePoint& place);
+
+/// The part that each vertex is nearest to: its number.
+std::vector<int> nearest_parts(const Layout& layout, const OwnParts& parts);
+
+/// The plateau of each place's nearest part.
+std::vector<int> plateaus_of(const Surface& surface, const OwnParts& parts,
+                             const std::vector<int>& nearest, std::span<const SurfacePoint> places);
+
+/// The field with each part's surroundings stretched from low until it stands out as the strongest
+/// does. Of what reaches `level` there, only what touches a part stays: stretched noise is none.
+Field levelled(const Surface& surface, Field field, double low, double level, const OwnParts& parts,
+               const std::vector<int>& nearest);
+
+}  // namespace palpation
