@@ -12,6 +12,7 @@
 #include "palpation/readings/screening.h"
 #include "readings/contact.h"
 #include "readings/readings.h"
+#include "readings/saturation.h"
 #include "scene/misfit_words.h"
 #include "scene/parts.h"
 #include "scene/words.h"
@@ -160,12 +161,20 @@ std::optional<double> over_reachable(const Episode& episode) {
          reachable.expected_error_m2;
 }
 
+std::string saturation_words(const Saturation& saturation) {
+  return std::to_string(saturation.count) + " readings are exactly " +
+         reading_text(saturation.value) + ", the " + (saturation.is_upper ? "greatest" : "least") +
+         " of all: the sensor's range may end there, and what lies beyond is not known.";
+}
+
 using Remarks = std::vector<std::string>;
 
 /// Of the readings, and of the field that they make.
 Remarks field_remarks(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
   Remarks remarks;
+  if (const auto saturation = saturation_of(readings_that_count(exploration)))
+    remarks.push_back(saturation_words(*saturation));
   if (!conclusion.evidence.standing_alone.empty())
     remarks.push_back(
         standing_alone_words(exploration.surface(), conclusion.evidence.standing_alone));
