@@ -49,6 +49,7 @@ void EdgeBelief::survey_boundary() {
   const Eigen::ArrayXd part_of_edge = as_if_straight.array() * profile_.slope_per_m;
   const Eigen::VectorXd sd =
       as_if_straight.array() * (1.0 + kCurved * part_of_edge.square()).sqrt();
+  expected_error_m2_ = turn_ = 0.0;
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
     const auto here = static_cast<Eigen::Index>(i), before = here - 1;
     expected_error_m2_ += std::sqrt(2.0 / std::numbers::pi) * nodes.length_m[i] * sd[here];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "boundary/outline_length.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/edge_data.h"
 #include "certainty/edge_starts.h"
@@ -26,6 +27,8 @@ constexpr int kMostRounds = 4;
 constexpr int kMostParts = 3;
 /// That parts of one contrast are told apart.
 constexpr double kFalseAlarms = 0.02;
+/// Of two explanations, the one that is so much less likely is dropped: nats.
+constexpr double kUnlikely = 3.9;
 
 bool all_have_the_field_noise(std::span<const Palpation> palpations) {
   return std::ranges::all_of(palpations, [](const Palpation& one) {
@@ -92,6 +95,17 @@ ProfilePrior profile_prior(double least, double range, const ShapePrior& shape,
   return prior;
 }
 
+/// In nats, of a boundary that the fit takes as given: Schwarz's half log of the number of readings
+/// for each stretch that it bends over, and no fewer than a circle's three for each loop. Without
+/// it noise would have parts of its own.
+double price_of_freedom(const Surface& surface, const Field& depth, const ShapePrior& shape,
+                        std::size_t readings) {
+  double stretches = 0.0;
+  for (const LevelLoop& loop : level_loops(surface, depth, 0.0))
+    stretches += std::max(3.0, outline_length(surface, {loop}) / shape.correction_length_m);
+  return 0.5 * std::log(static_cast<double>(readings)) * stretches;
+}
+
 }  // namespace
 
 /// What is fitted, whichever parts there are.
@@ -128,9 +142,10 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     const bool more = told.size() > made->parts_.size();
     if (std::ranges::none_of(told, &OwnPart::plateau)) break;
     std::optional<EdgeBelief> next = fitted(task, told, free->profile_.low);
-    if (!next) break;
-    made = std::move(next);
-    if (!more) break;
+    if (!next || next->price_ > made->price_ + kUnlikely) break;
+    const bool is_clear = next->price_ < made->price_ - kUnlikely;
+    made = is_clear ? std::move(next) : either(*std::move(made), *std::move(next));
+    if (!more || !is_clear) break;
   }
   return made;
 }
@@ -146,6 +161,7 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   const double touch_variance = std::max(belief.noise_variance(), model_variance);
   all.variance = all.variance.cwiseMax(model_variance);
 
+  const std::size_t readings = all.places.size();
   const ProfilePrior profile = profile_prior(least, range, shape, parts);
   const std::vector<int> nearest = nearest_parts(Layout(belief.prior()), parts);
   const std::vector<Start> starts = likely_starts(
@@ -162,15 +178,36 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   for (const Start& start : starts) {
     const EdgeFit edge = with_scatter(start.edge, start.data, start.prior_covariance, profile,
                                       noise_is_learned, least_variance);
-    Fit fit{start.correction, profile, task.fraction, touch_variance * edge.scatter,
-            start.data,       edge,    plateaus,      start.weight};
-    fit.depth = fit.depth_at_vertices(start.distance);
+    Fit fit{start.correction, profile, task.fraction,  touch_variance * edge.scatter,
+            start.data,       edge,    start.distance, plateaus,
+            start.weight};
+    fit.depth = fit.depth_at_vertices();
     made.fits_.push_back(std::make_shared<const Fit>(std::move(fit)));
   }
   if (parts.size() > 1) made.name_parts(parts, task.field);
   made.mix();
   made.survey_boundary();
+  made.price_ =
+      price_of_freedom(surface, made.depth_, shape, readings) - starts.front().edge.log_evidence;
   return made;
+}
+
+/// Two explanations, each as likely as its price says.
+EdgeBelief EdgeBelief::either(EdgeBelief one, EdgeBelief other) {
+  if (other.price_ < one.price_) std::swap(one, other);
+  const double odds = std::exp(one.price_ - other.price_);
+  std::vector<std::shared_ptr<const Fit>> fits;
+  for (const EdgeBelief* belief : {&one, &other}) {
+    for (const std::shared_ptr<const Fit>& fit : belief->fits_) {
+      Fit weighed = *fit;
+      weighed.weight *= (belief == &one ? 1.0 : odds) / (1.0 + odds);
+      fits.push_back(std::make_shared<const Fit>(std::move(weighed)));
+    }
+  }
+  one.fits_ = std::move(fits);
+  one.mix();
+  one.survey_boundary();
+  return one;
 }
 
 void EdgeBelief::name_parts(const OwnParts& parts, const Field& field) {
@@ -189,9 +226,11 @@ void EdgeBelief::name_parts(const OwnParts& parts, const Field& field) {
   }
 }
 
-/// Each stretch of the boundary's inside, and what stands out of the healthy tissue beside it.
+/// Each stretch of the boundary's inside, also of the first one's, which corrections may have
+/// emptied; and what stands out of the healthy tissue beside it.
 OwnParts EdgeBelief::parts_apart(const Field& field) const {
-  OwnParts parts = parts_inside(surface_, depth_, field, profile_.low, most_likely().data);
+  const Field inside = depth_.cwiseMax(most_likely().distance_m);
+  OwnParts parts = parts_inside(surface_, inside, field, profile_.low, most_likely().data);
   if (parts.empty()) return parts;
   for (const Misfit& misfit : misfits()) {
     if (misfit.kind == MisfitKind::WeakerPart && misfit.amount > 0.0)

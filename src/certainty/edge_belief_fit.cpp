@@ -45,13 +45,13 @@ Eigen::MatrixXd EdgeBelief::Fit::depth_covariance(std::span<const SurfacePoint> 
   return covariance;
 }
 
-Field EdgeBelief::Fit::depth_at_vertices(const Eigen::VectorXd& distance) const {
+Field EdgeBelief::Fit::depth_at_vertices() const {
   const Surface& surface = correction.surface();
-  Field at_vertices = distance.array() - shift_m();
+  Field at_vertices = distance_m.array() - shift_m();
   std::vector<SurfacePoint> near;
   std::vector<int> vertices;
-  for (int vertex = 0; vertex < distance.size(); ++vertex) {
-    if (std::abs(distance[vertex]) > kReach * correction.kernel().signal_sd) continue;
+  for (int vertex = 0; vertex < distance_m.size(); ++vertex) {
+    if (std::abs(distance_m[vertex]) > kReach * correction.kernel().signal_sd) continue;
     vertices.push_back(vertex);
     near.push_back(surface.at_vertex(vertex));
   }

@@ -15,6 +15,7 @@ struct EdgeBelief::Fit {
   double touch_variance;  ///< noise of a reading to come
   EdgeData data;
   EdgeFit edge;
+  Field distance_m;       ///< of each vertex from the first boundary, signed
   std::vector<int> part;  ///< that each vertex is nearest to
   double weight = 1.0;    ///< posterior probability of its kind of outline
   Field depth{};          ///< at the vertices
@@ -24,8 +25,7 @@ struct EdgeBelief::Fit {
   /// Posterior covariance of the profile's parameters.
   Eigen::MatrixXd profile_covariance() const;
   EdgeProfile edge_profile() const;
-  /// `distance`: of each vertex from the first boundary, signed.
-  Field depth_at_vertices(const Eigen::VectorXd& distance) const;
+  Field depth_at_vertices() const;
 
   /// Prior covariance of the readings (rows) with depths at points (columns): what both share is
   /// the correction, and the slope by the shift.

@@ -54,7 +54,8 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
                   .variance = Eigen::VectorXd::Zero(count),
                   .depth_m = Eigen::VectorXd::Zero(count),
                   .part = {},
-                  .batches = {}};
+                  .batches = {},
+                  .log_scatter = data.log_scatter};
   for (Eigen::Index row = 0; row < count; ++row) {
     const std::vector<std::size_t>& together = rows[static_cast<std::size_t>(row)];
     double precisions = 0.0;
@@ -69,6 +70,12 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
     }
     merged.reading[row] /= precisions;
     merged.depth_m[row] /= precisions;
+    merged.log_scatter -= 0.5 * std::log(precisions);
+    for (const std::size_t i : together) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double off = data.reading[at] - merged.reading[row];
+      merged.log_scatter -= 0.5 * (off * off / data.variance[at] + std::log(data.variance[at]));
+    }
     merged.variance[row] = 1.0 / precisions;
     merged.places.push_back(data.places[together.front()]);
     merged.part.push_back(data.part[together.front()]);

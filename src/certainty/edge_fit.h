@@ -39,6 +39,9 @@ struct EdgeData {
   Eigen::VectorXd depth_m;                ///< from the first boundary
   std::vector<int> part;                  ///< that each is nearest to
   std::vector<std::vector<int>> batches;  ///< that the readings of each were made in
+  /// Log likelihood of what was merged about its means: with it, evidence of data that were merged
+  /// otherwise compares.
+  double log_scatter = 0.0;
 };
 
 struct ProfilePrior {

@@ -54,11 +54,10 @@ std::vector<Start> likely_starts(const Belief& belief, const FirstCuts& cuts, Ed
                              kernel, Constant{.sd = 0.0});
       Eigen::MatrixXd prior_covariance = within_reach(data, correction);
       EdgeFit edge = fit_edge_belief(data, prior_covariance, profile);
+      edge.log_evidence += data.log_scatter;
       if (best[kind] && !(edge.log_evidence > best[kind]->edge.log_evidence)) continue;
       best[kind] = Start{correction, data, std::move(prior_covariance), std::move(edge), distance};
     }
-    if (all.reading.size() > kMany)
-      break;  // what is merged differs from start to start, and so does the evidence
   }
   std::vector<Start> starts;
   for (std::size_t kind = 0; kind < kOutlines.size(); ++kind) {

@@ -113,6 +113,7 @@ class EdgeBelief {
   explicit EdgeBelief(Surface surface);
   static std::optional<EdgeBelief> fitted(const Task& task, const std::vector<OwnPart>& parts,
                                           double low);
+  static EdgeBelief either(EdgeBelief one, EdgeBelief other);
   std::vector<OwnPart> parts_apart(const Field& field) const;
   std::vector<OwnPart> told_apart(std::vector<OwnPart> parts) const;
   void name_parts(const std::vector<OwnPart>& parts, const Field& field);
@@ -129,7 +130,8 @@ class EdgeBelief {
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
   double noise_log_sd_ = 0.0;
-  double turn_ = 0.0;  // of the standardized offset along the boundary, on the unit sphere
+  double price_ = 0.0;  // minus log evidence, and what the outline's freedom costs
+  double turn_ = 0.0;   // of the standardized offset along the boundary, on the unit sphere
 };
 
 }  // namespace palpation
