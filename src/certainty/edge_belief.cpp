@@ -138,7 +138,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     if (parts.size() < 2) break;
     const std::optional<EdgeBelief> free = fitted(task, parts, made->profile_.low);
     if (!free) break;
-    const OwnParts told = free->told_apart(parts);
+    const OwnParts told = free->told_apart(parts, shape.least_own_contrast);
     const bool more = told.size() > made->parts_.size();
     if (std::ranges::none_of(told, &OwnPart::plateau)) break;
     std::optional<EdgeBelief> next = fitted(task, told, free->profile_.low);
@@ -239,26 +239,30 @@ OwnParts EdgeBelief::parts_apart(const Field& field) const {
   return parts;
 }
 
-/// Plateaus of their own for those alone that readings tell from the strongest's: by Savage and
-/// Dickey's ratio, the density of no difference before over after.
-OwnParts EdgeBelief::told_apart(OwnParts parts) const {
+/// Without those that stand out by less than `least` of the strongest's contrast. Plateaus of their
+/// own for those alone that readings tell from the strongest's: by Savage and Dickey's ratio, the
+/// density of no difference before over after.
+OwnParts EdgeBelief::told_apart(OwnParts parts, double least) const {
   const Fit& fit = most_likely();
   const Eigen::VectorXd variance = fit.profile_covariance().diagonal();
   const double needed = std::log(static_cast<double>(parts.size()) / kFalseAlarms);
+  OwnParts told;
   int plateaus = 0;
   for (OwnPart& part : parts) {
-    if (part.plateau == 0) continue;
-    const Eigen::Index at = kCommonParameters + part.plateau - 1;
-    const double higher = fit.edge.profile[at];
-    const double contrast =
-        profile_contrast(fit.edge.profile, part.plateau) / profile_contrast(fit.edge.profile, 0);
-    const double evidence = 0.5 * std::log(variance[at] / fit.prior.variance[at]) +
-                            0.5 * higher * higher / variance[at];
-    const bool is_told = evidence > needed && contrast > 0.0;
-    part.plateau = is_told ? ++plateaus : 0;
-    if (is_told) part.contrast = contrast;
+    if (part.plateau > 0) {
+      const Eigen::Index at = kCommonParameters + part.plateau - 1;
+      const double higher = fit.edge.profile[at];
+      const double contrast =
+          profile_contrast(fit.edge.profile, part.plateau) / profile_contrast(fit.edge.profile, 0);
+      const double evidence = 0.5 * std::log(variance[at] / fit.prior.variance[at]) +
+                              0.5 * higher * higher / variance[at];
+      if (contrast < least) continue;
+      part.plateau = evidence > needed ? ++plateaus : 0;
+      if (part.plateau > 0) part.contrast = contrast;
+    }
+    told.push_back(std::move(part));
   }
-  return parts;
+  return told;
 }
 
 /// What all fits say together, each as likely as the readings make it.
