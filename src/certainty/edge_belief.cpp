@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "boundary/outline_length.h"
+#include "certainty/detection.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/edge_data.h"
 #include "certainty/edge_starts.h"
@@ -138,12 +139,14 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     if (parts.size() < 2) break;
     const std::optional<EdgeBelief> free = fitted(task, parts, made->profile_.low);
     if (!free) break;
-    const OwnParts told = free->told_apart(parts, shape.least_own_contrast);
+    made->weaker_.clear();
+    const OwnParts told = free->told_apart(parts, shape.least_own_contrast, made->weaker_);
     const bool more = told.size() > made->parts_.size();
     if (std::ranges::none_of(told, &OwnPart::plateau)) break;
     std::optional<EdgeBelief> next = fitted(task, told, free->profile_.low);
     if (!next || next->price_ > made->price_ + kUnlikely) break;
     const bool is_clear = next->price_ < made->price_ - kUnlikely;
+    next->weaker_ = made->weaker_;
     made = is_clear ? std::move(next) : either(*std::move(made), *std::move(next));
     if (!more || !is_clear) break;
   }
@@ -184,7 +187,7 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
     fit.depth = fit.depth_at_vertices();
     made.fits_.push_back(std::make_shared<const Fit>(std::move(fit)));
   }
-  if (parts.size() > 1) made.name_parts(parts, task.field);
+  if (parts.size() > 1) made.name_parts(parts);
   made.mix();
   made.survey_boundary();
   made.price_ =
@@ -210,14 +213,12 @@ EdgeBelief EdgeBelief::either(EdgeBelief one, EdgeBelief other) {
   return one;
 }
 
-void EdgeBelief::name_parts(const OwnParts& parts, const Field& field) {
+void EdgeBelief::name_parts(const OwnParts& parts) {
   const ProfileParameters& profile = most_likely().edge.profile;
   const Eigen::VectorXd variance = most_likely().profile_covariance().diagonal();
   const double strongest = profile_contrast(profile, 0);
   for (const OwnPart& part : parts) {
-    const int summit =
-        *std::ranges::max_element(part.vertices, {}, [&](int vertex) { return field[vertex]; });
-    PartContrast named{.where = surface_.at_vertex(summit)};
+    PartContrast named{.where = surface_.at_vertex(part.summit)};
     if (part.plateau > 0) {
       named.of_strongest = profile_contrast(profile, part.plateau) / strongest;
       named.stddev = std::sqrt(variance[kCommonParameters + part.plateau - 1]) / strongest;
@@ -239,10 +240,11 @@ OwnParts EdgeBelief::parts_apart(const Field& field) const {
   return parts;
 }
 
-/// Without those that stand out by less than `least` of the strongest's contrast. Plateaus of their
+/// Without those that stand out by less than `least` of the strongest's contrast, which go to
+/// `weaker` where readings show them at all. Plateaus of their
 /// own for those alone that readings tell from the strongest's: by Savage and Dickey's ratio, the
 /// density of no difference before over after.
-OwnParts EdgeBelief::told_apart(OwnParts parts, double least) const {
+OwnParts EdgeBelief::told_apart(OwnParts parts, double least, std::vector<Misfit>& weaker) const {
   const Fit& fit = most_likely();
   const Eigen::VectorXd variance = fit.profile_covariance().diagonal();
   const double needed = std::log(static_cast<double>(parts.size()) / kFalseAlarms);
@@ -256,7 +258,15 @@ OwnParts EdgeBelief::told_apart(OwnParts parts, double least) const {
           profile_contrast(fit.edge.profile, part.plateau) / profile_contrast(fit.edge.profile, 0);
       const double evidence = 0.5 * std::log(variance[at] / fit.prior.variance[at]) +
                               0.5 * higher * higher / variance[at];
-      if (contrast < least) continue;
+      if (contrast < least) {
+        const double amount = profile_contrast(fit.edge.profile, part.plateau);
+        if (amount > kNeededToFind * std::sqrt(variance[at]))
+          weaker.push_back({.kind = MisfitKind::WeakerPart,
+                            .evidence = evidence,
+                            .amount = amount,
+                            .where = surface_.at_vertex(part.summit)});
+        continue;
+      }
       part.plateau = evidence > needed ? ++plateaus : 0;
       if (part.plateau > 0) part.contrast = contrast;
     }

@@ -137,6 +137,8 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
     const std::optional<Misfit> verdict = kind->verdict();
     if (verdict && verdict->evidence > std::log(kKinds / false_alarms)) found.push_back(*verdict);
   }
+  if (std::ranges::find(found, MisfitKind::WeakerPart, &Misfit::kind) == found.end())
+    found.insert(found.end(), weaker_.begin(), weaker_.end());
   std::ranges::sort(found, std::greater{}, &Misfit::evidence);
   return found;
 }

@@ -21,7 +21,11 @@ int corner_at(const Surface& surface, const SurfacePoint& place) {
 
 /// The strongest first, plateaus and contrasts by their height above low.
 OwnParts ordered(OwnParts parts, const Field& field, double low) {
-  for (OwnPart& part : parts) part.contrast = field(part.vertices).maxCoeff() - low;
+  for (OwnPart& part : parts) {
+    part.summit =
+        *std::ranges::max_element(part.vertices, {}, [&](int vertex) { return field[vertex]; });
+    part.contrast = field[part.summit] - low;
+  }
   std::ranges::sort(parts, std::greater{}, &OwnPart::contrast);
   for (std::size_t i = parts.size(); i-- > 0;) {
     parts[i].contrast /= parts.front().contrast;

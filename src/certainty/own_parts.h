@@ -11,6 +11,7 @@ namespace palpation {
 
 struct OwnPart {
   std::vector<int> vertices;  ///< inside, rising
+  int summit = 0;             ///< the highest of them
   double contrast = 1.0;      ///< of what the strongest part has
   int plateau = 0;            ///< of the profile's; 0: it is as high as the strongest
 };

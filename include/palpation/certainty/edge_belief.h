@@ -104,8 +104,9 @@ class EdgeBelief {
                                 const Field& field_variance) const;
 
   /// What of the readings this boundary and its profile do not explain (misfit.h): what surprises,
-  /// each kind once, the strongest first. `false_alarms`: the share of runs in which a true model
-  /// may be doubted, all kinds together. Throws InvalidInput unless it lies in (0, 1).
+  /// each kind once, and parts that are too weak to be cut out; the strongest first.
+  /// `false_alarms`: the share of runs in which a true model may be doubted, all kinds together.
+  /// Throws InvalidInput unless it lies in (0, 1).
   std::vector<Misfit> misfits(double false_alarms = 0.02) const;
 
  private:
@@ -116,8 +117,9 @@ class EdgeBelief {
                                           double low);
   static EdgeBelief either(EdgeBelief one, EdgeBelief other);
   std::vector<OwnPart> parts_apart(const Field& field) const;
-  std::vector<OwnPart> told_apart(std::vector<OwnPart> parts, double least) const;
-  void name_parts(const std::vector<OwnPart>& parts, const Field& field);
+  std::vector<OwnPart> told_apart(std::vector<OwnPart> parts, double least,
+                                  std::vector<Misfit>& weaker) const;
+  void name_parts(const std::vector<OwnPart>& parts);
   void mix();
   void survey_boundary();
   const Fit& most_likely() const { return *fits_.front(); }
@@ -125,6 +127,7 @@ class EdgeBelief {
   Surface surface_;
   std::vector<std::shared_ptr<const Fit>> fits_;  // the most likely first
   std::vector<PartContrast> parts_;
+  std::vector<Misfit> weaker_;  // what stands out by too little to be cut out
   double noise_variance_ = 0.0;
   EdgeProfile profile_;
   Field depth_;
