@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "boundary/outline_length.h"
-#include "certainty/detection.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/edge_data.h"
 #include "certainty/edge_starts.h"
@@ -26,8 +25,6 @@ constexpr double kLittleScatter = 0.5;
 constexpr int kMostRounds = 4;
 /// How often parts are looked for, each with those found before.
 constexpr int kMostParts = 3;
-/// That parts of one contrast are told apart.
-constexpr double kFalseAlarms = 0.02;
 /// Of two explanations, the one that is so much less likely is dropped: nats.
 constexpr double kUnlikely = 3.9;
 
@@ -140,7 +137,7 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     const std::optional<EdgeBelief> free = fitted(task, parts, made->profile_.low);
     if (!free) break;
     made->weaker_.clear();
-    const OwnParts told = free->told_apart(parts, shape.least_own_contrast, made->weaker_);
+    const OwnParts told = free->told_apart(parts, made->weaker_);
     const bool more = told.size() > made->parts_.size();
     if (std::ranges::none_of(told, &OwnPart::plateau)) break;
     std::optional<EdgeBelief> next = fitted(task, told, free->profile_.low);
@@ -211,68 +208,6 @@ EdgeBelief EdgeBelief::either(EdgeBelief one, EdgeBelief other) {
   one.mix();
   one.survey_boundary();
   return one;
-}
-
-void EdgeBelief::name_parts(const OwnParts& parts) {
-  const ProfileParameters& profile = most_likely().edge.profile;
-  const Eigen::VectorXd variance = most_likely().profile_covariance().diagonal();
-  const double strongest = profile_contrast(profile, 0);
-  for (const OwnPart& part : parts) {
-    PartContrast named{.where = surface_.at_vertex(part.summit)};
-    if (part.plateau > 0) {
-      named.of_strongest = profile_contrast(profile, part.plateau) / strongest;
-      named.stddev = std::sqrt(variance[kCommonParameters + part.plateau - 1]) / strongest;
-    }
-    parts_.push_back(named);
-  }
-}
-
-/// Each stretch of the boundary's inside, also of the first one's, which corrections may have
-/// emptied; and what stands out of the healthy tissue beside it.
-OwnParts EdgeBelief::parts_apart(const Field& field) const {
-  const Field inside = depth_.cwiseMax(most_likely().distance_m);
-  OwnParts parts = parts_inside(surface_, inside, field, profile_.low, most_likely().data);
-  if (parts.empty()) return parts;
-  for (const Misfit& misfit : misfits()) {
-    if (misfit.kind == MisfitKind::WeakerPart && misfit.amount > 0.0)
-      parts = with_part_at(std::move(parts), surface_, field, profile_.low, *misfit.where);
-  }
-  return parts;
-}
-
-/// Without those that stand out by less than `least` of the strongest's contrast, which go to
-/// `weaker` where readings show them at all. Plateaus of their
-/// own for those alone that readings tell from the strongest's: by Savage and Dickey's ratio, the
-/// density of no difference before over after.
-OwnParts EdgeBelief::told_apart(OwnParts parts, double least, std::vector<Misfit>& weaker) const {
-  const Fit& fit = most_likely();
-  const Eigen::VectorXd variance = fit.profile_covariance().diagonal();
-  const double needed = std::log(static_cast<double>(parts.size()) / kFalseAlarms);
-  OwnParts told;
-  int plateaus = 0;
-  for (OwnPart& part : parts) {
-    if (part.plateau > 0) {
-      const Eigen::Index at = kCommonParameters + part.plateau - 1;
-      const double higher = fit.edge.profile[at];
-      const double contrast =
-          profile_contrast(fit.edge.profile, part.plateau) / profile_contrast(fit.edge.profile, 0);
-      const double evidence = 0.5 * std::log(variance[at] / fit.prior.variance[at]) +
-                              0.5 * higher * higher / variance[at];
-      if (contrast < least) {
-        const double amount = profile_contrast(fit.edge.profile, part.plateau);
-        if (amount > kNeededToFind * std::sqrt(variance[at]))
-          weaker.push_back({.kind = MisfitKind::WeakerPart,
-                            .evidence = evidence,
-                            .amount = amount,
-                            .where = surface_.at_vertex(part.summit)});
-        continue;
-      }
-      part.plateau = evidence > needed ? ++plateaus : 0;
-      if (part.plateau > 0) part.contrast = contrast;
-    }
-    told.push_back(std::move(part));
-  }
-  return told;
 }
 
 /// What all fits say together, each as likely as the readings make it.

@@ -42,8 +42,7 @@ struct ShapePrior {
   /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's
   /// own width reaches four fifths of its height.
   double plateau_error = 0.25;
-  double own_contrast_sd = 0.5;     ///< of a part beside the strongest, of its contrast
-  double least_own_contrast = 0.4;  ///< what stands out by less of that is said, but not cut out
+  double own_contrast_sd = 0.5;  ///< of a part beside the strongest, of its contrast
 };
 
 /// What is not known of a noise that `readings` readings taught: the standard deviation of the
@@ -117,8 +116,7 @@ class EdgeBelief {
                                           double low);
   static EdgeBelief either(EdgeBelief one, EdgeBelief other);
   std::vector<OwnPart> parts_apart(const Field& field) const;
-  std::vector<OwnPart> told_apart(std::vector<OwnPart> parts, double least,
-                                  std::vector<Misfit>& weaker) const;
+  std::vector<OwnPart> told_apart(std::vector<OwnPart> parts, std::vector<Misfit>& weaker) const;
   void name_parts(const std::vector<OwnPart>& parts);
   void mix();
   void survey_boundary();
