@@ -25,10 +25,10 @@ FLOORS = [
     ["io"],
     ["results", "session"],
     ["scene"],
-    ["tool", "experiments", "draw", "python"],
+    ["tool", "experiments", "link", "draw", "python"],
 ]
 FLOOR_OF = {folder: floor for floor, folders in enumerate(FLOORS) for folder in folders}
-PROGRAMS = {"results", "scene", "tool", "experiments", "draw", "python"}  # no public headers, and nothing is installed
+PROGRAMS = {"results", "scene", "tool", "experiments", "link", "draw", "python"}  # no public headers, and nothing is installed
 ROOFS = {"src/tool/main.cpp"}  # a program's main puts the siblings of its floor together
 
 # Third party: how its headers are spelled, and the folders whose sources may use it. Boost also comes with CGAL, as the language of its graphs.
@@ -38,8 +38,9 @@ THIRD_PARTIES = {
     "CGAL": (r"CGAL/|boost/", {"geometry", "boundary"}),
     "NLopt": (r"nlopt\.", {"belief"}),
     "VTK": (r"vtk\w+(\.|/)", {"boundary", "io", "draw"}),
-    "CLI11": (r"CLI/", {"tool", "draw"}),
+    "CLI11": (r"CLI/", {"tool", "link", "draw"}),
     "nlohmann-json": (r"nlohmann/", PROGRAMS - {"python"} | {"session"}),
+    "OpenIGTLink": (r"igtl\w+\.h", {"link"}),
     "pybind11": (r"pybind11/", {"python"}),
     "EGL, OpenGL and X11": (r"(E?GL|X11)/", {"draw"}),
 }
@@ -47,7 +48,7 @@ EIGEN = re.compile(r"Eigen/\w+$")
 
 # The standard library's headers have no dot. The machine's own may be used in sources, never in a public header.
 STANDARD = re.compile(r"[a-z][a-z0-9_]*$")
-OF_THE_MACHINE = re.compile(r"(unistd|fcntl|dlfcn|errno|signal|spawn|poll|malloc|termios|immintrin|x86intrin|cpuid)\.h$|sys/\w+\.h$")
+OF_THE_MACHINE = re.compile(r"(unistd|fcntl|netdb|dlfcn|errno|signal|spawn|poll|malloc|termios|immintrin|x86intrin|cpuid)\.h$|sys/\w+\.h$")
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)$', re.MULTILINE)
 NAMED = re.compile(r'(?:"([^"]+)"|<([^>]+)>)')
@@ -174,6 +175,9 @@ SAMPLES = [
     ("src/scene/third.cpp", "#include <CLI/CLI.hpp>\n", "CLI11 may only"),
     ("src/draw/good.cpp", "#include <vtkRenderer.h>\n#include <nlohmann/json.hpp>\n#include <EGL/egl.h>\n#include <dlfcn.h>\n", None),
     ("src/python/good.cpp", '#include <pybind11/pybind11.h>\n#include "io/landing.h"\n', None),
+    ("src/link/good.cpp", '#include <igtlPolyDataMessage.h>\n#include <netdb.h>\n#include "scene/scene.h"\n', None),
+    ("src/link/beside.cpp", '#include "tool/commands.h"\n', "sideways"),
+    ("src/tool/link.cpp", "#include <igtlPolyDataMessage.h>\n", "OpenIGTLink may only"),
     ("src/python/beside.cpp", '#include "tool/commands.h"\n', "sideways"),
     ("src/io/python.cpp", "#include <pybind11/numpy.h>\n", "pybind11 may only"),
     ("src/session/good.cpp", '#include <nlohmann/json.hpp>\n#include "palpation/session/session.h"\n#include "io/landing.h"\n', None),

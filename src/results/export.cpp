@@ -4,9 +4,8 @@
 #include <limits>
 
 #include "palpation/base/error.h"
-#include "results/clip.h"
 #include "results/markups.h"
-#include "results/parts.h"
+#include "results/shown.h"
 #include "results/tables.h"
 
 namespace palpation::results {
@@ -21,29 +20,16 @@ struct NamedProgram {
 constexpr std::array<NamedProgram, 3> kPrograms = {
     {{"slicer", Program::Slicer}, {"paraview", Program::ParaView}, {"csv", Program::Csv}}};
 
-/// Told apart also by people who confuse red and green: bluish green, amber, grey, magenta.
-const std::vector<double> kTouched = {0.0, 0.62, 0.45};
-const std::vector<double> kSetAside = {0.96, 0.67, 0.08};
-const std::vector<double> kMissed = {0.5, 0.5, 0.5};
-const std::vector<double> kNext = {0.89, 0.0, 0.55};
-
 void add_model(Files& files, const std::string& name, const VtpShape& model, LengthUnit unit,
                Frame frame) {
   if (!model.points.empty()) files[name] = vtp_of(name, model, unit, frame);
 }
 
 /// Surfaces and lines, alike for all who show them.
-Files models_of(const Run& run, LengthUnit unit, Frame frame) {
+Files files_of_models(const Run& run, LengthUnit unit, Frame frame) {
   Files files;
-  add_model(files, "tissue.vtp", model_of(run.tissue, shown_fields()), unit, frame);
-  add_model(files, "tumour.vtp", tumour_of(run), unit, frame);
-  add_model(files, "band.vtp", band_of(run), unit, frame);
-  add_model(files, "not_searched.vtp", not_searched_of(run), unit, frame);
-  add_model(files, "outline.vtp", lines_of(run.curves, {"estimate"}), unit, frame);
-  add_model(files, "band_lines.vtp", lines_of(run.curves, {"band_inner", "band_outer"}), unit,
-            frame);
-  add_model(files, "cut_line.vtp", lines_of(run.curves, {"cut"}), unit, frame);
-  add_model(files, "true_outline.vtp", lines_of(run.curves, {"truth"}), unit, frame);
+  for (const NamedModel& model : models_of(run))
+    add_model(files, model.name + ".vtp", model.shape, unit, frame);
   return files;
 }
 
@@ -80,49 +66,22 @@ VtpShape dots_of(const std::vector<Vec3>& places) {
   return model;
 }
 
-std::string words_on(const Touch& touch, const std::string& unit) {
-  std::string words = "batch " + std::to_string(touch.batch);
-  if (touch.reading)
-    words = "reading " + text_of(*touch.reading) + (unit.empty() ? "" : " " + unit) + ", " + words;
-  if (touch.is_missed()) words += ", could not be touched";
-  if (!touch.set_aside.empty()) words += ", set aside: " + touch.set_aside;
-  return words;
-}
-
-template <typename Belongs>
-void add_markups(Files& files, const Run& run, const std::string& name, Frame frame,
-                 const std::vector<double>& colour, Belongs belongs) {
-  std::vector<Mark> marks;
-  for (const Touch& touch : run.touches)
-    if (belongs(touch))
-      marks.push_back(
-          {std::to_string(touch.number), words_on(touch, run.reading_unit()), touch.place});
-  if (!marks.empty()) files[name + ".mrk.json"] = markups_json(name, marks, frame, colour);
-}
-
 /// Readings on the way, by the thousand, are a model: Slicer's markups are for places by the
 /// hundred.
 Files for_slicer(const Run& run, Frame frame) {
-  Files files = models_of(run, LengthUnit::Millimetre, frame);
-  add_markups(files, run, "touches", frame, kTouched,
-              [](const Touch& touch) { return touch.counts() && touch.kind != "way"; });
-  add_markups(files, run, "set_aside", frame, kSetAside,
-              [](const Touch& touch) { return !touch.set_aside.empty() && !touch.is_missed(); });
-  add_markups(files, run, "missed", frame, kMissed,
-              [](const Touch& touch) { return touch.is_missed(); });
+  Files files = files_of_models(run, LengthUnit::Millimetre, frame);
+  for (const NamedMarks& list : marks_of(run))
+    if (!list.marks.empty())
+      files[list.name + ".mrk.json"] = markups_json(list.name, list.marks, frame, list.colour);
   std::vector<Touch> way;
   for (const Touch& touch : run.touches)
     if (touch.kind == "way" && touch.counts()) way.push_back(touch);
   add_model(files, "way.vtp", dots_of(way), LengthUnit::Millimetre, frame);
-  std::vector<Mark> next;
-  for (const Vec3& place : run.next_stops)
-    next.push_back({std::to_string(next.size() + 1), "to be touched next", place});
-  if (!next.empty()) files["next_stops.mrk.json"] = markups_json("next_stops", next, frame, kNext);
   return files;
 }
 
 Files for_paraview(const Run& run, Frame frame) {
-  Files files = models_of(run, LengthUnit::Metre, frame);
+  Files files = files_of_models(run, LengthUnit::Metre, frame);
   add_model(files, "touches.vtp", dots_of(run.touches), LengthUnit::Metre, frame);
   add_model(files, "next_stops.vtp", dots_of(run.next_stops), LengthUnit::Metre, frame);
   std::string list =

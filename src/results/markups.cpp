@@ -24,7 +24,7 @@ json position_mm(const Vec3& place) {
 }  // namespace
 
 std::string markups_json(const std::string& name, const std::vector<Mark>& marks, Frame frame,
-                         const std::vector<double>& colour) {
+                         const std::array<double, 3>& colour) {
   require(frame != Frame::Mesh, "markups_json", "frame mesh", "must be RAS or LPS");
   json points = json::array();
   for (std::size_t i = 0; i < marks.size(); ++i) {

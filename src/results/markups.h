@@ -1,6 +1,7 @@
 /// Places as 3D Slicer's markups: .mrk.json, by its schema v1.0.3.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,6 @@ struct Mark {
 /// A list of points in millimetres, in that colour. Throws InvalidInput unless the frame is RAS or
 /// LPS.
 std::string markups_json(const std::string& name, const std::vector<Mark>& marks, Frame frame,
-                         const std::vector<double>& colour);
+                         const std::array<double, 3>& colour);
 
 }  // namespace palpation::results

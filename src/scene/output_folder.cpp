@@ -13,7 +13,7 @@
 #include "palpation/io/write_vtp.h"
 #include "results/report.h"
 #include "results/sha256.h"
-#include "scene/boundary_curves.h"
+#include "scene/believed.h"
 #include "scene/draw_program.h"
 #include "scene/interrupt.h"
 #include "scene/result_tables.h"
@@ -53,19 +53,8 @@ json inputs_read() {
   return inputs;
 }
 
-using NamedFields = std::vector<std::pair<std::string, Field>>;
-
 NamedFields fields_of(const Episode& episode, const World* world) {
-  const Snapshot now = snapshot(episode);
-  NamedFields fields{{"mean", now.mean}, {"stddev", now.stddev}, {"acquisition", now.acquisition}};
-  if (now.mean_detrended.size() > 0) fields.emplace_back("mean_detrended", now.mean_detrended);
-  if (now.above_level.size() > 0) fields.emplace_back("above_level", now.above_level);
-  if (now.score.size() > 0) {
-    fields.emplace_back("score", now.score);
-    fields.emplace_back("probability_inside", now.probability_inside);
-  }
-  if (now.undetected_mm.size() > 0) fields.emplace_back("undetected_mm", now.undetected_mm);
-  if (world != nullptr) fields.emplace_back("truth", world->truth);
+  NamedFields fields = believed_fields(episode, world);
   // Curved tissue may hide a part of itself: a picture can show it laid flat.
   if (const Surface& surface = episode.exploration.surface(); !surface.is_planar()) {
     fields.emplace_back("chart_u", surface.chart().uv.col(0));
@@ -97,21 +86,7 @@ void OutputFolder::write_step(const Episode& episode, const World* world) {
 
 void OutputFolder::write_boundary(const Episode& episode, const World* world) {
   run_.add("boundary.wkt", to_wkt(episode.estimate) + "\n");
-  std::vector<BoundaryCurve> curves;
-  const auto add = [&](const Field& field, double level, CurveKind kind) {
-    const std::vector<BoundaryCurve> more = boundary_curves(surface_, field, level, kind);
-    curves.insert(curves.end(), more.begin(), more.end());
-  };
-  if (episode.conclusion().level && episode.conclusion().belief.site_count() > 0) {
-    const Contour& contour = *episode.conclusion().contour;
-    add(contour.field, contour.level, CurveKind::Estimate);
-  }
-  if (const std::optional<Certainty>& certainty = episode.conclusion().certainty) {
-    add(certainty->score, certainty->band_score, CurveKind::BandInner);
-    add(certainty->score, -certainty->band_score, CurveKind::BandOuter);
-    add(certainty->score, Certainty::cut_score(scene_.number("band.cut_risk")), CurveKind::Cut);
-  }
-  if (world != nullptr) add(world->truth, world->true_level, CurveKind::Truth);
+  const std::vector<BoundaryCurve> curves = believed_curves(scene_, episode, world);
   run_.add("boundary.vtp",
            [&](const fs::path& path) { write_boundary_vtp(path, surface_, curves, frame_); });
 }

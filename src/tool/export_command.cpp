@@ -5,7 +5,7 @@
 
 #include "palpation/base/error.h"
 #include "results/export.h"
-#include "scene/exit_code.h"
+#include "scene/patient_frame.h"
 #include "tool/export_folder.h"
 
 namespace palpation::tool {
@@ -14,21 +14,11 @@ namespace {
 using results::Program;
 namespace fs = std::filesystem;
 
-/// Asked for, never guessed: a frame that is taken for another mirrors the organ.
 Frame frame_for(const ExportArguments& arguments, const results::Run& run) {
-  const Frame told = run.frame();
-  const Frame asked = arguments.frame.empty() ? told : frame_of(arguments.frame);
-  if (told != Frame::Mesh && asked != told)
-    throw IoError(arguments.run.string() + ": its coordinates are " + name_of(told) +
-                  ", as its scene or its mesh says, and --frame " + arguments.frame +
-                  " would mirror them: leave --frame out, or correct surface.frame and run again");
-  if (asked == Frame::Mesh && results::program_of(arguments.program) == Program::Slicer)
-    throw WrongUsage(
-        "export: 3D Slicer must know whose frame the coordinates are in, and neither the scene "
-        "(surface.frame) nor the mesh's file says: give --frame RAS where x grows to the patient's "
-        "right and y to the front, as in Slicer itself, or --frame LPS where they grow to the left "
-        "and to the back, as in DICOM. For a phantom, which is nobody, either shows it");
-  return asked;
+  const Frame frame = frame_asked(arguments.frame, run.frame(), arguments.run.string());
+  if (results::program_of(arguments.program) == Program::Slicer)
+    require_patients_frame(frame, "export");
+  return frame;
 }
 
 std::string where_words(Program program, const fs::path& folder) {

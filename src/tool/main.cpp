@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "experiments/experiment_command.h"
+#include "link/link_command.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 #include "scene/exit_code.h"
@@ -227,6 +228,7 @@ int run_tool(int count, char** words) {
   add_register_command(app);
   add_session_command(app);
   add_serve_command(app);
+  link::add_link_command(app);
   add_export_command(app);
   add_report_command(app);
   add_draw_command(app);

@@ -96,6 +96,25 @@ void add_contacts(Folder& folder) {
                                   " ", "", ""));
 }
 
+/// A header of OpenIGTLink (version, type, device, time, size of the body, CRC) and a body.
+std::string message(int version, const std::string& type, const std::string& device, int body) {
+  std::string bytes(58, '\0');
+  bytes[1] = static_cast<char>(version);
+  bytes.replace(2, type.size(), type);
+  bytes.replace(14, device.size(), device);
+  bytes[49] = static_cast<char>(body);
+  return bytes + std::string(static_cast<std::size_t>(body), 'b');
+}
+
+void add_messages(Folder& folder) {
+  folder.add("incoming", message(1, "GET_STATUS", "", 0));
+  folder.add("incoming",
+             message(2, "GET_POLYDATA", "outline", 12) + message(3, "STT_TDATA", "", 0));
+  folder.add("incoming",
+             message(1, "TRANSFORM", "probe", 48) + message(1, "GET_CAPABIL", "", 0) +
+                 "GET / HTTP/1.1\r\nHost: nobody, and much more than fifty-eight bytes");
+}
+
 std::string random_bytes(Random& random, int size) {
   std::string bytes;
   for (int i = 0; i < size; ++i) bytes += static_cast<char>(random.below(256));
@@ -122,6 +141,7 @@ int main(int argc, char** argv) {
   for (const char* outline : kOutlines) folder.add("wkt", outline);
   folder.add("boundary", kBoundary);
   add_contacts(folder);
+  add_messages(folder);
   Random random(1);
   for (int size : {30, 100, 300}) {
     folder.add("rings", random_bytes(random, size));
