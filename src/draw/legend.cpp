@@ -37,7 +37,8 @@ std::vector<LegendEntry> entries_of(const Outcome& outcome) {
   });
   add_touch({.on_the_way = true}, "in-transit readings",
             [](const Touch& t) { return t.on_the_way && !t.set_aside; });
-  add_touch({.planned = true}, "next samples", [](const Touch& t) { return t.planned; });
+  add_touch({.planned = true}, "next samples, by their index",
+            [](const Touch& t) { return t.planned; });
   add_touch({.set_aside = true}, "set aside", [](const Touch& t) { return t.set_aside; });
   if (!outcome.is_searched())
     entries.push_back({.words = "not searched", .lines = {}, .touch = {}, .hatched = true});

@@ -221,7 +221,8 @@ void add_planned(const fs::path& path, const Eigen::Matrix4d& from_tissue,
   const Eigen::Matrix4d to_tissue = from_tissue.inverse();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Vec3 position = (to_tissue * Eigen::Vector4d(x[i], y[i], z[i], 1.0)).head<3>();
-    if (position.allFinite()) touches.push_back({.position = position, .planned = true});
+    if (position.allFinite())
+      touches.push_back({.position = position, .planned = true, .index = static_cast<int>(i)});
   }
 }
 

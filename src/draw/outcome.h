@@ -24,6 +24,7 @@ struct Touch {
   bool on_the_way = false;       ///< read while sliding to the next stop
   bool set_aside = false;        ///< not used
   bool planned = false;          ///< not touched yet: of a plan's next batch
+  int index = 0;                 ///< of a planned one: its row in waypoints.csv, from 0
 };
 
 struct Curve {

@@ -11,6 +11,7 @@
 #include "draw/layout.h"
 #include "draw/look.h"
 #include "draw/ruler.h"
+#include "draw/stop_numbers.h"
 #include "draw/tissue_view.h"
 #include "palpation/base/error.h"
 
@@ -105,6 +106,7 @@ void draw_mean(Sheet& sheet, const Outcome& outcome, const PanelPlan& plan, cons
   draw_boundaries(scene, outcome, /*with_truth=*/true);
   if (with_touches) scene.draw_touches(planned_of(outcome.touches), radius_px);
   scene.finish();
+  if (with_touches) draw_stop_numbers(sheet, outcome.touches, plan.view, map, radius_px);
   draw_title(sheet, map, letter,
              with_touches ? "Estimated stiffness (posterior mean)"
              : plan.level ? "Estimated boundary"
@@ -129,6 +131,7 @@ void draw_uncertainty(Sheet& sheet, const Outcome& outcome, const PanelPlan& pla
   scene.draw_border(kRim);
   scene.draw_touches(outcome.touches, radius_px);
   scene.finish();
+  draw_stop_numbers(sheet, outcome.touches, plan.view, map, radius_px);
   draw_title(sheet, map, letter,
              has_stddev ? "Posterior standard deviation" : "Acquisition function");
   draw_ruler(sheet, plan.view, map);

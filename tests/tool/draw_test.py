@@ -9,7 +9,7 @@ import unittest
 import xml.etree.ElementTree
 import zlib
 
-from support import InFolder, PALPATE, palpate
+from support import InFolder, PALPATE, palpate, rows_of
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [41, 41]}},
@@ -86,6 +86,23 @@ class Draw(InFolder):
         self.assertAlmostEqual(share_of(self.picture_of("plan", "turned", "--measurements", felt, "--set", turned), is_next), shown, delta=0.1 * shown)
         self.assertEqual(share_of(self.picture_of("boundary", "boundary", "--measurements", felt), is_next), 0.0)
         self.assertEqual(share_of(self.folder / "run" / "picture.png", is_next), 0.0)
+
+    def test_the_stops_of_a_plan_bear_the_indices_of_waypoints_csv(self):
+        self.picture_of("plan", "plan", "--set", "plan.initial.count=12")
+        plan = self.folder / "plan"
+        stops = rows_of(plan / "waypoints.csv")
+        self.draw(plan, "--format", "svg", "--panels", "mean")
+        drawn = xml.etree.ElementTree.parse(plan / "figure.svg").getroot()
+        texts = list(drawn.iter("{http://www.w3.org/2000/svg}text"))
+        bold = {text.text: text for text in texts if text.get("font-weight") == "bold" and text.text.isdigit()}
+        self.assertEqual(sorted(bold, key=int), [row["index"] for row in stops])
+        self.assertIn("next samples, by their index", [text.text for text in texts])
+        places = {name: tuple(float(text.get(axis)) for axis in "xy") for name, text in bold.items()}
+        for axis, sign in ((0, 1), (1, -1)):  # they lie as the stops do
+            for a, b in ((a, b) for a in stops for b in stops):
+                apart = float(b["xy"[axis]]) - float(a["xy"[axis]])
+                if apart > 0.004:
+                    self.assertGreater(sign * (places[b["index"]][axis] - places[a["index"]][axis]), 0)
 
     def test_noise_is_not_coloured_like_a_tumour(self):
         found = share_of(self.picture_of("simulate", "found"), is_strong)
