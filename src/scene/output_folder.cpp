@@ -16,6 +16,7 @@
 #include "scene/believed.h"
 #include "scene/draw_program.h"
 #include "scene/interrupt.h"
+#include "scene/progress.h"
 #include "scene/result_tables.h"
 #include "scene/run_files.h"
 #include "scene/summary.h"
@@ -131,11 +132,14 @@ void OutputFolder::write_report(const fs::path& folder) const {
 
 void OutputFolder::finish(bool quiet) {
   std::optional<std::string> no_picture, no_report;
-  run_.add_made({"picture.png", "convergence.png"},
-                [&](const fs::path& folder) { no_picture = run_draw({folder.string()}); });
+  run_.add_made({"picture.png", "convergence.png"}, [&](const fs::path& folder) {
+    const Stage drawing("Drawing the pictures", quiet);
+    no_picture = run_draw({folder.string()});
+  });
   const bool is_reported = command_ != "plan";  // which a robot waits for
   if (is_reported) {
     run_.add_made({kReportName}, [&](const fs::path& folder) {
+      const Stage reporting("Making the report", quiet);
       try {
         write_report(folder);
       } catch (const Error& error) {

@@ -8,6 +8,7 @@
 #include "palpation/boundary/level_set.h"
 #include "readings/readings.h"
 #include "scene/parts.h"
+#include "scene/status_line.h"
 
 namespace palpation::tool {
 namespace {
@@ -171,6 +172,7 @@ std::string without(const std::string& start, const std::string& words) {
 }
 
 void tell(const std::vector<std::string>& warnings) {
+  const auto held = StatusLine::wiped();
   for (const std::string& warning : warnings)
     std::fprintf(stderr, "palpate: %s\n", warning.c_str());
 }

@@ -25,6 +25,29 @@ Scene scene_of(const SceneArguments& arguments) {
   return arguments.seed ? scene.with("seed", *arguments.seed) : scene;
 }
 
+template <typename Work>
+auto in_sight(const std::string& what, const SceneArguments& arguments, const Work& work) {
+  const Stage phase(what, arguments.quiet);
+  return work();
+}
+
+Tissue tissue_for(const SceneArguments& arguments, const Scene& scene) {
+  const Tissue tissue =
+      in_sight("Preparing the tissue", arguments, [&] { return tissue_of(scene); });
+  tell(tissue.warnings);
+  return tissue;
+}
+
+/// What the batches bring, told as they come; over before anything else is told.
+Episode run_in_sight(const SceneArguments& arguments, const Scene& scene, const Tissue& tissue,
+                     const World& world, OutputFolder* output) {
+  Progress progress("Batch", scene.integer("plan.batches") + 1, arguments.quiet);
+  return run_episode(scene, tissue.surface, world, [&](const Episode& now) {
+    progress.step(static_cast<int>(now.trace.size()), batch_words(now));
+    if (output) output->write_step(now, &world);
+  });
+}
+
 /// Nothing where no folder is asked for. Made before anything is computed, so that one that cannot
 /// be costs no time.
 std::unique_ptr<OutputFolder> output_of(const SceneArguments& arguments, const std::string& command,
@@ -61,11 +84,7 @@ void run_and_report(const SceneArguments& arguments, const std::string& command,
       output_of(arguments, command, scene, tissue, world.warnings);
   tell(world.warnings);
   const Stopwatch running;
-  Progress progress("Batch", scene.integer("plan.batches") + 1, arguments.quiet);
-  const Episode episode = run_episode(scene, tissue.surface, world, [&](const Episode& now) {
-    progress.step(static_cast<int>(now.trace.size()), batch_words(now));
-    if (output) output->write_step(now, &world);
-  });
+  const Episode episode = run_in_sight(arguments, scene, tissue, world, output.get());
   const double running_seconds = running.seconds();
   report(episode, arguments.quiet);
   if (!output) return;
@@ -98,30 +117,31 @@ std::string without_batches(const std::filesystem::path& path, const Scene& scen
 void simulate(const SceneArguments& arguments) {
   const Stopwatch preparing;
   const Scene scene = scene_of(arguments);
-  const Tissue tissue = tissue_of(scene);
-  tell(tissue.warnings);
-  const World world = simulated_world(scene, tissue.surface);
+  const Tissue tissue = tissue_for(arguments, scene);
+  const World world = in_sight("Preparing the phantom", arguments,
+                               [&] { return simulated_world(scene, tissue.surface); });
   run_and_report(arguments, "simulate", scene, tissue, world, preparing.seconds());
 }
 
 void replay(const SceneArguments& arguments, const std::vector<std::filesystem::path>& recordings) {
   const Stopwatch preparing;
   const Scene scene = scene_of(arguments);
-  const Tissue tissue = tissue_of(scene);
-  tell(tissue.warnings);
-  const World world = recorded_world(scene, tissue.surface, recordings);
+  const Tissue tissue = tissue_for(arguments, scene);
+  const World world = in_sight("Preparing the recordings", arguments,
+                               [&] { return recorded_world(scene, tissue.surface, recordings); });
   run_and_report(arguments, "replay", scene, tissue, world, preparing.seconds());
 }
 
 void boundary(const SceneArguments& arguments, const std::filesystem::path& measurements) {
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
-  const Tissue tissue = tissue_of(scene);
-  tell(tissue.warnings);
+  const Tissue tissue = tissue_for(arguments, scene);
   const MeasurementsFile measured = measured_in(scene, tissue.surface, measurements);
   std::unique_ptr<OutputFolder> output =
       output_of(arguments, "boundary", scene, tissue, measured.warnings);
-  const Episode episode = episode_from(scene, tissue.surface, measured.palpations);
+  const Episode episode = in_sight("Working out the boundary", arguments, [&] {
+    return episode_from(scene, tissue.surface, measured.palpations);
+  });
   report(episode, arguments.quiet);
   if (!output) return;
   output->write(episode, nullptr, {{"run_s", running.seconds()}}, measured.foreign);
@@ -132,8 +152,7 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
   check_plans(scene);
-  const Tissue tissue = tissue_of(scene);
-  tell(tissue.warnings);
+  const Tissue tissue = tissue_for(arguments, scene);
   MeasurementsFile measured;  // nothing, at the very start
   if (!measurements.empty()) measured = measured_in(scene, tissue.surface, measurements);
   std::unique_ptr<OutputFolder> output =
@@ -143,7 +162,9 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
     tell({words});
     if (output) output->warn(words);
   }
-  const NextPlan next = next_plan(scene, tissue.surface, measured.palpations);
+  const NextPlan next = in_sight("Choosing the next stops", arguments, [&] {
+    return next_plan(scene, tissue.surface, measured.palpations);
+  });
   if (!arguments.quiet)
     std::fputs(plan_words(next.episode, next.poses, next.length_m).c_str(), stdout);
   if (!output) return;

@@ -5,6 +5,7 @@
 #include "palpation/base/error.h"
 #include "palpation/session/session.h"
 #include "scene/make_folder.h"
+#include "scene/progress.h"
 #include "scene/scene_session.h"
 #include "scene/single_file.h"
 #include "scene/words.h"
@@ -17,13 +18,23 @@ namespace fs = std::filesystem;
 
 void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
 
+Tissue prepared(const Scene& scene) {
+  const Stage preparing("Preparing the tissue", /*quiet=*/false);
+  return tissue_of(scene);
+}
+
 Session opened(const SessionPlace& place) {
   const Scene scene = Scene::read(place.scene, place.overrides);
-  const Tissue tissue = tissue_of(scene);
+  const Tissue tissue = prepared(scene);
   tell(tissue.warnings);
   Session session(place.folder, session_setup(scene, tissue.surface, place.anyway));
   tell(session.remarks());
   return session;
+}
+
+const HandedOut& planned(Session& session) {
+  const Stage planning("Choosing the next stops", /*quiet=*/false);
+  return session.next();
 }
 
 std::string three_digits(int number) {
@@ -76,7 +87,7 @@ void session_show(const SessionPlace& place) {
 
 void session_next(const SessionPlace& place) {
   Session session = opened(place);
-  const HandedOut& plan = session.next();
+  const HandedOut& plan = planned(session);
   print(plan_in_words(plan));
   if (!plan.stops.empty()) print(write_poses(place.folder, plan) + open_words(session.state()));
 }
