@@ -14,6 +14,8 @@ void bind_model(pybind11::module_& module);
 void bind_plan(pybind11::module_& module);
 void bind_conclusion(pybind11::module_& module);
 void bind_exploration(pybind11::module_& module);
+void bind_session_plan(pybind11::module_& module);
+void bind_session(pybind11::module_& module);
 void bind_robot(pybind11::module_& module);
 
 }  // namespace palpation::python

@@ -22,6 +22,7 @@ PYBIND11_MODULE(_palpation, module) {
   bind_plan(module);
   bind_conclusion(module);
   bind_exploration(module);
+  bind_session(module);
   bind_robot(module);
   module.def("set_thread_count", &palpation::set_thread_count, py::arg("count"),
              "How many threads the library may use in this process; changes no result.");
