@@ -1,6 +1,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
@@ -9,6 +10,7 @@
 #include "python/concluded.h"
 #include "python/long_call.h"
 #include "python/readings.h"
+#include "scene/boundary_curves.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -74,6 +76,60 @@ py::dict summary(const Concluded& here) {
   return result;
 }
 
+/// The names and numbers of surface.vtp, but for what only a plan or a truth could tell.
+py::dict fields(const Concluded& here) {
+  const Conclusion& all = here.conclusion;
+  py::dict result("mean"_a = array_of(here.mean), "stddev"_a = array_of(here.stddev));
+  if (all.belief.prior().has_slope()) {
+    const ReadingScale scale = all.scale();
+    result["mean_detrended"] = array_of(Field(
+        all.component.mean.unaryExpr([scale](double value) { return as_reading(scale, value); })));
+  }
+  if (all.contour && all.level && all.belief.site_count() > 0)
+    result["above_level"] = array_of(Field(all.contour->field.array() - all.contour->level));
+  if (all.certainty) {
+    result["score"] = array_of(all.certainty->score);
+    result["probability_inside"] = array_of(here.probability_inside);
+  }
+  if (!here.surface.is_planar()) {
+    const Points2& uv = *long_call([&] { return &here.surface.chart().uv; });
+    result["chart_u"] = array_of(Field(uv.col(0)));
+    result["chart_v"] = array_of(Field(uv.col(1)));
+  }
+  return result;
+}
+
+/// Those of boundary.vtp, but for the truth.
+std::vector<BoundaryCurve> curves_of(const Concluded& here, double risk) {
+  const Conclusion& all = here.conclusion;
+  std::vector<BoundaryCurve> curves;
+  const auto add = [&](const Field& field, double level, CurveKind kind) {
+    const auto more = tool::boundary_curves(here.surface, field, level, kind);
+    curves.insert(curves.end(), more.begin(), more.end());
+  };
+  if (all.tip_hides_all) return curves;
+  if (all.contour && all.level && all.belief.site_count() > 0)
+    add(all.contour->field, all.contour->level, CurveKind::Estimate);
+  if (all.certainty) {
+    add(all.certainty->score, all.certainty->band_score, CurveKind::BandInner);
+    add(all.certainty->score, -all.certainty->band_score, CurveKind::BandOuter);
+    add(all.certainty->score, Certainty::cut_score(risk), CurveKind::Cut);
+  }
+  return curves;
+}
+
+py::list curves(const Concluded& here, double risk) {
+  py::list result;
+  for (const BoundaryCurve& curve : long_call([&] { return curves_of(here, risk); })) {
+    Points points(static_cast<Eigen::Index>(curve.points.size()), 3);
+    for (Eigen::Index row = 0; row < points.rows(); ++row)
+      points.row(row) = curve.points[static_cast<std::size_t>(row)].transpose();
+    result.append(py::dict("kind"_a = name_of(curve.kind), "part"_a = curve.part,
+                           "hole"_a = curve.hole, "points"_a = array_of(points)));
+  }
+  return result;
+}
+
 void bind_fields(ConclusionClass& conclusion) {
   conclusion
       .def_property_readonly(
@@ -130,6 +186,13 @@ void bind_conclusion(py::module_& module) {
           },
           py::kw_only(), "risk"_a = 0.05,
           "Outside of it a place is tumour with this probability at most.")
+      .def("fields", &fields,
+           "The arrays of surface.vtp by their names: 'mean', 'stddev', and, where they are known, "
+           "'above_level', 'score', 'probability_inside', and so on; copies.")
+      .def("curves", &curves, py::kw_only(), "risk"_a = 0.05,
+           "The closed lines of boundary.vtp, a dict each: 'kind' ('estimate', 'band_inner', "
+           "'band_outer', 'cut' at that risk), 'part', 'hole', and 'points' (n x 3, metres, the "
+           "first not repeated).")
       .def("summary", &summary, "The numbers by their names; what is not known is None.")
       .def("__repr__", [](const Concluded& here) {
         const std::optional<Level> level = level_in_readings(here.conclusion);

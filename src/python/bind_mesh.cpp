@@ -1,9 +1,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/length_scale.h"
 #include "palpation/base/error.h"
@@ -27,6 +30,27 @@ py::tuple warnings_of(const MeshFile& file) {
   for (const MeshWarning& warning : file.warnings)
     sentences.append(warning.text + " " + warning.advice);
   return py::tuple(sentences);
+}
+
+struct RepairWord {
+  const char* word;
+  bool MeshRepair::*asked;
+};
+constexpr std::array<RepairWord, 5> kRepairs{{{"weld", &MeshRepair::weld_equal_vertices},
+                                              {"triangulate", &MeshRepair::cut_polygons},
+                                              {"drop-duplicates", &MeshRepair::drop_duplicates},
+                                              {"drop-degenerate", &MeshRepair::drop_flat},
+                                              {"largest", &MeshRepair::keep_largest}}};
+
+MeshRepair repair_of(const std::vector<std::string>& words, bool weld) {
+  MeshRepair repair{.weld_equal_vertices = weld};
+  for (const std::string& word : words) {
+    const auto known = std::ranges::find(kRepairs, word, &RepairWord::word);
+    require(known != kRepairs.end(), "read_mesh", "repair '" + word + "'",
+            "must be 'weld', 'triangulate', 'drop-duplicates', 'drop-degenerate' or 'largest'");
+    repair.*known->asked = true;
+  }
+  return repair;
 }
 
 MeshFile made(TriangleMesh mesh) {
@@ -157,13 +181,20 @@ void bind_mesh(py::module_& module) {
       });
   module.def(
       "read_mesh",
-      [](const std::filesystem::path& path, const std::string& unit, bool weld) {
-        return long_call(
-            [&] { return read_mesh(path, length_unit(unit), {.weld_equal_vertices = weld}); });
+      [](const std::filesystem::path& path, const std::string& unit, bool weld,
+         const std::vector<std::string>& repair) {
+        const MeshRepair asked = repair_of(repair, weld);
+        return long_call([&] { return read_mesh(path, length_unit(unit), asked); });
       },
-      "path"_a, "unit"_a, py::kw_only(), "weld"_a = false,
-      "OBJ, OFF, STL, PLY or VTP, recognized by content; unit: 'mm', 'cm' or 'm'. weld joins "
-      "vertices at equal places. Raises IoError with path, line or byte and rule.");
+      "path"_a, "unit"_a, py::kw_only(), "weld"_a = false, "repair"_a = std::vector<std::string>(),
+      "OBJ, OFF, STL, PLY or VTP, recognized by content; unit: 'mm', 'cm' or 'm'. repair: what is "
+      "mended only on request, as by `palpate mesh repair`: 'weld' (or weld=True: vertices at "
+      "equal "
+      "places become one), 'triangulate' (polygons that no corner sees as a whole are cut, too), "
+      "'drop-duplicates' (of triangles with the same corners the first is kept), 'drop-degenerate' "
+      "(what has no area goes, and leaves no crack), 'largest' (the component of the largest area "
+      "is kept). What was done is in the mesh's warnings, each with its count and its first place. "
+      "Raises IoError with path, line or byte and rule.");
   module.def(
       "write_mesh",
       [](const std::filesystem::path& path, py::handle vertices, py::handle faces,

@@ -25,6 +25,11 @@ except ImportError:
     print("skipped: numpy is not installed")
     sys.exit(77)
 try:
+    import vtkmodules.util.numpy_support as vtk_numpy
+    import vtkmodules.vtkIOXML as vtk_xml
+except ImportError:
+    vtk_xml = None
+try:
     import shapely.geometry
     import shapely.wkt
 except ImportError:
@@ -77,6 +82,24 @@ class Meshes(unittest.TestCase):
             mesh = pp.read_mesh(path, "mm")
         self.assertEqual(len(mesh.warnings), 1)
         self.assertIn("1 vertices belong to no face", mesh.warnings[0])
+
+    def test_what_is_asked_for_is_mended_and_told_with_its_first_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "broken.obj"
+            square = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 5 0 0\nv 90 0 0\nv 95 0 0\nv 90 5 0\n"
+            path.write_text(square + "f 1 2 3\nf 1 3 4\nf 3 4 1\nf 1 5 2\nf 6 7 8\n", encoding="utf-8")
+            self.assertRaises(pp.IoError, pp.read_mesh, path, "mm")
+            mesh = pp.read_mesh(path, "mm", repair=("drop-duplicates", "drop-degenerate", "largest"))
+            for kind in (["holes"], ["weld", ""]):
+                with self.assertRaises(pp.InvalidInput) as caught:
+                    pp.read_mesh(path, "mm", repair=kind)
+                self.assertIn("must be 'weld', 'triangulate', 'drop-duplicates'", str(caught.exception))
+            with self.assertRaises(TypeError):
+                pp.read_mesh(path, "mm", repair="weld")
+        self.assertAlmostEqual(mesh.surface().area_m2, 1e-4, delta=1e-18)
+        told = " ".join(mesh.warnings)
+        for words in ("face 3 in line 11", "without an area was dropped: face 4", "1 smaller component"):
+            self.assertIn(words, told)
 
     def test_every_generator_makes_a_disk(self):
         for make in (pp.make_cylinder, pp.make_dome, pp.make_saddle, pp.make_wave, pp.make_folded):
@@ -363,6 +386,62 @@ class AskAndTell(unittest.TestCase):
         self.assertEqual(len(pp.reachable_vertices(tissue, shaft_direction=(0, 0, -1))), 0)
 
 
+@unittest.skipUnless(vtk_xml, "VTK's Python modules are not installed")
+class Vtk(unittest.TestCase):
+    def read(self, path):
+        reader = vtk_xml.vtkXMLPolyDataReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        return reader.GetOutput()
+
+    def assert_alike(self, mine, its, but=()):
+        """The same points, cells and arrays, by their names, types and numbers."""
+        points = [vtk_numpy.vtk_to_numpy(one.GetPoints().GetData()) for one in (mine, its)]
+        self.assertTrue(np.array_equal(*points) and points[0].dtype == points[1].dtype)
+        for cells in ("GetPolys", "GetLines"):
+            arrays = [vtk_numpy.vtk_to_numpy(getattr(one, cells)().GetConnectivityArray()) for one in (mine, its)]
+            self.assertTrue(np.array_equal(*arrays), cells)
+        for part in ("GetPointData", "GetCellData", "GetFieldData"):
+            names = [[getattr(one, part)().GetAbstractArray(i).GetName() for i in range(getattr(one, part)().GetNumberOfArrays())] for one in (mine, its)]
+            self.assertEqual(set(names[0]), set(names[1]) - set(but), part)
+            for name in names[0]:
+                a, b = (getattr(one, part)().GetAbstractArray(name) for one in (mine, its))
+                self.assertEqual((a.GetDataType(), a.GetNumberOfValues()), (b.GetDataType(), b.GetNumberOfValues()), name)
+                self.assertEqual([a.GetValue(i) for i in range(a.GetNumberOfValues())], [b.GetValue(i) for i in range(b.GetNumberOfValues())], name)
+
+    def test_a_conclusion_is_the_tools_surface_and_boundary(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = pathlib.Path(folder) / "run"
+            scene = ROOT / "examples/planar.json"
+            subprocess.run([PALPATE, "simulate", scene, "--out", run, "--quiet", "--set", "plan.batches=3"], check=True)
+            tissue = pp.read_mesh(ROOT / "meshes/planar_phantom.ply", "mm").surface()
+            conclusion = pp.conclude(pp.Readings.read_csv(run / "measurements.csv", tissue))
+            self.assert_alike(pp.to_vtk(conclusion), self.read(run / "surface.vtp"), but=("acquisition", "truth"))
+            subprocess.run([PALPATE, "boundary", scene, "--measurements", run / "measurements.csv", "--out", run / "b", "--quiet"], check=True)
+            self.assert_alike(pp.boundary_to_vtk(conclusion), self.read(run / "b/boundary.vtp"))
+
+    def test_fields_of_ones_own_are_arrays_at_the_points(self):
+        tissue = square(4)
+        heights = np.arange(25)
+        polydata = pp.to_vtk(tissue, {"height": heights})
+        self.assertEqual((polydata.GetNumberOfPoints(), polydata.GetNumberOfCells()), (25, 32))
+        self.assertEqual(vtk_numpy.vtk_to_numpy(polydata.GetPointData().GetArray("height")).tolist(), heights.tolist())
+        for name, given in (("height", heights[:3]), ("", heights), ("height", ["x"] * 25)):
+            with self.subTest(name), self.assertRaises(pp.InvalidInput) as caught:
+                pp.to_vtk(tissue, {name: given})
+            self.assertIn("to_vtk: field '" + name, str(caught.exception))
+        with self.assertRaises(TypeError):
+            pp.to_vtk(3)
+        nothing = pp.boundary_to_vtk(pp.conclude(pp.Readings(tissue, [], [])))
+        self.assertEqual((nothing.GetNumberOfPoints(), nothing.GetNumberOfCells()), (0, 0))
+
+    def test_without_vtk_it_says_what_to_install(self):
+        script = "import sys\nfor name in ('vtkCommonCore', 'vtkCommonDataModel'):\n    sys.modules['vtkmodules.' + name] = None\n"
+        script += "import palpation as pp\ntry:\n    pp.to_vtk(pp.make_plane(columns=3, rows=3).surface())\nexcept ImportError as error:\n    print(error)"
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertIn("python3-vtk9", done.stdout, done.stderr)
+
+
 class OwnAcquisition(unittest.TestCase):
     def run_with(self, acquisition, batches=3):
         tissue = square(25)
@@ -550,6 +629,8 @@ def main():
     PALPATE, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     if shapely is None:
         print("skipped: shapely is not installed: to and from its polygons")
+    if vtk_xml is None:
+        print("skipped: VTK's Python modules are not installed: tissue and boundaries as VTK holds them")
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=1)
 
 

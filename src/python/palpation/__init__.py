@@ -54,6 +54,7 @@ from ._palpation import (
     waypoints,
     write_mesh,
 )
+from ._vtk import boundary_to_vtk, to_vtk
 
 __all__ = [
     "Conclusion",
@@ -79,6 +80,7 @@ __all__ = [
     "Surface",
     "WriteError",
     "__version__",
+    "boundary_to_vtk",
     "compare",
     "conclude",
     "make_cylinder",
@@ -93,6 +95,7 @@ __all__ = [
     "superlevel_region",
     "surface_area",
     "thread_count",
+    "to_vtk",
     "waypoints",
     "write_mesh",
 ]
