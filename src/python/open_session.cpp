@@ -56,7 +56,7 @@ OpenSession::OpenSession(const SceneAsked& asked, std::filesystem::path folder, 
       scene_(scene_of(asked)),
       tissue_(tool::tissue_of(scene_)),
       session_(folder_, setup_of(scene_, tissue_.surface, anyway)),
-      remarks_(tissue_.warnings) {
+      remarks_(state().plans.empty() ? tool::start_remarks(tissue_) : tissue_.warnings) {
   remarks_.insert(remarks_.end(), session_.remarks().begin(), session_.remarks().end());
 }
 

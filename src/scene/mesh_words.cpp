@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geometry/mesh_faults.h"
-#include "geometry/self_intersection.h"
 #include "palpation/base/error.h"
+#include "scene/surface_remarks.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
@@ -16,11 +16,6 @@ namespace {
 
 // Longer lists help nobody.
 constexpr std::size_t kMostListed = 8;
-// Exact tests of each triangle against those around it take ten microseconds: more than a few
-// seconds would be too much for a description.
-constexpr int kMostFacesToCross = 200'000;
-// What a probe resolves.
-constexpr double kCoarse_m = 0.001;
 // Laying flat takes two seconds for 80,000 triangles.
 constexpr int kMostFacesToFlatten = 200'000;
 constexpr double kMisleading = 0.1;
@@ -110,35 +105,12 @@ std::string topology_words(const Surface& surface) {
   return words;
 }
 
-struct Edges {
-  double shortest = HUGE_VAL, mean = 0.0, longest = 0.0;
-};
-
-Edges edges_of(const TriangleMesh& mesh) {
-  Edges edges;
-  for (Eigen::Index face = 0; face < mesh.triangles.rows(); ++face) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const double length = (mesh.vertices.row(mesh.triangles(face, corner)) -
-                             mesh.vertices.row(mesh.triangles(face, (corner + 1) % 3)))
-                                .norm();
-      edges.shortest = std::min(edges.shortest, length);
-      edges.longest = std::max(edges.longest, length);
-      edges.mean += length / (3.0 * static_cast<double>(mesh.triangles.rows()));
-    }
-  }
-  return edges;
-}
-
 std::string edge_words(const Surface& surface) {
-  const Edges edges = edges_of(surface.mesh());
-  std::string words = "Edges: " + fixed(edges.shortest * 1e3, 3) + " to " +
-                      fixed(edges.longest * 1e3, 3) + " mm, mean " + fixed(edges.mean * 1e3, 3) +
-                      " mm\n";
-  if (edges.longest > kCoarse_m) {
-    words += "Coarse: edges up to " + fixed(edges.longest * 1e3, 2) +
-             " mm exceed what a probe resolves (about 0.5 mm); set surface.refine_mm.\n";
-  }
-  return words;
+  const EdgeLengths edges = edge_lengths(surface.mesh());
+  const std::string coarse = coarse_words(surface);
+  return "Edges: " + fixed(edges.shortest_m * 1e3, 3) + " to " + fixed(edges.longest_m * 1e3, 3) +
+         " mm, mean " + fixed(edges.mean_m * 1e3, 3) + " mm\n" +
+         (coarse.empty() ? "" : coarse + "\n");
 }
 
 /// Gaussian curvature at inner vertices, by angle defect over area: its extremes in 1/mm2.
@@ -160,25 +132,13 @@ std::pair<double, double> curvature_range(const Surface& surface) {
   return {curvature.minCoeff(), curvature.maxCoeff()};
 }
 
-std::string crossing_words(const Surface& surface) {
-  if (surface.is_planar()) return "";
-  if (surface.face_count() > kMostFacesToCross) {
+std::string crossing_lines(const Surface& surface) {
+  if (!surface.is_planar() && surface.face_count() > kMostFacesToCross)
     return "Self-intersections were not searched for: it has more than " +
            std::to_string(kMostFacesToCross) + " triangles.\n";
-  }
-  const SelfIntersections found = self_intersections(surface);
-  if (!found.complete) {
-    return "Warning: so many triangles lie close together that the search for self-intersections "
-           "was given up.\n"
-           "  Simplify or remesh it.\n";
-  }
-  if (found.pairs == 0) return "";
-  const auto [a, b] = *found.first;
-  const Vec3 place = surface.position({a, Vec3::Constant(1.0 / 3.0)});
-  return "Warning: it self-intersects: " + counted(found.pairs, "pair", "pairs") +
-         " of triangles meet, such as triangles " + std::to_string(a) + " and " +
-         std::to_string(b) + " around " + place_words(place, 2) +
-         ".\n  Tissue cannot. Delete one of the sheets, or work on a patch away from it.\n";
+  const CrossingWords words = crossing_words(surface);
+  if (words.found.empty()) return "";
+  return "Warning: " + words.found + "\n  " + words.advice + "\n";
 }
 
 const std::string kChoosePart =
@@ -252,7 +212,7 @@ std::string surface_words(const Surface& surface, const std::string& next) {
   const auto [least, most] = curvature_range(surface);
   return topology_words(surface) + "Area: " + fixed(surface.area() * 1e4, 3) + " cm2\n" +
          edge_words(surface) + "Gaussian curvature: " + fixed(least, 5) + " to " + fixed(most, 5) +
-         " per mm2\n" + crossing_words(surface) + advice(surface, next);
+         " per mm2\n" + crossing_lines(surface) + advice(surface, next);
 }
 
 std::string fault_words(const TriangleMesh& mesh, const std::string& reason) {

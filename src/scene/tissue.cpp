@@ -11,7 +11,9 @@
 #include "palpation/geometry/clearance.h"
 #include "palpation/geometry/patch.h"
 #include "scene/mesh_words.h"
+#include "scene/scale_remarks.h"
 #include "scene/setup.h"
+#include "scene/surface_remarks.h"
 #include "scene/tissue_mesh.h"
 #include "scene/words.h"
 
@@ -235,18 +237,6 @@ void check_chart(const Scene& scene, const Surface& surface) {
   }
 }
 
-/// Waves longer than the tissue are all alike: the field would be one value and whatever the trend
-/// leaves.
-std::string length_warning(const Scene& scene, const Surface& surface) {
-  if (scene.word("field.metric") != "intrinsic" || scene.word("field.length_mm") == "learn")
-    return "";
-  const double length_m = scene.metres("field.length_mm");
-  if (length_m <= 0.5 * surface.diameter()) return "";
-  return scene.name() + ": field.length_mm " + fixed(length_m * 1000.0, 1) +
-         " is long for tissue that is " + fixed(surface.diameter() * 1000.0, 1) +
-         " mm across: with field.metric intrinsic the field can hardly vary over it.";
-}
-
 /// A translation in millimetres plans a thousand times too far away.
 std::string translation_warning(const Scene& scene) {
   const Vec3 translation = robot_of(scene).from_tissue.topRightCorner<3, 1>();
@@ -282,11 +272,18 @@ Tissue tissue_of(const Scene& scene) {
   check_size(scene, tissue.surface);
   warn_of_reach(scene, tissue);
   for (const std::string& warning :
-       {translation_warning(scene), stretch_warning(scene, tissue.surface),
-        length_warning(scene, tissue.surface)}) {
+       {translation_warning(scene), stretch_warning(scene, tissue.surface)}) {
     if (!warning.empty()) tissue.warnings.push_back(warning);
   }
+  for (std::string& warning : scale_remarks(scene, tissue.surface))
+    tissue.warnings.push_back(std::move(warning));
   return tissue;
+}
+
+std::vector<std::string> start_remarks(const Tissue& tissue) {
+  std::vector<std::string> remarks = tissue.warnings;
+  for (std::string& remark : surface_remarks(tissue.surface)) remarks.push_back(std::move(remark));
+  return remarks;
 }
 
 }  // namespace palpation::tool

@@ -20,4 +20,8 @@ struct Tissue {
 /// says what to do where the scene asks for what the mesh cannot give.
 Tissue tissue_of(const Scene& scene);
 
+/// What `palpate info` would say of it that a person should know before a run: the warnings, and
+/// what is odd about the surface (surface_remarks.h). A sentence or two each.
+std::vector<std::string> start_remarks(const Tissue& tissue);
+
 }  // namespace palpation::tool

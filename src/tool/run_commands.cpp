@@ -32,10 +32,7 @@ auto in_sight(const std::string& what, const SceneArguments& arguments, const Wo
 }
 
 Tissue tissue_for(const SceneArguments& arguments, const Scene& scene) {
-  const Tissue tissue =
-      in_sight("Preparing the tissue", arguments, [&] { return tissue_of(scene); });
-  tell(tissue.warnings);
-  return tissue;
+  return in_sight("Preparing the tissue", arguments, [&] { return tissue_of(scene); });
 }
 
 /// What the batches bring, told as they come; over before anything else is told.
@@ -48,6 +45,12 @@ Episode run_in_sight(const SceneArguments& arguments, const Scene& scene, const 
   });
 }
 
+std::vector<std::string> joined(std::vector<std::string> some,
+                                const std::vector<std::string>& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
 /// Nothing where no folder is asked for. Made before anything is computed, so that one that cannot
 /// be costs no time.
 std::unique_ptr<OutputFolder> output_of(const SceneArguments& arguments, const std::string& command,
@@ -56,7 +59,6 @@ std::unique_ptr<OutputFolder> output_of(const SceneArguments& arguments, const s
   if (arguments.out.empty()) return nullptr;
   auto output = std::make_unique<OutputFolder>(
       Destination{arguments.out, command, arguments.overwrite}, scene, tissue);
-  for (const std::string& warning : tissue.warnings) output->warn(warning);
   for (const std::string& warning : warnings) output->warn(warning);
   return output;
 }
@@ -70,19 +72,12 @@ void report(const Episode& episode, bool quiet) {
   tell(remarks);
 }
 
-MeasurementsFile measured_in(const Scene& scene, const Surface& surface,
-                             const std::filesystem::path& path) {
-  MeasurementsFile measured = measured_on(scene, surface, read_csv(path));
-  tell(measured.warnings);
-  return measured;
-}
-
 /// The whole run of `simulate` and `replay`, to the files and the words.
 void run_and_report(const SceneArguments& arguments, const std::string& command, const Scene& scene,
                     const Tissue& tissue, const World& world, double prepared_seconds) {
-  std::unique_ptr<OutputFolder> output =
-      output_of(arguments, command, scene, tissue, world.warnings);
-  tell(world.warnings);
+  const std::vector<std::string> remarks = joined(start_remarks(tissue), world.warnings);
+  std::unique_ptr<OutputFolder> output = output_of(arguments, command, scene, tissue, remarks);
+  tell(remarks);
   const Stopwatch running;
   const Episode episode = run_in_sight(arguments, scene, tissue, world, output.get());
   const double running_seconds = running.seconds();
@@ -101,6 +96,11 @@ void run_and_report(const SceneArguments& arguments, const std::string& command,
                  {"batches_s", episode.batch_seconds},
                  {"write_s", writing.seconds()}});
   output->finish(arguments.quiet);
+}
+
+/// What was said when a run started is not said with each of its plans.
+bool is_before_second_batch(const std::vector<Palpation>& palpations) {
+  return std::ranges::all_of(palpations, [](const Palpation& one) { return one.batch == 0; });
 }
 
 /// What is taken for granted of measurements that do not say in which batch they were made.
@@ -136,9 +136,11 @@ void boundary(const SceneArguments& arguments, const std::filesystem::path& meas
   const Stopwatch running;
   const Scene scene = scene_of(arguments);
   const Tissue tissue = tissue_for(arguments, scene);
-  const MeasurementsFile measured = measured_in(scene, tissue.surface, measurements);
+  tell(tissue.warnings);
+  const MeasurementsFile measured = measured_on(scene, tissue.surface, read_csv(measurements));
+  tell(measured.warnings);
   std::unique_ptr<OutputFolder> output =
-      output_of(arguments, "boundary", scene, tissue, measured.warnings);
+      output_of(arguments, "boundary", scene, tissue, joined(tissue.warnings, measured.warnings));
   const Episode episode = in_sight("Working out the boundary", arguments, [&] {
     return episode_from(scene, tissue.surface, measured.palpations);
   });
@@ -154,9 +156,13 @@ void plan(const SceneArguments& arguments, const std::filesystem::path& measurem
   check_plans(scene);
   const Tissue tissue = tissue_for(arguments, scene);
   MeasurementsFile measured;  // nothing, at the very start
-  if (!measurements.empty()) measured = measured_in(scene, tissue.surface, measurements);
+  if (!measurements.empty()) measured = measured_on(scene, tissue.surface, read_csv(measurements));
+  const bool starts = is_before_second_batch(measured.palpations);
+  const std::vector<std::string> remarks = starts ? start_remarks(tissue) : tissue.warnings;
+  if (starts) tell(remarks);
+  tell(measured.warnings);
   std::unique_ptr<OutputFolder> output =
-      output_of(arguments, "plan", scene, tissue, measured.warnings);
+      output_of(arguments, "plan", scene, tissue, joined(remarks, measured.warnings));
   if (!measured.has_batches && !measured.palpations.empty()) {
     const std::string words = without_batches(measurements, scene);
     tell({words});

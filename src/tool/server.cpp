@@ -104,7 +104,7 @@ json Server::open(Request& request) {
   run_ = std::make_unique<Run>(
       Run{scene, tissue, Session(folder, session_setup(scene, tissue.surface, anyway)), {}});
   json answer = state_of_session(run_->session.state());
-  answer["remarks"] = tissue.warnings;
+  answer["remarks"] = run_->session.state().plans.empty() ? start_remarks(tissue) : tissue.warnings;
   for (const std::string& remark : run_->session.remarks()) answer["remarks"].push_back(remark);
   return answer;
 }

@@ -26,8 +26,8 @@ Tissue prepared(const Scene& scene) {
 Session opened(const SessionPlace& place) {
   const Scene scene = Scene::read(place.scene, place.overrides);
   const Tissue tissue = prepared(scene);
-  tell(tissue.warnings);
   Session session(place.folder, session_setup(scene, tissue.surface, place.anyway));
+  if (session.state().plans.empty()) tell(start_remarks(tissue));  // not again with every command
   tell(session.remarks());
   return session;
 }

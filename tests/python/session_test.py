@@ -28,7 +28,7 @@ import palpation as pp
 
 PALPATE = ROOT = None
 SCENE = {
-    "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}},
+    "surface": {"plane": {"size_mm": [20, 20], "vertices": [30, 30]}},
     "plan": {"initial": {"count": 9}, "batch": 4, "batches": 3},
 }
 

@@ -42,6 +42,29 @@ class Newcomer(InFolder):
         self.assertEqual(len(self.table("first/waypoints.csv")), 7)
         self.assertEqual((self.folder / "same/waypoints.csv").read_bytes(), stops)
 
+    def test_what_info_says_of_a_scene_is_said_once_when_a_run_starts(self):
+        scene = self.scene(surface={"plane": {"size_mm": [20, 20], "vertices": [12, 12]}}, field={"length_mm": 60},
+                           plan={"initial": {"count": 4}, "batch": 3, "batches": 2, "least_spacing_mm": 40})
+        remarks = ("field.length_mm 60.0 is long for tissue that is 28.3 mm across", "plan.least_spacing_mm 40.0 is wider than the tissue",
+                   "Coarse: edges up to 2.57 mm exceed what a probe resolves")
+        def counts(words):
+            return [words.count(remark) for remark in remarks]
+
+        self.assertEqual(counts(self.done("info", scene).stdout), [1, 1, 1])
+        out = self.folder / "out"
+        self.assertEqual(counts(self.done("simulate", scene, "--out", out).stderr), [1, 1, 1])
+        self.assertEqual(counts("".join(json.loads((out / "summary.json").read_text())["warnings"])), [1, 1, 1])
+        self.assertEqual(counts(self.done("plan", scene).stderr), [1, 1, 1])
+        rows = "".join(f"0.0{x},0.0{x},0,7.{x},{batch}\n" for batch, x in enumerate((11, 12, 14)))
+        later = self.folder / "later.csv"
+        later.write_text("x,y,z,reading,batch\n" + rows)
+        self.assertEqual(counts(self.done("plan", scene, "--measurements", later, "--out", self.folder / "later").stderr), [0, 0, 0])
+        self.assertEqual(counts("".join(json.loads((self.folder / "later/summary.json").read_text())["warnings"]))[:2], [1, 1])
+        for times in ([1, 1, 1], [0, 0, 0]):
+            self.assertEqual(counts(self.done("session", scene, self.folder / "run", "next").stderr), times)
+        short = self.done("plan", scene, "--set", "field.length_mm=1").stderr
+        self.assertIn("field.length_mm 1 is shorter than the edges of the tissue, 2.07 mm on average", short)
+
     def test_the_printed_scene_of_one_cell_is_a_scene(self):
         cells = json.loads(self.done("experiment", "table1", "--print-scene").stdout)
         printed = self.done("experiment", "table1", "--only", cells[0]["cell"], "--print-scene").stdout

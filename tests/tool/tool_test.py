@@ -45,7 +45,7 @@ class Tool(InFolder):
         result = palpate("boundary", scene, "--measurements", measured, "--out", self.folder / "out")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("smaller than a triangle", result.stderr)
-        self.assertIn("smaller than a triangle", json.loads((self.folder / "out" / "summary.json").read_text())["warnings"][0])
+        self.assertIn("smaller than a triangle", " ".join(json.loads((self.folder / "out" / "summary.json").read_text())["warnings"]))
 
     def test_readings_that_look_wrong_are_told(self):
         dice = random.Random(1)
