@@ -12,32 +12,16 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
-PATIENCE_S = 240
+from support import main_without_pictures, PALPATE, PATIENCE_S, SMALL, WithSmallScene
 
-SCENE = {
-    "surface": {"plane": {"size_mm": [20, 20], "vertices": [12, 12]}},
-    "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2},
-    "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 4}]},
-}
 LONG = ("--set", "surface.plane.vertices=[60,60]", "--set", "plan.batches=10000", "--set", "plan.acquisition=random")
-MEASURED = "x,y,z,reading,operator\n0.01,0.01,0,9,anna\n0.002,0.003,0,7,\n0.016,0.004,0,7.1,\"B, C\"\n"
-SQUARE = "POLYGON ((0.005 0.005, 0.015 0.005, 0.015 0.015, 0.005 0.015, 0.005 0.005))"
 SIMULATED = {"run.json", "summary.json", "report.html", "timings.json", "trace.csv", "measurements.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp",
              "surface.vtp", "steps.pvd", "steps", "steps/step_000.vtp", "steps/step_001.vtp", "steps/step_002.vtp"}
 PLANNED = {"run.json", "summary.json", "timings.json", "trace.csv", "readings_used.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp", "surface.vtp"}
 BOUNDED = PLANNED - {"waypoints.csv", "path.csv"} | {"report.html"}
 MINE = "what a person wrote\n"
-
-
-def palpate(*arguments, program=None, **options):
-    options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | options
-    return subprocess.run([program or PALPATE, *map(str, arguments)], timeout=PATIENCE_S, **options)
 
 
 def names_in(folder):
@@ -54,30 +38,12 @@ def state_of(folder):
     return json.loads((folder / "run.json").read_text())["state"]
 
 
-class Files(unittest.TestCase):
+class Files(WithSmallScene):
+    readings = "x,y,z,reading,operator\n0.01,0.01,0,9,anna\n0.002,0.003,0,7,\n0.016,0.004,0,7.1,\"B, C\"\n"
+
     def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        super().setUp()
         self.out = self.folder / "out"
-        self.scene = self.write("scene.json", json.dumps(SCENE))
-        self.measured = self.write("measured.csv", MEASURED)
-        self.square = self.write("square.wkt", SQUARE)
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-        return path
-
-    def ends(self, code, *arguments, says=(), **options):
-        """Runs the tool; checks its exit code and what it says on standard error. Returns that."""
-        result = palpate(*arguments, **options)
-        words = (result.stderr or b"").decode(errors="replace")
-        self.assertEqual(result.returncode, code, f"{arguments}: {words}")
-        for part in [says] if isinstance(says, str) else says:
-            self.assertIn(part, words, arguments)
-        return words
 
     def refused(self, code, *arguments, says):
         """And nothing is other than before."""
@@ -112,17 +78,17 @@ class Files(unittest.TestCase):
         self.out.mkdir()
         simulated = ("simulate", self.scene, "--out", self.out)
         for name in ("summary.json", "timings.json"):
-            scene = self.write(f"out/{name}", json.dumps(SCENE))
+            scene = self.write(f"out/{name}", json.dumps(SMALL))
             self.refused(3, "simulate", scene, "--out", self.out, says=(name, "was read in this run"))
             scene.unlink()
         mesh = self.out / "surface.vtp"
         self.ends(0, "mesh", "plane", "--size-mm", 20, 20, "--vertices", 12, 12, self.folder / "plane.ply")
         shutil.copy(self.folder / "plane.ply", mesh)
-        scene = self.write("on_mesh.json", json.dumps(SCENE | {"surface": {"mesh": "out/surface.vtp", "unit": "mm"}}))
+        scene = self.write("on_mesh.json", json.dumps(SMALL | {"surface": {"mesh": "out/surface.vtp", "unit": "mm"}}))
         self.refused(3, "simulate", scene, "--out", self.out, says=("surface.vtp", "was read in this run"))
         mesh.unlink()
         for name in ("readings_used.csv", "waypoints.csv", "trace.csv"):
-            measured = self.write(f"out/{name}", MEASURED)
+            measured = self.write(f"out/{name}", self.readings)
             for command in ("plan", "boundary"):
                 self.refused(3, command, self.scene, "--measurements", measured, "--out", self.out, says=(name, "was read in this run"))
             measured.unlink()
@@ -130,7 +96,7 @@ class Files(unittest.TestCase):
         recording = self.write("out/measurements.csv", "x,y,reading\n" + rows)
         self.refused(3, "replay", self.scene, "--recording", recording, "--out", self.out, says=("measurements.csv", "was read in this run"))
         recording.unlink()
-        boundary = self.write("out/boundary.wkt", SQUARE)
+        boundary = self.write("out/boundary.wkt", self.square.read_text())
         self.refused(3, "compare", self.scene, boundary, self.square, "--out", self.out, says=("boundary.wkt", "was read in this run"))
         boundary.unlink()
         self.ends(0, *simulated)
@@ -140,7 +106,7 @@ class Files(unittest.TestCase):
         os.link(self.measured, self.out / "readings_used.csv")
         self.refused(3, *self.plan(), says=("readings_used.csv", "was read in this run"))
         (self.out / "readings_used.csv").unlink()
-        (self.out / "trace.csv").write_text(MEASURED)
+        (self.out / "trace.csv").write_text(self.readings)
         through = self.folder / "through.csv"
         through.symlink_to(self.out / "trace.csv")
         self.refused(3, "plan", self.scene, "--measurements", through, "--out", self.out, says=("trace.csv", "was read in this run"))
@@ -212,10 +178,10 @@ class Files(unittest.TestCase):
             self.assertEqual((self.out / name).read_text(), MINE)
 
     def test_plan_and_boundary_leave_measurements_alone_where_they_lie_in_the_folder(self):
-        measured = self.write("out/measurements.csv", MEASURED)
+        measured = self.write("out/measurements.csv", self.readings)
         for command, names in (("plan", PLANNED), ("boundary", BOUNDED)):
             self.ends(0, command, self.scene, "--measurements", measured, "--out", self.out, "--overwrite")
-            self.assertEqual(measured.read_text(), MEASURED)
+            self.assertEqual(measured.read_text(), self.readings)
             self.assertEqual(names_in(self.out), names | {"measurements.csv"})
             used = (self.out / "readings_used.csv").read_text().splitlines()
             self.assertEqual(used[0], "x,y,z,reading,noise_variance,batch,kind,tx,ty,tz,set_aside,operator")
@@ -223,7 +189,7 @@ class Files(unittest.TestCase):
             self.ends(0, "boundary", self.scene, "--measurements", self.out / "readings_used.csv")
 
     def test_rows_that_are_appended_while_a_plan_is_made_stay(self):
-        measured = self.write("out/measurements.csv", MEASURED)
+        measured = self.write("out/measurements.csv", self.readings)
         for row in range(8):
             run = subprocess.Popen([PALPATE, "plan", self.scene, "--measurements", measured, "--out", self.out, "--quiet"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
             for step in range(5):
@@ -485,7 +451,7 @@ class Files(unittest.TestCase):
         self.ends(0, "boundary", self.scene, "--measurements", torn)
 
     def test_a_nul_ends_no_scene(self):
-        text = json.dumps(SCENE)
+        text = json.dumps(SMALL)
         (self.folder / "nul.json").write_bytes(text.encode() + b"\n\0{}")
         self.refused(3, "simulate", self.folder / "nul.json", says="nul.json:2:1: not JSON: a NUL byte")
         self.write("nul.json", '{ "surface": { "mesh": "scene.json\\u0000.ply", "unit": "mm" } }')
@@ -498,7 +464,4 @@ class Files(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as alone:
-        PALPATE = pathlib.Path(shutil.copy(PALPATE, alone))  # away from palpate-draw: pictures take their time, and are tested elsewhere
-        tests = unittest.main(argv=sys.argv[:1] + sys.argv[2:], exit=False)
-    sys.exit(0 if tests.result.wasSuccessful() else 1)
+    main_without_pictures()

@@ -14,7 +14,8 @@ import sys
 import tempfile
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import PALPATE, palpate
+
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 ALL = sorted([ROOT / "README.md", *(path for folder in ("examples", "meshes", "src", "tests") for path in (ROOT / folder).rglob("README.md"))])
@@ -47,10 +48,6 @@ def sections(text):
     """How GitHub names the headings of a page."""
     headings = re.findall(r"^#+ +(.*)$", prose(text), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
-
-
-def palpate(*arguments):
-    return subprocess.run([PALPATE, *arguments], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
 
 
 class Readme(unittest.TestCase):

@@ -5,7 +5,6 @@ usage: report_test.py PALPATE PROJECT_ROOT [Page.test_... | Browser.test_...]   
 """
 
 import base64
-import csv
 import fcntl
 import hashlib
 import html.parser
@@ -23,7 +22,8 @@ import tempfile
 import time
 import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
+from support import PALPATE, palpate, rows_of
+
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 WEB = ROOT / "src" / "draw" / "report"
 CHROMIUM = next((found for found in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if found), None)
@@ -67,10 +67,6 @@ class Text(html.parser.HTMLParser):
 
     def named(self, tag):
         return [attributes for name, attributes in self.elements if name == tag]
-
-
-def palpate(*arguments, **options):
-    return subprocess.run([PALPATE, *map(str, arguments)], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL, **options)
 
 
 class Runs:
@@ -198,8 +194,7 @@ class Page(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         page = Text(page_of(run))
         listed = [attributes for attributes in page.named("tr") if attributes.get("id", "").startswith("reading-")]
-        with (run / "readings_used.csv").open() as table:
-            felt = list(csv.DictReader(table))
+        felt = rows_of(run / "readings_used.csv")
         self.assertEqual([attributes["id"] for attributes in listed], [f"reading-{i + 1}" for i in range(len(felt))])
         for attributes, row in zip(listed, felt):
             self.assertAlmostEqual(float(attributes["data-reading"].split()[0]), float(row["reading"]), delta=1e-3)

@@ -9,58 +9,14 @@ import os
 import pathlib
 import re
 import resource
-import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-PALPATE = pathlib.Path(sys.argv[1]).resolve()
-PATIENCE_S = 240
-
-SCENE = {
-    "surface": {"plane": {"size_mm": [20, 20], "vertices": [12, 12]}},
-    "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2},
-    "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 4}]},
-}
-MEASURED = "x,y,z,reading\n0.01,0.01,0,9\n0.002,0.003,0,7\n0.016,0.004,0,7.1\n"
-SQUARE = "POLYGON ((0.005 0.005, 0.015 0.005, 0.015 0.015, 0.005 0.015, 0.005 0.005))"
+from support import main_without_pictures, PALPATE, palpate, PATIENCE_S, SMALL, WithSmallScene
 
 
-def palpate(*arguments, **options):
-    options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | options
-    return subprocess.run([PALPATE, *map(os.fspath, map(lambda a: a if isinstance(a, (str, bytes, os.PathLike)) else str(a), arguments))], timeout=PATIENCE_S, **options)
-
-
-class Robustness(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        self.scene = self.write("scene.json", json.dumps(SCENE))
-        self.measured = self.write("measured.csv", MEASURED)
-        self.square = self.write("square.wkt", SQUARE)
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def skip(self, reason):
-        print(f"skipped: {reason}", file=sys.stderr)
-        self.skipTest(reason)
-
-    def ends(self, code, *arguments, says=(), **options):
-        """Runs the tool; checks its exit code and what it says on standard error. Returns that."""
-        result = palpate(*arguments, **options)
-        words = (result.stderr or b"").decode(errors="replace")
-        self.assertEqual(result.returncode, code, f"{arguments}: {words}")
-        for part in [says] if isinstance(says, str) else says:
-            self.assertIn(part, words, arguments)
-        return words
-
+class Robustness(WithSmallScene):
     # Arguments
 
     def test_wrong_usage_is_told_with_value_and_range(self):
@@ -151,7 +107,7 @@ class Robustness(unittest.TestCase):
         summary = json.loads((out / "summary.json").read_text())
         self.assertAlmostEqual(summary["error"]["extra_mm2"], 300.0, delta=1e-9)  # 20 x 20 - 10 x 10
         self.assertIn("384.00 mm2", summary["warnings"][0])
-        self.assertEqual(self.ends(0, "compare", self.scene, self.square, self.square), "")
+        self.assertEqual(palpate("compare", self.scene, self.square, self.square).stderr, "")
 
     def test_recordings_that_are_none_are_named(self):
         line = "".join(f"{0.001 * i},0.01,{i}\n" for i in range(20))
@@ -254,7 +210,7 @@ class Robustness(unittest.TestCase):
 
     def test_names_may_be_any_bytes(self):
         odd = pathlib.Path(os.fsdecode(os.fsencode(self.folder) + b"/odd \xff\xfe.json"))
-        odd.write_text(json.dumps(SCENE))
+        odd.write_text(json.dumps(SMALL))
         out = pathlib.Path(os.fsdecode(os.fsencode(self.folder) + b"/out \xff"))
         self.ends(0, "simulate", odd, "--out", out)
         self.assertIn("odd", json.loads((out / "summary.json").read_text())["scene"])
@@ -264,7 +220,9 @@ class Robustness(unittest.TestCase):
         measured = self.write("m.csv", "x,y,z,reading\n" + rows)
         out = self.folder / "out"
         for command in ("boundary", "plan"):
-            words = self.ends(0, command, self.scene, "--set", "level.value=8", "--measurements", measured, "--out", out, "--overwrite", "--quiet")
+            result = palpate(command, self.scene, "--set", "level.value=8", "--measurements", measured, "--out", out, "--overwrite", "--quiet")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            words = result.stderr
             told = json.loads((out / "summary.json").read_text())["warnings"]
             self.assertEqual([warning for warning in told if warning.startswith("Coarse: ")], ["Coarse: edges up to 2.57 mm exceed what a probe resolves (about 0.5 mm); set surface.refine_mm."] if command == "plan" else [])
             told = [warning for warning in told if not warning.startswith("Coarse: ")]
@@ -283,7 +241,4 @@ class Robustness(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as alone:
-        PALPATE = pathlib.Path(shutil.copy(PALPATE, alone))  # away from palpate-draw: pictures take their time, and are tested elsewhere
-        tests = unittest.main(argv=sys.argv[:1], exit=False)
-    sys.exit(0 if tests.result.wasSuccessful() else 1)
+    main_without_pictures()
