@@ -52,10 +52,11 @@ void check_shape(const py::array& array, const Argument& argument, py::ssize_t c
     refuse(argument, "has " + std::to_string(array.shape(0)) + " rows, must have at most 2^27");
 }
 
-/// Contiguous, rows first.
+/// Contiguous, rows first, and where numbers of that size may lie: numpy has arrays out of line.
 template <typename Number>
 py::array_t<Number, py::array::c_style> packed(const py::array& array) {
-  using Packed = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+  constexpr int kAligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+  using Packed = py::array_t<Number, py::array::c_style | py::array::forcecast | kAligned>;
   const Packed result = Packed::ensure(array);
   if (!result) throw py::error_already_set();
   return result;

@@ -6,6 +6,7 @@ usage: fuzz_arrays.py COUNT [FIRST_SEED]     with the package `palpation` on PYT
 """
 
 import sys
+import tempfile
 
 try:
     import numpy as np
@@ -173,6 +174,34 @@ def region(random):
     pp.Region.from_shape(a), pp.Region.from_wkt(a.wkt), a.contains(argument(random, 3, 2, 1.0))
 
 
+SCENE = {"surface": {"plane": {"size_mm": [6, 6], "vertices": [9, 9]}}, "plan": {"initial": {"count": 4}, "batch": 2, "batches": 1}}
+
+
+def session(random):
+    def perhaps(made):
+        return made if random.random() < 0.4 else None
+
+    with tempfile.TemporaryDirectory() as folder, pp.Session(SCENE, folder) as run:
+        count = len(run.next())
+        lines = len(run.journal)
+        try:
+            run.record(
+                argument(random, count, 0, 1.0),
+                perhaps(where(random, count)),
+                stop=perhaps(whole(random, count, 0, count)),
+                noise_variance=perhaps(argument(random, count, 0)),
+                travel=perhaps(argument(random, count, 3)),
+                t=perhaps(argument(random, count, 0)),
+            )
+        except WELCOME:
+            assert len(run.journal) == lines, "half told"
+            raise
+        run.touch_first(argument(random, 3, 0))
+        run.keep_out(argument(random, 3, 0), float(random.choice(SPECIALS)))
+        run.miss(whole(random, 2, 0, count))
+        run.next()
+
+
 CASES = [
     surface,
     region,
@@ -180,6 +209,7 @@ CASES = [
     conclude,
     explore,
     own_scores,
+    session,
     lambda random: TISSUE.project(argument(random, 4, 3)),
     lambda random: TISSUE.to_chart(where(random, 3)),
     lambda random: TISSUE.distance_from(where(random, 2)),
