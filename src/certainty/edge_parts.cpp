@@ -1,4 +1,5 @@
 // Which parts of a boundary's inside stand out by a contrast of their own.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -40,6 +41,11 @@ OwnParts EdgeBelief::parts_apart(const Field& field) const {
     if (misfit.kind == MisfitKind::WeakerPart && misfit.amount > 0.0)
       parts = with_part_at(std::move(parts), surface_, field, profile_.low, *misfit.where);
   }
+  // Along a rim, where tissue is held and contact fades, healthy tissue rises, too.
+  std::erase_if(parts, [&](const OwnPart& part) {
+    const auto is_inside = [&](int vertex) { return depth_[vertex] >= 0.0; };
+    return std::ranges::none_of(part.vertices, is_inside) && reaches_border(surface_, part);
+  });
   return parts;
 }
 

@@ -58,6 +58,7 @@ std::vector<Start> likely_starts(const Belief& belief, const FirstCuts& cuts, Ed
       if (best[kind] && !(edge.log_evidence > best[kind]->edge.log_evidence)) continue;
       best[kind] = Start{correction, data, std::move(prior_covariance), std::move(edge), distance};
     }
+    if (all.reading.size() > kMany) break;  // a second start is not worth their cost
   }
   std::vector<Start> starts;
   for (std::size_t kind = 0; kind < kOutlines.size(); ++kind) {

@@ -84,6 +84,12 @@ OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field
   return ordered(std::move(parts), field, low);
 }
 
+bool reaches_border(const Surface& surface, const OwnPart& part) {
+  return std::ranges::any_of(surface.border_loops(), [&](const std::vector<int>& loop) {
+    return share_one(part.vertices, loop);
+  });
+}
+
 std::vector<int> nearest_parts(const Layout& layout, const OwnParts& parts) {
   const std::vector<Vec3> at = layout.vertices();
   std::vector<int> nearest(at.size(), 0);

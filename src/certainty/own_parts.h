@@ -29,6 +29,8 @@ OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& f
 OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
                       const SurfacePoint& place);
 
+bool reaches_border(const Surface& surface, const OwnPart& part);
+
 /// The part that each vertex is nearest to: its number.
 std::vector<int> nearest_parts(const Layout& layout, const OwnParts& parts);
 

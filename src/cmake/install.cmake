@@ -40,7 +40,8 @@ endif()
 if(TARGET palpation_python)
   set(palpation_python_dir lib/python3/dist-packages/palpation)
   install(TARGETS palpation_python LIBRARY DESTINATION ${palpation_python_dir} COMPONENT python3-palpation EXCLUDE_FROM_ALL)
-  install(FILES src/python/palpation/__init__.py src/python/palpation/__init__.pyi src/python/palpation/py.typed
+  install(FILES src/python/palpation/__init__.py src/python/palpation/__init__.pyi src/python/palpation/_vtk.py src/python/palpation/_vtk.pyi
+          src/python/palpation/py.typed
           DESTINATION ${palpation_python_dir} COMPONENT python3-palpation EXCLUDE_FROM_ALL)
 endif()
 

@@ -44,7 +44,7 @@ def main():
         (wheel,) = pathlib.Path(folder).glob("palpation-*.whl")
         assert "cp3" in wheel.name and "linux" in wheel.name, wheel.name
         names = zipfile.ZipFile(wheel).namelist()
-        for name in ("__init__.py", "__init__.pyi", "py.typed"):
+        for name in ("__init__.py", "__init__.pyi", "_vtk.py", "_vtk.pyi", "py.typed"):
             assert f"palpation/{name}" in names, names
         place = os.path.join(folder, "installed")
         subprocess.run([*pip, "install", "--no-deps", "--no-index", "--target", place, str(wheel)], check=True, env=environment, cwd=folder)
