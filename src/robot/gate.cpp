@@ -1,5 +1,6 @@
 #include "palpation/robot/gate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,7 +11,7 @@
 namespace palpation {
 namespace {
 
-/// Clocks of two programs on one machine differ by no more.
+/// Clocks of two programs on one machine differ by no more, nor does one that is set right.
 constexpr double kFromTheFuture_s = 0.005;
 
 std::string stamp_fault(double stamp_s, double now_s, const char* what) {
@@ -51,7 +52,21 @@ Verdict Gate::held() const {
   return {Answer::Hold, "it holds until a person acknowledges: " + held_for_};
 }
 
+/// What was heard by a clock that then went back would look fresh until it is reached again.
+std::string Gate::clock_fault(double now_s) {
+  if (!std::isfinite(now_s)) return "the time " + text_of(now_s) + " is none";
+  const double back_s = heard_.now_s - now_s;
+  if (back_s <= kFromTheFuture_s) {
+    heard_.now_s = std::max(heard_.now_s, now_s);
+    return {};
+  }
+  heard_ = {.condition = heard_.condition, .now_s = now_s};
+  if (heard_.condition) heard_.condition->stamp_s = 0.0;  // it is said only when it changes
+  return "the time went back by " + ms_text(back_s) + ": all that was heard is of another time";
+}
+
 Verdict Gate::hear(const ArmPose& pose, double now_s) {
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (std::string fault = stamp_fault(pose.stamp_s, now_s, "pose"); !fault.empty())
     return hold(fault);
   if (std::string fault = pose_fault(pose); !fault.empty()) return hold("the arm says " + fault);
@@ -63,10 +78,12 @@ Verdict Gate::hear(const ArmPose& pose, double now_s) {
       return hold("the tip is " + mm_text(away_m) + " from where it was sent, more than " +
                   mm_text(limits_.motion.astray_m));
   }
+  if (std::string fault = pressed_fault(pose.position); !fault.empty()) return hold(fault);
   return held_for_.empty() ? Verdict{} : held();
 }
 
 Verdict Gate::hear(const ArmForce& force, double now_s) {
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (std::string fault = stamp_fault(force.stamp_s, now_s, "force"); !fault.empty())
     return hold(fault);
   if (!std::isfinite(force.force_n)) return hold("a force that is no number");
@@ -96,6 +113,7 @@ void Gate::warn_of_force() {
 }
 
 Verdict Gate::hear(const ArmCondition& condition, double now_s) {
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (std::string fault = stamp_fault(condition.stamp_s, now_s, "state"); !fault.empty())
     return hold(fault);
   if (!arm_state(condition.state))
@@ -115,6 +133,7 @@ Verdict Gate::hear_failure(const std::string& words) {
 }
 
 Verdict Gate::begin(const GateStop& stop, double now_s) {
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (!held_for_.empty()) return held();
   if (stop_) return hold("a touch begins before the last one is finished");
   if (std::string fault = staleness(heard_, limits_.data_age_s, now_s); !fault.empty())
@@ -142,6 +161,7 @@ Verdict Gate::begin(const GateStop& stop, double now_s) {
 }
 
 Verdict Gate::permit(Phase phase, const ArmPose& set_point, double now_s) {
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (!held_for_.empty()) return held();
   if (!stop_) return hold("a motion is asked for, and no touch has begun");
   if (Verdict late = watch(now_s); late.answer == Answer::Hold) return late;
@@ -162,6 +182,7 @@ Verdict Gate::permit(Phase phase, const ArmPose& set_point, double now_s) {
 }
 
 Verdict Gate::watch(double now_s) {
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (!held_for_.empty()) return held();
   if (!stop_) return {};
   if (std::string fault = staleness(heard_, limits_.data_age_s, now_s); !fault.empty())
@@ -209,6 +230,7 @@ Verdict Gate::finish(double now_s) {
 
 Verdict Gate::acknowledge(double now_s) {
   if (held_for_.empty()) return {};
+  if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   std::string reason = staleness(heard_, limits_.data_age_s, now_s);
   if (reason.empty()) reason = unreadiness(heard_);
   if (reason.empty() && std::abs(heard_.force->force_n) >= limits_.force.hold_n)

@@ -59,8 +59,13 @@ std::string Gate::order_fault(Phase phase) const {
     return is_back ? "" : "a way in the air that begins in the tissue: go back first";
   }
   if (before == Phase::Retract) return "a way down before the tip is in the air again";
-  if (phase == Phase::Search)
-    return motion_.contact ? "a search for contact, and the tip touches: press or go back" : "";
+  if (phase == Phase::Search && motion_.contact)
+    return "a search for contact, and the tip touches: press or go back";
+  // Contact is where the force rises: it must not have risen before.
+  if (phase == Phase::Search && before == Phase::Air && !motion_.sent &&
+      height_(heard_.pose->position) < limits_.uncertainty_m)
+    return "a search that begins in the tissue: go back first";
+  if (phase == Phase::Search) return {};
   return motion_.contact ? "" : "a press before the tip has touched";
 }
 
@@ -72,7 +77,9 @@ std::string Gate::step_fault(Phase phase, const ArmPose& set_point, double now_s
     return "a step of " + mm_text(step_m) + ", more than " + mm_text(limit.step_m);
   const bool in_contact = phase != Phase::Air;
   const double speed_limit = in_contact ? limit.contact_m_per_s : limit.air_m_per_s;
-  const double taken_s = now_s - (motion_.sent ? from.stamp_s : motion_.begun_s);
+  // Who waited may not jump: in contact a step is force before anybody has felt it.
+  const double taken_s =
+      std::min(now_s - (motion_.sent ? from.stamp_s : motion_.begun_s), limits_.data_age_s);
   if (!(step_m <= speed_limit * taken_s * (1.0 + kRounding)))
     return "a step of " + mm_text(step_m) + " in " + ms_text(taken_s) + ", faster than " +
            mm_per_s_text(speed_limit) + (in_contact ? " at the tissue" : " in the air");
@@ -105,6 +112,16 @@ std::string Gate::depth_of_search(const Vec3& position) const {
   const double searched_m = limits_.uncertainty_m + limits_.extra_indent_m;
   if (depth_m <= searched_m + kRounding) return {};
   return "no contact down to " + mm_text(searched_m) + " below where the tissue is taken to be";
+}
+
+/// The tip itself may be deeper than where it was sent.
+std::string Gate::pressed_fault(const Vec3& tip) const {
+  if (!stop_ || !motion_.contact) return {};
+  const double pressed_m = (*motion_.contact - tip).dot(stop_->normal);
+  const double most_m = stop_->indent_m + limits_.extra_indent_m + limits_.motion.arrival_m;
+  if (pressed_m <= most_m) return {};
+  return "the tip is " + mm_text(pressed_m) + " deeper than where it touched, more than " +
+         mm_text(most_m);
 }
 
 std::string Gate::depth_fault(Phase phase, const Vec3& position) const {

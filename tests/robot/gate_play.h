@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -42,11 +43,13 @@ class Oracle {
     stop_ = stop, has_sent_ = false, begun_s_ = now_s;
   }
   void hears(const ArmPose& pose, double now_s) {
+    look_at_clock(now_s);
     const bool is_sound = pose.position.allFinite() && pose.frame == limits_.frame &&
                           std::abs(pose.quaternion.norm() - 1.0) < 0.01;
     if (is_sound && is_newer(pose.stamp_s, pose_.stamp_s, now_s)) pose_ = pose;
   }
   void hears(const ArmForce& force, double now_s) {
+    look_at_clock(now_s);
     if (std::isfinite(force.force_n) && is_newer(force.stamp_s, force_.stamp_s, now_s))
       force_ = force;
   }
@@ -59,6 +62,7 @@ class Oracle {
     const auto deny = [&](bool is_wrong, const char* what) {
       if (is_wrong && fault.empty()) fault = what;
     };
+    look_at_clock(now_s);
     const Vec3& p = sent.position;
     deny(is_held_, "after a hold");
     deny(!p.allFinite() || !sent.quaternion.allFinite(), "not finite");
@@ -70,7 +74,7 @@ class Oracle {
     deny(std::abs(force_.force_n) >= limits_.force.warn_n && phase != Phase::Retract,
          "the force to go back from");
     const Vec3 from = has_sent_ ? sent_.position : pose_.position;
-    const double since_s = now_s - (has_sent_ ? sent_.stamp_s : begun_s_);
+    const double since_s = std::min(0.050, now_s - (has_sent_ ? sent_.stamp_s : begun_s_));
     const double step_m = (p - from).norm();
     deny(step_m > limits_.motion.step_m * 1.000001, "step");
     const double speed = phase == Phase::Air ? 0.030 : 0.005;
@@ -95,6 +99,11 @@ class Oracle {
   }
 
  private:
+  /// What came before a clock went back is of no time.
+  void look_at_clock(double now_s) {
+    if (now_s < last_s_ - 0.005) pose_.stamp_s = force_.stamp_s = 0.0;
+    last_s_ = now_s < last_s_ - 0.005 ? now_s : std::max(last_s_, now_s);
+  }
   static bool is_newer(double stamp_s, double last_s, double now_s) {
     return stamp_s > 0.0 && stamp_s <= now_s + 0.005 && stamp_s >= last_s;
   }
@@ -104,7 +113,7 @@ class Oracle {
   ArmPose pose_, sent_;
   ArmForce force_;
   Vec3 contact_ = Vec3::Zero();
-  double begun_s_ = 0.0;
+  double begun_s_ = 0.0, last_s_ = 0.0;
   bool has_sent_ = false, is_held_ = false;
 };
 
@@ -191,12 +200,16 @@ class GatePlay {
     return verdict.answer != Answer::Hold;
   }
 
-  /// One set point, as it should be or not.
+  /// One set point, as it should be or not: of one who waited and wants to make up for it, too.
   bool send(Phase phase, const Vec3& goal, double speed) {
+    if (wild())
+      for (int ticks = random_.below(12); ticks > 0; --ticks) tell_all();
     const Vec3 way = goal - tip_;
-    const double step_m = std::min(way.norm(), 0.9 * speed * kTick_s);
+    const double greed = wild() ? 1.2 * random_.uniform() : 0.9;
+    const double step_m =
+        std::min(way.norm(), greed * speed * std::max(kTick_s, now_ - last_sent_s_));
     const Vec3 next = way.norm() > 0 ? Vec3(tip_ + step_m * way.normalized()) : tip_;
-    if (wild()) now_ += 0.2 * random_.uniform();
+    if (wild()) now_ += 0.4 * random_.uniform() - 0.2;
     ArmPose set_point = pose_at(next, now_, axis_);
     if (wild()) spoil(set_point);
     if (wild()) phase = static_cast<Phase>(random_.below(4));
@@ -211,6 +224,7 @@ class GatePlay {
         !fault.empty() && counts_.fault.empty())
       counts_.fault = fault + ", in command " + std::to_string(counts_.commands);
     tip_ = set_point.position;
+    last_sent_s_ = now_;
     return true;
   }
 
@@ -239,6 +253,7 @@ class GatePlay {
     if (!tip_.allFinite() || tip_.norm() > 1.0) tip_ = Vec3(0, 0, 0.02);
     last_pose_told_ = tip_;
     tell_all();
+    last_sent_s_ = now_;
     const Verdict begun = gate_.begin(stop, now_);
     note(begun);
     if (begun.is_go()) {
@@ -268,7 +283,7 @@ class GatePlay {
   Gate gate_;
   Oracle oracle_;
   Counts counts_;
-  double now_ = 1.0, lift_ = 0.0;
+  double now_ = 1.0, last_sent_s_ = 1.0, lift_ = 0.0;
   Vec3 tip_ = Vec3::Zero(), last_pose_told_ = Vec3::Zero(), axis_ = -Vec3::UnitZ();
 };
 

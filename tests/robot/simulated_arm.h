@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "palpation/base/random.h"
 #include "palpation/robot/gate.h"
@@ -35,12 +36,14 @@ struct SimulatedArm {
   ArmFault fault = ArmFault::None;
   double fault_from_s = 1e9;
   std::uint64_t seed = 1;
+  int late_ticks = 0;  ///< so late a force comes, and says so
 
   double now_s = 1.0;
   Vec3 tip = Vec3(0.0, 0.0, 0.006);
   double most_n = 0.0;
   double held_at_s = 0.0;    ///< 0: not yet
   int sent_after_fault = 0;  ///< permitted more than 100 ms after it
+  bool is_read_in_fault = false;
   Random random{seed};
 
   bool is_faulty() const { return now_s >= fault_from_s; }
@@ -65,8 +68,10 @@ struct SimulatedArm {
       note(gate.hear(pose, now_s));
     }
     if (!has(ArmFault::StaleForce) && !has(ArmFault::KilledMaster)) {
-      if (!has(ArmFault::StuckForce)) last_n = force_n() + 1e-5 * random.normal();
-      note(gate.hear(ArmForce{now_s, last_n}, now_s));
+      forces_n.push_back(force_n() + 1e-5 * random.normal());
+      const int felt = std::max(0, static_cast<int>(forces_n.size()) - 1 - late_ticks);
+      if (!has(ArmFault::StuckForce)) last_n = forces_n[static_cast<std::size_t>(felt)];
+      note(gate.hear(ArmForce{now_s - late_ticks * kTick_s, last_n}, now_s));
     }
     if (!has(ArmFault::KilledMaster)) {
       ArmCondition condition{now_s, has(ArmFault::StateFault) ? "FAULT" : "ENABLED",
@@ -115,6 +120,7 @@ struct SimulatedArm {
       const Verdict reading = gate.reading_allowed(now_s);
       note(reading);
       is_read = reading.is_go();
+      is_read_in_fault |= is_read && now_s > fault_from_s + 0.1;
     }
     for (int i = 0; i < 50 && has(fault); ++i) send(Phase::Retract, stop.standoff_m, 0.005);
     if (gate.held_for().empty()) go(Phase::Retract, stop.standoff_m, 0.005);
@@ -122,6 +128,15 @@ struct SimulatedArm {
     return is_read;
   }
 
+  /// The fault is over, a person has looked and taken the tip up: a whole touch.
+  bool goes_on(const GateStop& stop) {
+    fault = ArmFault::None;
+    tip = stop.surface + 0.006 * stop.normal;
+    for (int i = 0; i < 10; ++i) tell();
+    return gate.acknowledge(now_s).is_go() && touch(stop) && gate.held_for().empty();
+  }
+
+  std::vector<double> forces_n{};
   double last_n = 0.0;
   Verdict last{};
 };

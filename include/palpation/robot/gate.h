@@ -8,10 +8,11 @@
 /// Laws, whatever it is told and in whatever order: (1) what is permitted is finite, in the frame,
 /// the box and the cone, within step and speed of the set point before, over the tissue in the air,
 /// no deeper in search than the uncertainty and the extra indentation allow, and after contact no
-/// deeper than planned and the extra; (2) it rests on a pose and a force no older than the data
-/// age; (3) from warn_n on only a retreat is permitted, from hold_n on nothing; (4) after any
-/// answer Hold nothing is permitted until acknowledge; (5) limits of force and of indentation never
-/// grow. It has no clock: times are arguments, in seconds, those of messages on the same clock.
+/// deeper than planned and the extra, and no wait earns a step longer than a data age does; (2) it
+/// rests on a pose and a force no older than the data age, by a clock that does not go back; (3)
+/// from warn_n on only a retreat is permitted, from hold_n on nothing; (4) after any answer Hold
+/// nothing is permitted until acknowledge; (5) limits of force and of indentation never grow. It
+/// has no clock: times are arguments, in seconds, those of messages on the same clock.
 ///
 /// It is no certified safety: it knows what it is told, and tissue that moves is not modelled.
 #pragma once
@@ -87,6 +88,7 @@ class Gate {
   };
 
   Verdict hold(const std::string& words);
+  std::string clock_fault(double now_s);
   Verdict held() const;
   void warn_of_force();
   std::string pose_fault(const ArmPose& pose) const;
@@ -94,6 +96,7 @@ class Gate {
   std::string step_fault(Phase phase, const ArmPose& set_point, double now_s) const;
   std::string place_fault(Phase phase, const ArmPose& set_point) const;
   std::string depth_of_search(const Vec3& position) const;
+  std::string pressed_fault(const Vec3& tip) const;
   std::string depth_fault(Phase phase, const Vec3& position) const;
   std::string cone_fault(Phase phase, const ArmPose& set_point) const;
 

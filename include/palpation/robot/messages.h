@@ -37,6 +37,7 @@ struct ArmHeard {
   std::optional<ArmForce> force{};
   std::optional<ArmCondition> condition{};
   double force_since_s = 0.0;  ///< it is the same to the last bit since then
+  double now_s = 0.0;          ///< the latest time that was told
 };
 
 /// Where a plan wants to touch.
