@@ -437,6 +437,23 @@ class Files(WithSmallScene):
 
     # What is given
 
+    def test_what_can_be_no_folder_is_said_to_be_none(self):
+        for out, words in ((self.scene, "scene.json: cannot make this folder"), (self.measured, "cannot make this folder"), (self.measured / "below", "cannot make this folder"),
+                           ("/dev/null", "/dev/null: cannot make this folder")):
+            self.refused(4, "plan", self.scene, "--measurements", self.measured, "--out", out, says=words)
+
+    def test_a_persons_other_name_for_a_result_keeps_its_bytes(self):
+        self.ends(0, "simulate", self.scene, "--out", self.out)
+        kept = {}
+        for name in ("summary.json", "measurements.csv", "steps/step_000.vtp"):
+            other = self.folder / f"kept_{pathlib.PurePath(name).name}"
+            os.link(self.out / name, other)
+            kept[other] = other.read_bytes()
+        self.ends(0, "simulate", self.scene, "--out", self.out, "--seed", 5, "--overwrite")
+        for other, content in kept.items():
+            self.assertEqual(other.read_bytes(), content)
+        self.assertNotEqual((self.out / "measurements.csv").read_bytes(), kept[self.folder / "kept_measurements.csv"])
+
     def test_an_empty_name_is_no_folder(self):
         for command in (("simulate", self.scene), ("experiment", "figure4")):
             self.refused(2, *command, "--out", "", says="--out: is empty, but must name a folder")
