@@ -88,6 +88,11 @@ class Newcomer(InFolder):
     def test_every_command_and_every_key_has_help(self):
         self.assertEqual(self.done("help", "plan").stdout, self.done("plan", "--help").stdout.replace(str(PALPATE), "palpate"))
         self.assertIn("--points", self.done("help", "mesh", "surface").stdout)
+        self.assertEqual(self.done("help").stdout, self.done("--help").stdout.replace(str(PALPATE), "palpate"))
+        for command, words in (("mesh", "plane dome folded"), ("experiment", "table1 coverage merge")):
+            for word in words.split():
+                self.assertEqual(self.done("help", command, word).stdout, self.done("help", command).stdout)
+            self.assertEqual(palpate("help", command, "nothing").returncode, 2)
         metric = self.done("help", "field.metric").stdout
         self.assertTrue(metric.startswith("field.metric\n") and "chart | ambient | intrinsic" in metric, metric)
         robot = self.done("help", "robot").stdout
