@@ -6,6 +6,7 @@
 #include "palpation/base/error.h"
 #include "results/markups.h"
 #include "results/shown.h"
+#include "results/slicer_scene.h"
 #include "results/tables.h"
 
 namespace palpation::results {
@@ -70,13 +71,18 @@ VtpShape dots_of(const std::vector<Vec3>& places) {
 /// hundred.
 Files for_slicer(const Run& run, Frame frame) {
   Files files = files_of_models(run, LengthUnit::Millimetre, frame);
-  for (const NamedMarks& list : marks_of(run))
+  const std::vector<NamedMarks> lists = marks_of(run);
+  for (const NamedMarks& list : lists)
     if (!list.marks.empty())
       files[list.name + ".mrk.json"] = markups_json(list.name, list.marks, frame, list.colour);
   std::vector<Touch> way;
   for (const Touch& touch : run.touches)
     if (touch.kind == "way" && touch.counts()) way.push_back(touch);
   add_model(files, "way.vtp", dots_of(way), LengthUnit::Millimetre, frame);
+  std::vector<std::string> models;
+  for (const auto& [name, unused] : files)
+    if (name.ends_with(".vtp")) models.push_back(name.substr(0, name.size() - 4));
+  files[kSlicerScene] = slicer_scene(run, models, lists, frame);
   return files;
 }
 

@@ -5,6 +5,7 @@
 
 #include "palpation/base/error.h"
 #include "results/export.h"
+#include "results/slicer_scene.h"
 #include "scene/patient_frame.h"
 #include "tool/export_folder.h"
 
@@ -22,10 +23,10 @@ Frame frame_for(const ExportArguments& arguments, const results::Run& run) {
 }
 
 std::string where_words(Program program, const fs::path& folder) {
-  const std::string name = folder.string();
   switch (program) {
     case Program::Slicer:
-      return "In 3D Slicer: drag the files of " + name + " into its window, as models and markups.";
+      return "In 3D Slicer: drag " + (folder / results::kSlicerScene).string() +
+             " into its window for all of it, in colour; or single files, as models and markups.";
     case Program::ParaView:
       return "In ParaView: open " + (folder / "palpation.pvd").string() +
              "; the batches of a run are steps.pvd beside its surface.vtp.";

@@ -10,6 +10,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 from support import palpate, rows_of
 
@@ -216,6 +217,32 @@ class Export(unittest.TestCase):
             self.assertEqual(len(point["position"]), 3)
             self.assertEqual(point["positionStatus"], "defined")
             self.assertRegex(point["description"], r"^reading [0-9.]+ N/mm, batch [0-3]$")
+
+    def test_slicers_scene_opens_every_file_in_its_colour(self):
+        out = self.export("slicer", "--frame", "LPS")
+        nodes = list(xml.etree.ElementTree.parse(out / "palpation.mrml").getroot())
+        by_id = {node.get("id"): node for node in nodes}
+        self.assertEqual(len(by_id), len(nodes))
+        for node in nodes:
+            self.assertTrue(node.get("id").startswith(f"vtkMRML{node.tag}Node"))
+        shown, files = {}, set()
+        for node in nodes:
+            if node.tag not in ("Model", "MarkupsFiducial"):
+                continue
+            storage, display = by_id[node.get("storageNodeRef")], by_id[node.get("displayNodeRef")]
+            self.assertEqual(storage.get("fileName").split(".")[0], node.get("name"))
+            self.assertEqual(storage.get("coordinateSystem"), "LPS" if node.tag == "Model" else None)  # without one, Slicer takes a model for RAS
+            files.add(storage.get("fileName"))
+            shown[node.get("name")] = display
+        self.assertEqual(files, names_in(out) - {"palpation.mrml", "export.json"})
+        self.assertEqual(len({display.get("color") for display in shown.values()}), len(shown))
+        tissue = shown["tissue"]
+        self.assertEqual((tissue.get("scalarVisibility"), tissue.get("activeScalarName"), tissue.get("scalarRangeFlag")), ("true", "mean", "UseManual"))
+        low, high = map(float, tissue.get("scalarRange").split())
+        self.assertAlmostEqual((low + high) / 2, self.summary["level"], delta=0.02 * (high - low))
+        self.assertEqual([name for name, display in shown.items() if display.get("visibility") == "false"], ["band", "tumour"])
+        marks = json.loads((out / "touches.mrk.json").read_text())["markups"][0]
+        self.assertEqual(list(map(float, shown["touches"].get("selectedColor").split())), marks["display"]["selectedColor"])
 
     def test_tables_name_their_units_and_hold_what_the_run_holds(self):
         out = self.export("csv")
