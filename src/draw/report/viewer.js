@@ -340,17 +340,32 @@ function drawLabels() {
   while (labels.childElementCount > shown.length) labels.lastChild.remove();
   while (labels.childElementCount < shown.length) labels.append(document.createElement('span'));
   const view = camera.position.clone().sub(controls.target).normalize(), place = new T.Vector3();
+  const taken = [];
   shown.forEach((touch, i) => {
     const label = labels.children[i];
     place.copy(touch.place).project(camera);
     label.textContent = touch.kind === KIND.next ? `+${touch.n}` : touch.n;
-    label.style.left = `${(place.x + 1) / 2 * canvas.clientWidth}px`;
-    label.style.top = `${(1 - place.y) / 2 * canvas.clientHeight}px`;
     label.hidden = Math.abs(place.x) > 1 || Math.abs(place.y) > 1 || normalAt(touch).dot(view) < 0.02;
+    if (label.hidden) return;
+    const [left, top] = freePlace((place.x + 1) / 2 * canvas.clientWidth, (1 - place.y) / 2 * canvas.clientHeight, label.textContent.length, taken);
+    label.style.left = `${left}px`;
+    label.style.top = `${top}px`;
   });
 }
 
+/** Of a number beside a touch: above to the right, or where no other number is. */
+function freePlace(x, y, digits, taken) {
+  const width = 8 * digits + 2, height = 13;  // of a label's font, in pixels
+  const right = x + 6, left = x - 6 - width, above = y - 19, below = y + 6;
+  const isFree = ([at, top]) => taken.every((other) => other.at + other.width < at || at + width < other.at || Math.abs(other.top - top) > height);
+  const places = [[right, above], [right, below], [left, above], [left, below]];
+  const [at, top] = places.find(isFree) || places[0];
+  taken.push({at, top, width});
+  return [at, top];
+}
+
 let waiting = false;
+/** With the next frame; the page is ready once the first is there. */
 function draw() {
   if (waiting) return;
   waiting = true;
@@ -360,6 +375,7 @@ function draw() {
     renderer.render(scene, camera);
     drawScaleBar();
     drawLabels();
+    document.documentElement.dataset.ready = 'yes';
   });
 }
 
@@ -570,5 +586,4 @@ new ResizeObserver(() => {
 
 resetView();
 showState(run.states.length - 1);
-document.documentElement.dataset.ready = 'yes';
 })();
