@@ -7,6 +7,7 @@ usage: arm_test.py PALPATE PROJECT_ROOT [Arm.test_...]        needs numpy; ends 
 import pathlib
 import random
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -26,7 +27,7 @@ from palpation_arm import wrist  # noqa: E402
 from palpation_arm.driver import Driver, Held  # noqa: E402
 from palpation_arm.in_process import InProcess  # noqa: E402
 from palpation_arm.poses import on_the_way, unit  # noqa: E402
-from palpation_arm.serve import Serve  # noqa: E402
+from palpation_arm.serve import Gone, Serve  # noqa: E402
 from palpation_arm.simulated_psm import AFTER, FAULTS, SimulatedPsm  # noqa: E402
 from palpation_arm.world import World  # noqa: E402
 
@@ -221,6 +222,32 @@ class Arm(unittest.TestCase):
         with self.assertRaisesRegex(Held, "touches something in the air"):
             self.driver(arm).run()
         self.assertEqual(rows_of(self.session), [])
+
+    def test_what_came_while_a_plan_was_made_is_told_whole(self):
+        arm = self.arm()
+        driver = self.driver(arm)
+        for _ in range(3000):  # half a minute
+            arm.wait()
+        self.assertGreater(len(arm.messages), 8000)
+        driver.tick()
+        self.assertEqual(arm.messages, [])
+        self.assertIsNone(arm.held_s)
+
+    def test_a_gate_that_does_not_answer_in_time_is_a_hold(self):
+        arm = self.arm()
+        driver = self.driver(arm)
+        self.addCleanup(driver.serve.process.kill)
+
+        def send(set_point):
+            InProcess.send(arm, set_point)
+            if len(arm.sent) == 50:
+                driver.serve.process.send_signal(signal.SIGSTOP)
+
+        arm.send = send
+        with self.assertRaisesRegex(Gone, "does not answer within 2 s"):
+            driver.run()
+        self.assertEqual(len(arm.sent), 50)
+        self.assertEqual(arm.held_s, arm.now())
 
     def program(self, *words, answers=""):
         return subprocess.run([sys.executable, ROOT / "src" / "robot" / "ros" / "palpate-arm", self.shared / "scene.json", self.session, "--palpate", PALPATE, *words],

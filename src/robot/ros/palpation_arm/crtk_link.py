@@ -87,7 +87,7 @@ class CrtkLink:
             try:
                 ping()
             except Exception as error:
-                self.say({"what": "failure", "words": f"the ROS master does not answer: {error}"})
+                self.say({"what": "failure", "words": str(error)})
             time.sleep(MASTER_EVERY_S)
 
     def say(self, message):

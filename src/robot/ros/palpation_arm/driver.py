@@ -8,7 +8,7 @@ import math
 
 from palpation_arm.poses import dot, minus, norm, on_the_way, plus, turn_between
 from palpation_arm.reading import Felt
-from palpation_arm.serve import Refused
+from palpation_arm.serve import Gone, Refused
 from palpation_arm.way import approach, rotation, stop_below, triple, way_to
 
 SHARE = 0.9  # of the speeds that the gate permits
@@ -40,12 +40,15 @@ class Driver:
     # The gate
 
     def gate(self, requests):
-        """The last answer. Throws Held."""
+        """The last answer. Throws Held, and Gone, where the arm holds too, if there is none in time."""
         now = self.arm.now()
         try:
             answers = self.serve.ask_all([{"do": "gate", "now": now, **request} for request in requests])
         except Refused as refused:
             answers = self.serve.ask_all([{"do": "gate", "now": now, "what": "failure", "words": str(refused)}])
+        except Gone:
+            self.arm.hold()
+            raise
         for request, answer in zip(requests, answers):
             self.learn(request, answer)
         return answers[-1]

@@ -39,9 +39,14 @@ class RospyRal:
         return self.rospy.is_shutdown()
 
 
+def is_ros_1():
+    """Said by ROS_VERSION, which Debian leaves unset and crtk wants."""
+    return os.environ.setdefault("ROS_VERSION", "1" if os.path.isdir("/usr/lib/python3/dist-packages/rospy") else "2") == "1"
+
+
 def ral_of(node_name, namespace):
     """Throws ImportError where there is neither crtk nor rospy."""
-    os.environ.setdefault("ROS_VERSION", "1" if os.path.isdir("/usr/lib/python3/dist-packages/rospy") else "2")
+    is_ros_1()
     try:
         import crtk
     except ImportError:

@@ -14,6 +14,7 @@ def dry_run(opened, plan, limits):
     lines += [
         f"Plan {plan['plan']}: {len(stops)} of {len(plan['stops'])} stops are open. Millimetres in the frame '{limits['frame']}':",
         f"  the tip stays in the box {in_mm(limits['box_least'])} to {in_mm(limits['box_most'])}",
+        f"  where the tissue is: {limits['registration']}",
         f"  at most {1000 * limits['air_m_per_s']:g} mm/s in the air, {1000 * limits['contact_m_per_s']:g} mm/s at the tissue",
         f"  touches from {limits['contact_n']:g} N, goes back from {limits['warn_n']:g} N, holds from {limits['hold_n']:g} N",
         f"  the tissue is looked for within {1000 * limits['uncertainty_m']:g} mm of where it is taken to be, and {1000 * limits['extra_indent_m']:g} mm below",
