@@ -30,6 +30,20 @@ double mean_half_width(const Surface& surface, const Field& score, double band_s
   return 0.5 * area / length;
 }
 
+/// One more standard deviation, `more`, beside `sd`, which the score was divided by.
+Certainty doubted(Certainty certainty, const Surface& surface, const Field& sd, const Field& more) {
+  const double before = certainty.half_width_m;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    if (sd[vertex] > 0.0)
+      certainty.score[vertex] *= sd[vertex] / std::hypot(sd[vertex], more[vertex]);
+  }
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  if (before == 0.0) return certainty;
+  certainty.expected.missed_m2 *= certainty.half_width_m / before;
+  certainty.expected.extra_m2 *= certainty.half_width_m / before;
+  return certainty;
+}
+
 void check_probability(double probability) {
   require(probability > 0.0 && probability < 1.0, "certainty_of",
           "probability = " + text_of(probability), "must lie in (0, 1)");
@@ -90,21 +104,17 @@ Certainty without_part(Certainty certainty, const Surface& surface, std::span<co
 Certainty doubted_where_contact_fades(Certainty certainty, const Surface& surface,
                                       const FadingContact& fading, const Field& sd,
                                       double whole_loss) {
-  const double before = certainty.half_width_m;
   const Eigen::VectorXd along = surface.mesh().vertices * fading.towards;
   const double start = along.minCoeff(), length = along.maxCoeff() - start;
   const double farthest = fading.base_fall * whole_loss;
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    const double here = std::max(sd[vertex], 1e-12 * farthest);
-    if (here > 0.0)
-      certainty.score[vertex] *=
-          here / std::hypot(here, farthest * (along[vertex] - start) / length);
-  }
-  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
-  if (before == 0.0) return certainty;
-  certainty.expected.missed_m2 *= certainty.half_width_m / before;
-  certainty.expected.extra_m2 *= certainty.half_width_m / before;
-  return certainty;
+  const Field here = sd.array().max(1e-12 * farthest);
+  return doubted(std::move(certainty), surface, here, farthest * (along.array() - start) / length);
+}
+
+Certainty doubted_as_a_whole(Certainty certainty, const Surface& surface, const Field& offset_sd_m,
+                             double place_sd_m) {
+  return doubted(std::move(certainty), surface, offset_sd_m,
+                 Field::Constant(surface.vertex_count(), place_sd_m));
 }
 
 Certainty doubted_where_untouched(Certainty certainty, const Belief& belief,

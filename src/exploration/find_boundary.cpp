@@ -66,6 +66,12 @@ Certainty with_fading_contact(Certainty certainty, const Surface& surface, const
                                      fraction * contrast);
 }
 
+/// In metres, where no boundary has a belief of its own: from the band that the field gave; zero
+/// where there is no band.
+Field mean_offset_sd(const Surface& surface, const Certainty& certainty) {
+  return Field::Constant(surface.vertex_count(), certainty.half_width_m / certainty.band_score);
+}
+
 }  // namespace
 
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
@@ -84,12 +90,18 @@ Certainty certainty_of(const Surface& surface, const Model& model, const Believe
                        const Marginals& component, const BoundaryFit& boundary) {
   const ProbeModel& probe = model.field.probe;
   Certainty certainty = boundary.edge
-                            ? certainty_of(surface, *boundary.edge, model.band_probability)
+                            ? certainty_of(surface, *boundary.edge, model.band.probability)
                             : certainty_of(surface, believed.belief, component, *boundary.level,
-                                           model.band_probability);
+                                           model.band.probability);
   if (probe.screening)
     certainty =
         with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);
+  if (model.band.place_sd_m > 0.0) {
+    const Field offset_sd_m =
+        boundary.edge ? boundary.edge->offset_sd() : mean_offset_sd(surface, certainty);
+    certainty =
+        doubted_as_a_whole(std::move(certainty), surface, offset_sd_m, model.band.place_sd_m);
+  }
   if (probe.indenter_radius_m > 0.0)
     certainty = less_tip(std::move(certainty), surface, probe.indenter_radius_m);
   if (boundary.edge)

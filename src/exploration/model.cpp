@@ -15,11 +15,13 @@ Kernel kernel_of(const KernelModel& model) {
 }
 
 void check(const Model& model) {
-  const double fraction = model.level.fraction, probability = model.band_probability;
+  const double fraction = model.level.fraction, probability = model.band.probability;
   require(fraction > 0.0 && fraction < 1.0, "LevelRule", "fraction = " + text_of(fraction),
           "must lie in (0, 1)");
   require(probability > 0.0 && probability < 1.0, "Model",
-          "band_probability = " + text_of(probability), "must lie in (0, 1)");
+          "band.probability = " + text_of(probability), "must lie in (0, 1)");
+  require(std::isfinite(model.band.place_sd_m) && model.band.place_sd_m >= 0.0, "Model",
+          "band.place_sd_m = " + text_of(model.band.place_sd_m), "must be finite and not negative");
   const Contrast& contrast = model.contrast;
   if (!contrast.least) return;
   const bool is_factor = contrast.scale == ReadingScale::Log;

@@ -39,7 +39,9 @@ std::string unreadiness(const ArmHeard& heard) {
 
 std::string Gate::pose_fault(const ArmPose& pose) const {
   if (pose.frame != limits_.frame)
-    return "a pose in the frame '" + pose.frame.substr(0, 40) + "', not in '" + limits_.frame + "'";
+    return "a pose in the frame '" + pose.frame.substr(0, 40) + "', " +
+           (limits_.frame.empty() ? "and it was not said which is the robot's (robot.frame)"
+                                  : "not in '" + limits_.frame + "'");
   if (!pose.position.allFinite() || !pose.quaternion.allFinite()) return "a pose that is no number";
   if (pose.position.cwiseAbs().maxCoeff() > 1e3)
     return "a pose " + place_text(pose.position) + ", kilometres away: is it in millimetres?";

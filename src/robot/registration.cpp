@@ -129,6 +129,23 @@ void check_hold(const Rows6& rows, double reach_m) {
           "cylinder can. Touch where it curves otherwise, or register by pairs alone");
 }
 
+/// The greatest over the vertices of what a place's covariance and the normal there give, as the
+/// distance that 95 % stay within.
+template <typename Variance>
+double greatest_m(const Surface& surface, const Registration& registration,
+                  const Variance& variance) {
+  const Eigen::Isometry3d from_tissue(registration.from_tissue);
+  double most = 0.0;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const Vec3 normal = from_tissue.linear() * surface.vertex_normals().row(vertex).transpose();
+    const Eigen::Matrix<double, 3, 6> moves =
+        moves_of(from_tissue * surface.vertex(vertex) - registration.centre);
+    const Eigen::Matrix3d covariance = moves * registration.covariance * moves.transpose();
+    most = std::max(most, variance(covariance, normal));
+  }
+  return kTwoSided95 * std::sqrt(most);
+}
+
 }  // namespace
 
 Registration register_pairs(std::span<const TouchedPair> pairs, double touch_sd_m) {
@@ -211,15 +228,20 @@ Registration refine_on_surface(const Surface& surface, std::span<const Vec3> tou
 }
 
 double uncertainty_along_normal_m(const Surface& surface, const Registration& registration) {
-  const Eigen::Isometry3d from_tissue(registration.from_tissue);
-  double most = 0.0;
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    const Vec3 normal = from_tissue.linear() * surface.vertex_normals().row(vertex).transpose();
-    const Eigen::Matrix<double, 1, 6> row =
-        normal.transpose() * moves_of(from_tissue * surface.vertex(vertex) - registration.centre);
-    most = std::max(most, (row * registration.covariance * row.transpose())(0, 0));
-  }
-  return kTwoSided95 * std::sqrt(most);
+  return greatest_m(surface, registration,
+                    [](const Eigen::Matrix3d& covariance, const Vec3& normal) {
+                      return normal.dot(covariance * normal);
+                    });
+}
+
+double uncertainty_along_surface_m(const Surface& surface, const Registration& registration) {
+  return greatest_m(
+      surface, registration, [](const Eigen::Matrix3d& covariance, const Vec3& normal) {
+        const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - normal * normal.transpose();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+            Eigen::Matrix3d(along * covariance * along), Eigen::EigenvaluesOnly);
+        return solver.eigenvalues()[2];
+      });
 }
 
 }  // namespace palpation

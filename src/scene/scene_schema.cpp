@@ -360,6 +360,9 @@ std::vector<SceneKey> make_scene_keys() {
           "robot.uncertainty_mm", "mm", 0.01, 100.0, 1.0,
           "how far, along its normal, the tissue may lie from where it is taken to be: it widens "
           "the stretch that the gate lets the probe search for contact, and nothing else"),
+      number("robot.place_uncertainty_mm", "mm", 0.0, 100.0, 0.0,
+             "how far, with 95 %, all that is felt may lie off along the tissue, the same way: the "
+             "band is wider by it; left out: what robot.registration says"),
       text("robot.frame",
            "the frame_id of the arm's poses; the gate refuses any other; left out: none is named"),
       number("robot.limits.contact_n", "N", 1e-3, 1e3, 0.1, "from here on the tip touches"),

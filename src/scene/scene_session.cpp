@@ -56,6 +56,7 @@ std::string identity_of(const Scene& scene) {
   json all = scene.complete();
   const Robot robot = robot_of(scene);
   for (int i = 0; i < 16; ++i) all["robot"]["from_tissue"][i] = robot.from_tissue(i / 4, i % 4);
+  all["robot"]["place_uncertainty_mm"] = place_uncertainty_m(scene) * kMm;
   return all.dump(-1, ' ', true, json::error_handler_t::replace);
 }
 

@@ -168,10 +168,14 @@ FieldModel field_of(const Scene& scene) {
   return field;
 }
 
+/// Of a standard deviation, where a normal's 95 % lie.
+constexpr double kTwoSided95 = 1.959963984540054;
+
 Model model_of(const Scene& scene) {
   return {.field = field_of(scene),
           .level = level_rule_of(scene),
-          .band_probability = scene.number("band.probability"),
+          .band = {.probability = scene.number("band.probability"),
+                   .place_sd_m = place_uncertainty_m(scene) / kTwoSided95},
           .contrast = {.scale = scale_of(scene),
                        .least = scene.has("plan.min_contrast")
                                     ? std::optional(scene.number("plan.min_contrast"))

@@ -11,6 +11,7 @@
 #include "palpation/geometry/clearance.h"
 #include "palpation/geometry/patch.h"
 #include "scene/mesh_words.h"
+#include "scene/registration_file.h"
 #include "scene/scale_remarks.h"
 #include "scene/setup.h"
 #include "scene/surface_remarks.h"
@@ -21,6 +22,7 @@ namespace palpation::tool {
 namespace {
 
 constexpr double kFarthestRobot_m = 10.0;
+constexpr double kTold_m = 0.0005;  // an uncertainty that is worth a sentence
 
 constexpr double kMostTriangles = 8e6;
 constexpr double kMostLengthRatio = 1e6;
@@ -247,6 +249,15 @@ std::string translation_warning(const Scene& scene) {
          "millimetres?";
 }
 
+/// What a registration leaves open is of everything that is found.
+std::string placement_warning(const Scene& scene) {
+  const double off_m = place_uncertainty_m(scene);
+  if (off_m < kTold_m) return "";
+  return "All that is felt may lie " + fixed(off_m * 1e3, 1) +
+         " mm off along the tissue, the same way, with 95 %: so well the robot is registered. The "
+         "band is wider by it.";
+}
+
 /// Where lengths in the chart are not those on the tissue, a metric that takes them for it
 /// misleads.
 std::string stretch_warning(const Scene& scene, const Surface& surface) {
@@ -271,8 +282,8 @@ Tissue tissue_of(const Scene& scene) {
   check_chart(scene, tissue.surface);
   check_size(scene, tissue.surface);
   warn_of_reach(scene, tissue);
-  for (const std::string& warning :
-       {translation_warning(scene), stretch_warning(scene, tissue.surface)}) {
+  for (const std::string& warning : {translation_warning(scene), placement_warning(scene),
+                                     stretch_warning(scene, tissue.surface)}) {
     if (!warning.empty()) tissue.warnings.push_back(warning);
   }
   for (std::string& warning : scale_remarks(scene, tissue.surface))

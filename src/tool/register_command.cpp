@@ -1,6 +1,10 @@
 #include "tool/register_command.h"
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 
 #include "palpation/base/error.h"
@@ -16,7 +20,8 @@
 namespace palpation::tool {
 namespace {
 
-constexpr double kMm = 1e3;  // in a metre
+constexpr double kMm = 1e3;        // in a metre
+constexpr double kFits_m = 0.001;  // root mean square, of places that fit
 
 struct RegisterArguments {
   std::filesystem::path mesh, touched, out;
@@ -29,7 +34,31 @@ struct RegisterArguments {
 struct Touched {
   std::vector<TouchedPair> pairs;
   std::vector<Vec3> all;  ///< in the robot's frame
+  std::string when;       ///< the last of them, UTC
 };
+
+/// The greatest of a column t of seconds since 1970, as ROS stamps are; without one, when the file
+/// was written.
+std::string when_touched(const CsvTable& table, const std::filesystem::path& path) {
+  constexpr double kSince1970_s = 1e9;  // anything less is a clock of another kind
+  std::time_t last = 0;
+  const auto column = find_column(table, "t");
+  for (std::size_t row = 0; column && row < table.row_count(); ++row) {
+    const double t_s = finite_number_at(table, row, *column);
+    if (t_s > kSince1970_s && t_s < 1e11) last = std::max(last, static_cast<std::time_t>(t_s));
+  }
+  std::error_code none;
+  const auto written = std::filesystem::last_write_time(path, none);
+  if (last == 0)
+    last = std::chrono::system_clock::to_time_t(
+        std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+            std::chrono::file_clock::to_sys(written)));
+  std::tm parts{};
+  ::gmtime_r(&last, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
 
 /// Rows with tissue_x, tissue_y and tissue_z are pairs; those where these are empty are anywhere.
 Touched read_touched(const std::filesystem::path& path) {
@@ -51,6 +80,7 @@ Touched read_touched(const std::filesystem::path& path) {
     if (named == 3) touched.pairs.push_back({tissue, robot});
     touched.all.push_back(robot);
   }
+  touched.when = when_touched(table, path);
   return touched;
 }
 
@@ -80,6 +110,14 @@ void check_landmarks(const RegisterArguments& arguments, const Surface& surface,
   }
 }
 
+/// Of places that fit badly; empty where all fit.
+std::string doubt_words(const Registration& registration, const Touched& touched) {
+  if (registration.rms_m <= kFits_m) return "";
+  return "That is more than " + fixed(kFits_m * kMm, 0) + " mm: is every one of the " +
+         counted(touched.pairs.size(), "pair") +
+         " the same place in both frames, and was nothing moved?\n";
+}
+
 void register_tissue(const RegisterArguments& arguments) {
   const Surface surface(read_mesh(arguments.mesh, length_unit(arguments.unit)).mesh);
   const Touched touched = read_touched(arguments.touched);
@@ -90,10 +128,13 @@ void register_tissue(const RegisterArguments& arguments) {
                       counted(touched.pairs.size(), "pair") + ".\nOff by " +
                       fixed(registration.rms_m * kMm, 2) + " mm (root mean square):";
   for (const double one : registration.residuals_m) words += " " + fixed(one * kMm, 2);
-  words += ".\nAlong its normal the tissue lies within " + fixed(uncertainty_m * kMm, 2) +
-           " mm of where it is taken to be, with 95 %.\n";
+  words += ".\n" + doubt_words(registration, touched) + "Along its normal the tissue lies within " +
+           fixed(uncertainty_m * kMm, 2) +
+           " mm of where it is taken to be, with 95 %,\nalong itself within " +
+           fixed(uncertainty_along_surface_m(surface, registration) * kMm, 2) +
+           " mm: a boundary's band is wider by that.\n";
   std::fputs(words.c_str(), stdout);
-  write_single_file(arguments.out, registration_document(registration, uncertainty_m),
+  write_single_file(arguments.out, registration_document(registration, surface, touched.when),
                     arguments.overwrite ? Existing::Replaced : Existing::Kept);
 }
 

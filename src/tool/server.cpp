@@ -5,6 +5,7 @@
 #include "palpation/base/error.h"
 #include "scene/gate_setup.h"
 #include "scene/next_plan.h"
+#include "scene/registration_file.h"
 #include "scene/scene_json.h"
 #include "scene/scene_session.h"
 #include "scene/summary.h"
@@ -106,6 +107,8 @@ json Server::open(Request& request) {
   json answer = state_of_session(run_->session.state());
   answer["remarks"] = run_->session.state().plans.empty() ? start_remarks(tissue) : tissue.warnings;
   for (const std::string& remark : run_->session.remarks()) answer["remarks"].push_back(remark);
+  if (const std::string remark = registration_remark(scene); !remark.empty())
+    answer["remarks"].push_back(remark);
   return answer;
 }
 

@@ -2,6 +2,7 @@
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
 #include "scene/gate_setup.h"
+#include "scene/registration_file.h"
 #include "scene/scene_json.h"
 #include "tool/server.h"
 #include "tool/server_run.h"
@@ -83,7 +84,9 @@ json Server::gate(Request& request) {
   const std::string what = request.text("what");
   if (what == "limits") {
     request.done();
-    return limits_of_answer(gate_of_run().limits());
+    json answer = limits_of_answer(gate_of_run().limits());
+    answer["registration"] = registration_age(run().scene).words;
+    return answer;
   }
   const double now_s = request.number("now");
   Gate& gate = gate_of_run();

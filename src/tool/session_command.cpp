@@ -6,6 +6,7 @@
 #include "palpation/session/session.h"
 #include "scene/make_folder.h"
 #include "scene/progress.h"
+#include "scene/registration_file.h"
 #include "scene/scene_session.h"
 #include "scene/single_file.h"
 #include "scene/words.h"
@@ -29,6 +30,7 @@ Session opened(const SessionPlace& place) {
   Session session(place.folder, session_setup(scene, tissue.surface, place.anyway));
   if (session.state().plans.empty()) tell(start_remarks(tissue));  // not again with every command
   tell(session.remarks());
+  if (const std::string remark = registration_remark(scene); !remark.empty()) tell({remark});
   return session;
 }
 
@@ -82,6 +84,9 @@ void sync_and_tell(Session& session, const std::string& words) {
 }  // namespace
 
 void session_show(const SessionPlace& place) {
+  if (std::error_code none; !fs::exists(place.folder / "journal.jsonl", none))
+    throw IoError(place.folder.string() +
+                  ": there is no session here yet: palpate session SCENE.json DIR next begins one");
   print(session_in_words(read_session(place.folder)));
 }
 

@@ -1,3 +1,5 @@
+#include "palpation/certainty/certainty.h"
+
 #include <gtest/gtest.h>
 
 #include "belief/tissue.h"
@@ -42,6 +44,22 @@ TEST(ExpectedError, AddsUpTheAreaThatMayBeWrong) {
   const double tail = 0.15865525393145707;
   EXPECT_NEAR(error.symmetric_difference_m2(), tail * 0.025 * 0.050, 1e-15);
   EXPECT_NEAR(error.extra_m2 + error.missed_m2, error.symmetric_difference_m2(), 1e-18);
+}
+
+TEST(DoubtedAsAWhole, ABandWidensByHowFarAllReadingsMayLieOff) {
+  const Surface sheet = plane(51, 3);  // 25 mm along x
+  const Field sd = Field::Constant(sheet.vertex_count(), 0.0005);
+  Certainty certainty{.score = (sheet.mesh().vertices.col(0).array() - 0.0126) / 0.0005,
+                      .band_score = 2.0,
+                      .half_width_m = 0.001,
+                      .expected = {}};
+  certainty.expected.missed_m2 = 1e-5;
+  const Certainty doubted = doubted_as_a_whole(certainty, sheet, sd, 0.0012);
+  EXPECT_NEAR(doubted.half_width_m, 2.0 * 0.0013, 1e-9);  // 0.5^2 + 1.2^2 = 1.3^2
+  EXPECT_NEAR(doubted.expected.missed_m2, 2.6e-5, 1e-10);
+  EXPECT_EQ((doubted.score.array() > 0.0).count(), (certainty.score.array() > 0.0).count());
+  const Certainty same = doubted_as_a_whole(certainty, sheet, sd, 0.0);
+  EXPECT_NEAR((same.score - certainty.score).cwiseAbs().maxCoeff(), 0.0, 1e-12);
 }
 
 }  // namespace

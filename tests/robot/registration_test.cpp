@@ -111,6 +111,15 @@ TEST(RefineOnSurface, FindsTissueThatCurvesFromAMillimetreAndTwoDegreesOff) {
   EXPECT_LT(uncertainty_along_normal_m(tissue, found), 0.001);
 }
 
+TEST(Uncertainty, AlongTheSurfaceAndAcrossItIsThatOfItsNormal) {
+  Random random(7);
+  const Surface plane(make_plane({.size_m = Vec2(0.02, 0.03), .columns = 9, .rows = 9}, random));
+  Registration found;  // sure but of a shift: 1 mm along x, 2 mm along y, 0.1 mm along z
+  found.covariance.diagonal().tail<3>() = Vec3(1e-6, 4e-6, 1e-8);
+  EXPECT_NEAR(uncertainty_along_surface_m(plane, found), 1.959964 * 0.002, 1e-9);
+  EXPECT_NEAR(uncertainty_along_normal_m(plane, found), 1.959964 * 0.0001, 1e-9);
+}
+
 TEST(RefineOnSurface, RefusesAPlaneWhichCanSlideAndPlacesFarOff) {
   Random random(7);
   const Surface plane(make_plane({.size_m = Vec2(0.02, 0.03), .columns = 9, .rows = 9}, random));

@@ -7,10 +7,11 @@ usage: register_test.py PALPATE        needs Python 3 and nothing else
 import csv
 import json
 import math
+import subprocess
 import sys
 import unittest
 
-from support import InFolder
+from support import InFolder, PALPATE
 
 TURN = math.radians(30)
 SHIFT = (0.10, -0.05, 0.20)
@@ -45,6 +46,8 @@ class Register(InFolder):
         for a, b in zip(told["from_tissue"], expected):
             self.assertAlmostEqual(a, b, places=12)
         self.assertEqual(len(told["covariance"]), 36)
+        self.assertRegex(told["touched"], r"^20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        self.assertIn(f"along itself within {told['place_uncertainty_mm']:.2f} mm", said)
         scene = self.folder / "scene.json"
         scene.write_text(json.dumps({"surface": {"mesh": "tissue.ply", "unit": "mm"}, "robot": {"registration": "T.json"}}), encoding="utf-8")
         felt = self.folder / "felt.csv"
@@ -57,6 +60,37 @@ class Register(InFolder):
                 for axis, value in zip("xyz", place):
                     self.assertAlmostEqual(float(moved[axis]), value, places=12)
         self.assertIn("give one of them", self.ends(3, "plan", scene, "--measurements", felt, "--set", "robot.from_tissue=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"))
+
+    def test_pairs_that_do_not_fit_are_told(self):
+        places = (*CORNERS, (0.01, 0.02, 0.0), (0.02, 0.03, 0.0), (0.005, 0.04, 0.0), (0.02, 0.045, 0.0))
+        rows = [(*in_robot(place), *place) for place in places]
+        rows[1], rows[2] = (*rows[1][:3], *rows[2][3:]), (*rows[2][:3], *rows[1][3:])
+        self.assertIn("more than 1 mm: is every one of the 8 pairs the same place", self.register(rows))
+
+    def test_what_a_registration_leaves_open_is_in_the_band_and_an_old_one_is_told(self):
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps({"surface": {"mesh": "tissue.ply", "unit": "mm"}, "robot": {"registration": "T.json"}, "plan": {"batches": 3},
+                                     "probe": {"noise": 0.02, "tumours": [{"shape": "disk", "centre_mm": [12, 25, 0], "radius_mm": 6}]}}), encoding="utf-8")
+        corners = [(*in_robot(corner), *corner) for corner in CORNERS]
+        self.register(corners, "--touch-sd-mm", 1)
+        told = json.loads((self.folder / "T.json").read_text())
+        self.assertGreater(told["place_uncertainty_mm"], 1.0)
+        self.done("simulate", scene, "--out", self.folder / "run", "--quiet", "--set", "robot.registration=null")
+        widths = {}
+        for name, settings in (("sure", ["robot.place_uncertainty_mm=0"]), ("unsure", [])):
+            words = [word for setting in settings for word in ("--set", setting)]
+            said = self.done("boundary", scene, "--measurements", self.folder / "run" / "measurements.csv", "--out", self.folder / name, "--quiet", *words)
+            summary = json.loads((self.folder / name / "summary.json").read_text())
+            widths[name] = summary["band"]["half_width_mm"]
+            self.assertEqual(any("so well the robot is registered" in warning for warning in summary["warnings"]), name == "unsure", said)
+        least = math.hypot(widths["sure"], told["place_uncertainty_mm"])  # the whole outline's band is of more than 1.96 deviations
+        self.assertGreater(widths["unsure"], least)
+        told["touched"] = "2020-01-01T00:00:00Z"
+        (self.folder / "T.json").write_text(json.dumps(told))
+        self.assertIn("was anything moved since?", subprocess.run([PALPATE, "session", scene, self.folder / "session", "next"], capture_output=True, text=True).stderr)
+        told["touched"] = "yesterday"
+        (self.folder / "T.json").write_text(json.dumps(told))
+        self.assertIn("touched: must be a time", self.ends(3, "plan", scene, "--measurements", self.folder / "run" / "measurements.csv"))
 
     def test_what_cannot_be_one_is_refused_in_words(self):
         line = ((0.0, 0.0, 0.0), (0.0, 0.02, 0.0), (0.0, 0.05, 0.0))

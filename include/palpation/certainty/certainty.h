@@ -56,6 +56,12 @@ Certainty doubted_where_contact_fades(Certainty certainty, const Surface& surfac
                                       const FadingContact& fading, const Field& sd,
                                       double whole_loss);
 
+/// All readings may lie off along the surface, the same way, with this standard deviation, and the
+/// whole boundary with them, as where a robot was registered so well: one more standard deviation
+/// beside that of the boundary's offset, `offset_sd_m`, at the vertices.
+Certainty doubted_as_a_whole(Certainty certainty, const Surface& surface, const Field& offset_sd_m,
+                             double place_sd_m);
+
 /// A part that counts as tumour no more: at these vertices the score is this one, which is
 /// negative.
 Certainty without_part(Certainty certainty, const Surface& surface, std::span<const int> vertices,

@@ -106,17 +106,26 @@ struct Contrast {
   bool safe_start = true;
 };
 
+/// Between whose two curves the whole true outline lies.
+struct Band {
+  double probability = 0.95;
+  /// Standard deviation of where the readings lie along the tissue, all off the same way: what a
+  /// registration to the robot's frame leaves open. The band is wider by it.
+  double place_sd_m = 0.0;
+};
+
 struct Model {
   FieldModel field{};
   LevelRule level{};
-  double band_probability = 0.95;  ///< with which the whole true outline lies in the band
+  Band band{};
   Contrast contrast{};
 
   bool needs_contrast() const { return contrast.safe_start && (field.learns() || !level.known); }
 };
 
-/// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1) and the
-/// least contrast is positive, or as a factor above 1.
+/// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1), its
+/// place_sd_m is finite and not negative, and the least contrast is positive, or as a factor above
+/// 1.
 void check(const Model& model);
 
 }  // namespace palpation

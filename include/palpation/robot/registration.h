@@ -47,5 +47,8 @@ Registration refine_on_surface(const Surface& surface, std::span<const Vec3> tou
 /// How far, with 95 %, the tissue may lie along its normal from where it is taken to be: at the
 /// vertex where that is most.
 double uncertainty_along_normal_m(const Surface& surface, const Registration& registration);
+/// And along itself, in the direction where that is most: how far all that is felt may lie off, the
+/// same way.
+double uncertainty_along_surface_m(const Surface& surface, const Registration& registration);
 
 }  // namespace palpation
