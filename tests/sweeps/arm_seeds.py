@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """What the driver finds with a simulated arm, beside what `palpate simulate` finds of the same scene and seed: the wrong area of both, mm2.
 
-Both against the simulated run's truth, at 36 places in each triangle. The journal's export must give the same bytes by `palpate plan` and `boundary`,
-twice. --ros N takes the arm over a ROS 1 master, N times as fast as time; without, it is in this process's neighbour.
+Both against the simulated run's truth, at 36 places in each triangle. What the journal held before each of its plans must give that plan's bytes by
+`palpate plan`, and all of it what the session concludes by `palpate boundary`. --ros N takes the arm over a ROS 1 master, N times as fast as time; without, it is in this process's neighbour.
 
 usage: arm_seeds.py PALPATE PROJECT_ROOT SCENE.json [--seeds N] [--first N] [--ros SPEED] [--set KEY=VALUE]...        needs numpy and vtk
 """
 
 import argparse
 import contextlib
-import filecmp
+import json
 import os
 import pathlib
 import socket
@@ -80,18 +80,36 @@ def arm_over_ros(programs, world, noise, seed, speed, log):
             process.wait()
 
 
-def same_bytes(palpate, export, folder):
-    """plan and boundary of the export, twice; which files differ."""
-    for turn in "ab":
-        for command in ("plan", "boundary"):
-            told(palpate, command, export / "scene.json", "--measurements", export / "measurements.csv", "--out", folder / (command + turn))
-    return [f"{command}/{name}" for command, names in (("plan", ["waypoints.csv"]), ("boundary", ["boundary.wkt", "surface.vtp", "summary.json"]))
-            for name in names if not filecmp.cmp(folder / (command + "a") / name, folder / (command + "b") / name, shallow=False)]
+def plans_of(session):
+    lines = (session / "journal.jsonl").read_text(encoding="utf-8").splitlines()
+    return [entry for entry in (json.loads(line[17:]) for line in lines) if entry["kind"] == "plan" and entry["stops"]]
+
+
+def concluded(palpate, scene, session, settings):
+    """What the session itself says."""
+    requests = [{"do": "open", "scene": str(scene), "folder": str(session), "set": settings}, {"do": "conclude"}]
+    done = subprocess.run([palpate, "serve"], input="".join(json.dumps(request) + "\n" for request in requests), capture_output=True, text=True)
+    return json.loads(done.stdout.splitlines()[1])["summary"]
+
+
+def what_differs(palpate, scene, folder, settings):
+    """Of the session's plans and conclusion, from what plan and boundary make of its export."""
+    asked, differs = [word for value in settings for word in ("--set", value)], []
+    for plan in plans_of(folder / "session"):
+        export, out = folder / f"export{plan['plan']}", folder / f"plan{plan['plan']}"
+        told(palpate, "session", scene, folder / "session", "export", "--out", export, "--plan", plan["plan"], *asked)
+        told(palpate, "plan", export / "scene.json", "--measurements", export / "measurements.csv", "--out", out)
+        differs += [f"{name} of plan {plan['plan']}" for name in ("waypoints", "path") if (out / f"{name}.csv").read_text(encoding="utf-8") != plan[name]]
+    told(palpate, "session", scene, folder / "session", "export", "--out", folder / "export", *asked)
+    told(palpate, "boundary", folder / "export" / "scene.json", "--measurements", folder / "export" / "measurements.csv", "--out", folder / "boundary")
+    summary, of_session = json.loads((folder / "boundary" / "summary.json").read_text(encoding="utf-8")), concluded(palpate, scene, folder / "session", settings)
+    return differs + [key for key in ("area_mm2", "parts", "level", "level_sd", "expected_error_mm2", "measurements") if summary[key] != of_session[key]]
 
 
 def one(asked, seed, folder):
     palpate, programs = asked.palpate, asked.root / "src" / "robot" / "ros"
-    settings = [word for value in [*TISSUE, *asked.set, f"seed={seed}"] for word in ("--set", value)]
+    values = [*TISSUE, *asked.set, f"seed={seed}"]
+    settings = [word for value in values for word in ("--set", value)]
     told(palpate, "simulate", asked.scene, "--out", folder / "world", *settings)
     told(palpate, "export", folder / "world", "--for", "csv")
     words = [sys.executable, programs / "palpate-arm", asked.scene, folder / "session", "--palpate", palpate, "--yes", *settings]
@@ -104,9 +122,8 @@ def one(asked, seed, folder):
     seconds = time.monotonic() - begun
     if done.returncode != 0:
         return print(f"seed {seed}: {done.returncode} {done.stdout[-500:]}{done.stderr[-500:]}", flush=True)
-    told(palpate, "session", asked.scene, folder / "session", "export", "--out", folder / "export", *settings)
-    differing = same_bytes(palpate, folder / "export", folder)
-    errors = [wrong_mm2(found, folder / "world", 0.4) for found in (folder / "world", folder / "boundarya")]
+    differing = what_differs(palpate, asked.scene, folder, values)
+    errors = [wrong_mm2(found, folder / "world", 0.4) for found in (folder / "world", folder / "boundary")]
     print(f"seed {seed}: simulate {errors[0]:.2f}, arm {errors[1]:.2f} mm2, {seconds:.0f} s, differs: {differing or 'nothing'}", flush=True)
     return errors
 
