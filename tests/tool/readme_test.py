@@ -79,6 +79,24 @@ class Readme(unittest.TestCase):
             for picture in re.findall(r"`(out/[\w/]+\.png)`", README):
                 self.assertEqual((clone / picture).exists(), drawn, picture)
 
+    def test_the_tutorial_runs_from_a_mesh_and_from_a_log_to_their_boundaries(self):
+        script = "\n".join(blocks((ROOT / "examples" / "README.md").read_text(encoding="utf-8"), "sh"))
+        with tempfile.TemporaryDirectory() as holder:
+            clone = pathlib.Path(holder)
+            for folder in ("examples", "meshes"):
+                (clone / folder).symlink_to(ROOT / folder)
+            (clone / "build" / "release").mkdir(parents=True)
+            (clone / "build" / "release" / "bin").symlink_to(PALPATE.parent)
+            if not (PALPATE.parent / "palpate-draw").exists():
+                script = script.replace("palpate draw", ": draw")
+            result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=clone, capture_output=True, text=True, timeout=900, stdin=subprocess.DEVNULL)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for run, place_mm in (("rehearsal", (-3, 2)), ("found", (4, 3)), ("tissue", (4, 3))):
+                (part,) = json.loads((clone / "out/tutorial" / run / "summary.json").read_text())["parts"]
+                self.assertLess(abs(part["position_mm"][0] - place_mm[0]) + abs(part["position_mm"][1] - place_mm[1]), 1.5, run)
+            for name in ("rehearsal/report.html", "found/report.html", "found/slicer/palpation.mrml", "tissue/report.html"):
+                self.assertTrue((clone / "out/tutorial" / name).exists(), name)
+
     def test_its_install_commands_are_there_and_can_be_run(self):
         shown = [line.split("#")[0].strip() for line in indented(README)]
         self.assertEqual(shown, INSTALL_COMMANDS)
