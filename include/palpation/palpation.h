@@ -25,6 +25,7 @@
 #include "palpation/certainty/expected_error.h"
 #include "palpation/certainty/level_estimate.h"
 #include "palpation/certainty/misfit.h"
+#include "palpation/certainty/outline_posterior.h"
 #include "palpation/certainty/reference_bound.h"
 #include "palpation/decision/acquisition.h"
 #include "palpation/decision/baseline.h"

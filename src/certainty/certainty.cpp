@@ -153,4 +153,15 @@ Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double pr
   return certainty;
 }
 
+Certainty certainty_of(const Surface& surface, const OutlinePosterior& outlines,
+                       double probability) {
+  check_probability(probability);
+  Certainty certainty{.score = outlines.depth.cwiseQuotient(outlines.spread),
+                      .probability = probability,
+                      .expected = outlines.expected};
+  certainty.band_score = outlines.band_score(probability);
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  return certainty;
+}
+
 }  // namespace palpation

@@ -59,7 +59,7 @@ Marginals component_of(const Believed& believed, const Model& model, const Margi
 }  // namespace
 
 Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
-                    ConclusionCache* cache) {
+                    ConclusionCache* cache, std::optional<std::uint64_t> sampling_seed) {
   check(model);
   ConclusionCache own;
   std::vector<Palpation> felt = felt_among(readings, model);
@@ -73,21 +73,21 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   Marginals marginals = believed.belief.at_vertices();
   Marginals component = component_of(believed, model, marginals);
   // The level (section V.3, equation 4) and its level set.
-  BoundaryFit boundary = find_boundary(surface, scaled, believed, component);
+  BoundaryFit boundary = find_boundary(surface, scaled, believed, component, sampling_seed);
   std::optional<Certainty> certainty;
   if (boundary.level && believed.belief.site_count() > 0)
     certainty = certainty_of(surface, scaled, believed, component, boundary);
 
   const double tip_m = model.field.probe.indenter_radius_m;
   std::optional<Contour> contour;
-  bool tip_hides_all = false;
   if (boundary.level) {
     if (tip_m > 0.0 && !readings.empty())
       component.mean = eroded(surface, component.mean, tip_m).field;
-    contour = boundary.edge ? Contour{eroded(surface, boundary.edge->depth(), tip_m).field, 0.0}
-                            : Contour{component.mean, boundary.level->value};
-    tip_hides_all = tip_m > 0.0 && boundary.edge && boundary.edge->depth().maxCoeff() >= 0.0 &&
-                    contour->field.maxCoeff() < 0.0;
+    const Field* const depth = boundary.depth();
+    contour = depth != nullptr ? Contour{eroded(surface, *depth, tip_m).field, 0.0}
+                               : Contour{component.mean, boundary.level->value};
+    contour->tip_hides_all = tip_m > 0.0 && depth != nullptr && depth->maxCoeff() >= 0.0 &&
+                             contour->field.maxCoeff() < 0.0;
   }
   Conclusion conclusion{model,
                         as_made(std::move(felt), believed.palpations),
@@ -98,8 +98,8 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
                         believed.lag,
                         boundary.level,
                         std::move(boundary.edge),
+                        std::move(boundary.outlines),
                         std::move(contour),
-                        tip_hides_all,
                         std::move(certainty)};
   take_out_weak_parts(conclusion);
   return conclusion;

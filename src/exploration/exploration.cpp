@@ -52,6 +52,10 @@ void Exploration::learn_from(std::span<const Palpation> fresh) {
   choice_ = std::move(choice);
 }
 
+void Exploration::draw_outlines(std::uint64_t seed) {
+  conclusion_ = conclude(surface_, conclusion_.model, readings_, &cache_, seed);
+}
+
 void Exploration::foresee() {
   if (next().empty() || !grows(conclusion_.model.field, conclusion_.palpations)) return;
   std::vector<SurfacePoint> places;

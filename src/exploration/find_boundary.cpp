@@ -23,6 +23,10 @@ bool has_range(const Marginals& marginals) {
   return greatest - least > kRounding * scale;
 }
 
+double noise_log_sd_of(const Model& model, const Belief& belief) {
+  return model.field.noise.sd.is_learned() ? learned_noise_log_sd(belief.site_count()) : 0.0;
+}
+
 /// The profile of the readings across the edge (equation 4), and what it tells of the boundary.
 BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& belief,
                       const Marginals& component) {
@@ -33,9 +37,8 @@ BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& 
   std::vector<double> first_levels = {fit.level->value};
   if (const auto plateaus = two_plateaus(used_readings(belief.detrended_palpations())))
     first_levels.push_back(plateaus->low + fraction * (plateaus->high - plateaus->low));
-  const double noise_log_sd =
-      model.field.noise.sd.is_learned() ? learned_noise_log_sd(belief.site_count()) : 0.0;
-  fit.edge = EdgeBelief::around(belief, component, first_levels, fraction, {}, noise_log_sd);
+  fit.edge = EdgeBelief::around(belief, component, first_levels, fraction, {},
+                                noise_log_sd_of(model, belief));
   if (fit.edge) fit.level = fit.edge->level();
   // Where contact fades no profile fits: its plateau may run away, and with it the level. The
   // mean's range is left: its least is felt all over healthy tissue, its greatest is as unsure a
@@ -56,7 +59,7 @@ Certainty with_fading_contact(Certainty certainty, const Surface& surface, const
   const double fraction = model.level.fraction;
   if (boundary.edge) {
     return doubted_where_contact_fades(std::move(certainty), surface, *fading,
-                                       boundary.edge->offset_sd(),
+                                       *boundary.offset_sd(),
                                        4.0 * fraction / boundary.edge->profile().slope_per_m);
   }
   const double level_sd = boundary.level->stddev.value_or(0.0),
@@ -72,10 +75,27 @@ Field mean_offset_sd(const Surface& surface, const Certainty& certainty) {
   return Field::Constant(surface.vertex_count(), certainty.half_width_m / certainty.band_score);
 }
 
+Certainty known_before_faults(const Surface& surface, const Model& model, const Believed& believed,
+                              const Marginals& component, const BoundaryFit& boundary) {
+  if (boundary.outlines) return certainty_of(surface, *boundary.outlines, model.band.probability);
+  if (boundary.edge) return certainty_of(surface, *boundary.edge, model.band.probability);
+  return certainty_of(surface, believed.belief, component, *boundary.level, model.band.probability);
+}
+
 }  // namespace
 
+const Field* BoundaryFit::depth() const {
+  if (outlines) return &outlines->depth;
+  return edge ? &edge->depth() : nullptr;
+}
+
+const Field* BoundaryFit::offset_sd() const {
+  if (outlines) return &outlines->spread;
+  return edge ? &edge->offset_sd() : nullptr;
+}
+
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
-                          const Marginals& component) {
+                          const Marginals& component, std::optional<std::uint64_t> sampling_seed) {
   if (model.level.known) return {.level = Level{*model.level.known, 0.0}};
   const Belief& belief = believed.belief;
   const bool is_flat = belief.site_count() == 0 || !believed.evidence.allows_boundary() ||
@@ -83,22 +103,26 @@ BoundaryFit find_boundary(const Surface& surface, const Model& model, const Beli
   if (is_flat) return {};
   if (model.level.estimate == LevelEstimate::Range)
     return {.level = level_from_range(component, model.level.fraction)};
-  return from_edge(surface, model, belief, component);
+  BoundaryFit fit = from_edge(surface, model, belief, component);
+  if (sampling_seed && fit.edge)
+    fit.outlines = sample_outlines(belief, *fit.edge,
+                                   {.fraction = model.level.fraction,
+                                    .noise_log_sd = noise_log_sd_of(model, belief),
+                                    .seed = *sampling_seed});
+  if (fit.outlines) fit.level = fit.outlines->level;
+  return fit;
 }
 
 Certainty certainty_of(const Surface& surface, const Model& model, const Believed& believed,
                        const Marginals& component, const BoundaryFit& boundary) {
   const ProbeModel& probe = model.field.probe;
-  Certainty certainty = boundary.edge
-                            ? certainty_of(surface, *boundary.edge, model.band.probability)
-                            : certainty_of(surface, believed.belief, component, *boundary.level,
-                                           model.band.probability);
+  Certainty certainty = known_before_faults(surface, model, believed, component, boundary);
   if (probe.screening)
     certainty =
         with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);
   if (model.band.place_sd_m > 0.0) {
     const Field offset_sd_m =
-        boundary.edge ? boundary.edge->offset_sd() : mean_offset_sd(surface, certainty);
+        boundary.edge ? *boundary.offset_sd() : mean_offset_sd(surface, certainty);
     certainty =
         doubted_as_a_whole(std::move(certainty), surface, offset_sd_m, model.band.place_sd_m);
   }

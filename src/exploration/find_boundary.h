@@ -1,6 +1,7 @@
 /// From the field to the tumour's boundary.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "exploration/believe.h"
@@ -11,12 +12,19 @@ namespace palpation {
 struct BoundaryFit {
   std::optional<Level> level{};
   std::optional<EdgeBelief> edge{};
+  std::optional<OutlinePosterior> outlines{};
+
+  /// Positive inside; null where the boundary is not inferred from its edge.
+  const Field* depth() const;
+  /// What the certainty's score divides it by; null as there.
+  const Field* offset_sd() const;
 };
 
 /// Of the readings' range or edge, or as it is known. `component`: what the level cuts, at the
-/// vertices.
+/// vertices. With a seed, outlines are drawn.
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
-                          const Marginals& component);
+                          const Marginals& component,
+                          std::optional<std::uint64_t> sampling_seed = std::nullopt);
 
 /// How sure that is, what fades, what a tip feels early and what is far from any reading included.
 /// Needs a level.

@@ -38,7 +38,7 @@ double scatter_of(const Conclusion& conclusion) {
 }
 
 std::optional<Search> search_after(const Conclusion& conclusion, double probability) {
-  if (conclusion.tip_hides_all) return std::nullopt;
+  if (conclusion.tip_hides_all()) return std::nullopt;
   const std::optional<double>& least = conclusion.model.contrast.least;
   Search search{.sought = {.probability = probability}};
   if (!conclusion.level || conclusion.belief.site_count() == 0) {

@@ -59,6 +59,7 @@ void take_out_weak_parts(Conclusion& conclusion) {
     conclusion.evidence.contrast_seen = false;
     conclusion.level.reset();
     conclusion.edge.reset();
+    conclusion.outlines.reset();
     conclusion.contour.reset();
     conclusion.certainty.reset();
     return;

@@ -28,7 +28,7 @@ const Concluded& of(const py::object& self) { return self.cast<const Concluded&>
 
 /// Where nothing is known of a boundary, nothing.
 Region part_above(const Concluded& here, const Field* field, double level) {
-  if (field == nullptr || here.conclusion.tip_hides_all) return Region();
+  if (field == nullptr || here.conclusion.tip_hides_all()) return Region();
   return long_call([&] { return superlevel_region(here.surface, *field, level); });
 }
 
@@ -58,10 +58,10 @@ py::dict summary(const Concluded& here) {
       "level"_a = level ? py::object(py::float_(level->value)) : py::none(),
       "level_sd"_a = level ? maybe(level->stddev) : py::none(),
       "transform"_a = all.scale() == ReadingScale::Log ? "log" : "none",
-      "tip_hides_all"_a = all.tip_hides_all, "expected_error_m2"_a = py::none(),
+      "tip_hides_all()"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
       "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
       "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
-  if (all.certainty && !all.tip_hides_all) {
+  if (all.certainty && !all.tip_hides_all()) {
     const Certainty& certainty = *all.certainty;
     result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();
     result["expected_missed_m2"] = certainty.expected.missed_m2;
@@ -107,7 +107,7 @@ std::vector<BoundaryCurve> curves_of(const Concluded& here, double risk) {
     const auto more = tool::boundary_curves(here.surface, field, level, kind);
     curves.insert(curves.end(), more.begin(), more.end());
   };
-  if (all.tip_hides_all) return curves;
+  if (all.tip_hides_all()) return curves;
   if (all.contour && all.level && all.belief.site_count() > 0)
     add(all.contour->field, all.contour->level, CurveKind::Estimate);
   if (all.certainty) {

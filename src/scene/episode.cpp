@@ -129,7 +129,22 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
   return episode;
 }
 
+/// When all is felt: as sure as the scene asks to be.
+void conclude_finally(const Scene& scene, Episode& episode) {
+  if (scene.word("certainty") != "sampled" || !episode.conclusion().edge) return;
+  episode.exploration.draw_outlines(scene.seed());
+  episode.trace.pop_back();
+  restate(episode);
+}
+
 bool explores_coarsely(const Scene& scene) { return scene.metres("plan.explore_mm") > 0.0; }
+
+Episode explored(const Scene& scene, const Surface& surface, const World& world,
+                 const AfterBatch& after_batch) {
+  if (is_scan(scene)) return run_scan(scene, surface, world, after_batch);
+  return explores_coarsely(scene) ? run_coarse_exploration(scene, surface, world, after_batch)
+                                  : run_exploration(scene, surface, world, after_batch);
+}
 
 /// A field that cannot be fitted is told with what to change in the scene.
 template <typename Run>
@@ -156,9 +171,9 @@ bool is_scan(const Scene& scene) {
 Episode run_episode(const Scene& scene, const Surface& surface, const World& world,
                     const AfterBatch& after_batch) {
   return with_advice(scene, [&] {
-    if (is_scan(scene)) return run_scan(scene, surface, world, after_batch);
-    return explores_coarsely(scene) ? run_coarse_exploration(scene, surface, world, after_batch)
-                                    : run_exploration(scene, surface, world, after_batch);
+    Episode episode = explored(scene, surface, world, after_batch);
+    conclude_finally(scene, episode);
+    return episode;
   });
 }
 
@@ -169,6 +184,7 @@ Episode episode_from(const Scene& scene, const Surface& surface,
     if (palpations.empty()) return episode;
     episode.exploration.take_up(palpations);
     restate(episode);
+    conclude_finally(scene, episode);
     return episode;
   });
 }

@@ -63,7 +63,7 @@ void restate(Episode& episode) {
     episode.estimate = Region();
     if (exploration.conclusion().level) {
       row.level = level_in_readings(exploration.conclusion())->value;
-      if (!exploration.conclusion().tip_hides_all)
+      if (!exploration.conclusion().tip_hides_all())
         row.expected_error_m2 =
             exploration.conclusion().certainty->expected.symmetric_difference_m2();
       const Contour& contour = *exploration.conclusion().contour;

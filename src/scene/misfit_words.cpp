@@ -7,6 +7,14 @@
 namespace palpation::tool {
 namespace {
 
+constexpr double kChainsApart = 1.0;  // standard deviations: chance makes less of fifty draws
+
+std::string apart_words(double disagreement) {
+  return "Two samplings of the outline have not come to one answer: their areas differ by " +
+         fixed(disagreement, 1) +
+         " standard deviations, so the band may be too narrow. More readings would settle it.";
+}
+
 std::string since_words(const Misfit& misfit) {
   return "From batch " + std::to_string(misfit.from_batch) + " on ";
 }
@@ -40,6 +48,8 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   if (!conclusion.edge) return words;
   for (const Misfit& misfit : conclusion.edge->misfits())
     words.push_back(words_of(conclusion.belief.prior().surface(), misfit));
+  if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
+    words.push_back(apart_words(conclusion.outlines->disagreement));
   return words;
 }
 

@@ -201,7 +201,7 @@ Remarks level_remarks(const Exploration& exploration) {
     remarks.push_back(percent(share) +
                       " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
   }
-  if (conclusion.tip_hides_all)
+  if (conclusion.tip_hides_all())
     remarks.push_back(
         "The stiff region is nowhere wider than the probe's tip (field.indenter_radius_mm): "
         "correcting for the tip leaves nothing, but something stiff is there.");

@@ -328,6 +328,9 @@ std::vector<SceneKey> make_scene_keys() {
       word("probe.world", names_of_worlds(), nullptr,
            "in place of tumours: what lies there, and what ails the sensor, drawn by the seed from "
            "a family of the catalogue, on flat tissue; its slope and contrasts, too"),
+      word("certainty", {"sampled", "laplace"}, "sampled",
+           "of the boundary when all is felt: from outlines that are drawn, in seconds, or by "
+           "Laplace's approximation, which every plan goes by"),
       number("band.probability", "", 0.01, 1.0 - 1e-6, 0.95,
              "probability that the whole true outline lies between the band's two curves"),
       number("band.cut_risk", "", 1e-6, 0.5, 0.05,

@@ -58,11 +58,16 @@ json part_json(const TumourPart& part, const Surface& surface) {
 /// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is
 /// known of a boundary.
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
-  for (const char* key : {"expected_missed_mm2", "expected_extra_mm2", "band", "cut"})
+  for (const char* key : {"certainty", "area_interval_mm2", "expected_missed_mm2",
+                          "expected_extra_mm2", "band", "cut"})
     summary[key] = nullptr;
   const std::optional<Certainty>& certainty = episode.conclusion().certainty;
-  if (!certainty || episode.conclusion().tip_hides_all) return;
+  if (!certainty || episode.conclusion().tip_hides_all()) return;
   const Surface& surface = episode.exploration.surface();
+  const std::optional<OutlinePosterior>& outlines = episode.conclusion().outlines;
+  summary["certainty"] = outlines ? "sampled" : "laplace";
+  if (outlines)
+    summary["area_interval_mm2"] = {outlines->area_m2.least * kMm2, outlines->area_m2.most * kMm2};
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
   summary["expected_extra_mm2"] = certainty->expected.extra_m2 * kMm2;

@@ -89,7 +89,7 @@ std::string found_words(const Episode& episode) {
   const std::string level =
       "at the level " + reading_text(level_in_readings(episode.conclusion())->value);
   if (parts.empty()) {
-    if (episode.conclusion().tip_hides_all)
+    if (episode.conclusion().tip_hides_all())
       return "Something stiff was found, but it is nowhere wider than the probe's tip.\n";
     return "Nothing found " + level + ": no tissue is that stiff.\n" + nothing_words(episode);
   }

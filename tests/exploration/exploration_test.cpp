@@ -259,7 +259,7 @@ Exploration explored_with_tip(double tip_radius_m) {
 
 TEST(RoundTip, TakesTheBoundaryInWithItsBandAndItsExpectedError) {
   const Exploration sharp = explored_with_tip(0.0), round = explored_with_tip(0.002);
-  EXPECT_FALSE(round.conclusion().tip_hides_all);
+  EXPECT_FALSE(round.conclusion().tip_hides_all());
   const double share = 4.25 / 6.25;  // of the disk's outline, 2 mm farther in
   EXPECT_NEAR(round.conclusion().certainty->expected.symmetric_difference_m2() /
                   sharp.conclusion().certainty->expected.symmetric_difference_m2(),
@@ -269,7 +269,7 @@ TEST(RoundTip, TakesTheBoundaryInWithItsBandAndItsExpectedError) {
 
 TEST(RoundTip, WiderThanATumourSaysThatNothingIsLeftOfIt) {
   const Exploration exploration = explored_with_tip(0.009);
-  EXPECT_TRUE(exploration.conclusion().tip_hides_all);
+  EXPECT_TRUE(exploration.conclusion().tip_hides_all());
   EXPECT_EQ(exploration.conclusion().certainty->half_width_m, 0.0);
 }
 

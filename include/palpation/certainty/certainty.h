@@ -12,6 +12,7 @@
 #include "palpation/belief/level.h"
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/expected_error.h"
+#include "palpation/certainty/outline_posterior.h"
 
 namespace palpation {
 
@@ -41,6 +42,11 @@ Certainty certainty_of(const Surface& surface, const Belief& belief, const Margi
 /// The same of a boundary that is believed in depths: the score is the depth over the standard
 /// deviation of the boundary's offset.
 Certainty certainty_of(const Surface& surface, const EdgeBelief& edge, double probability = 0.95);
+
+/// The same of outlines that were drawn: the score is the median depth over the draws' spread, and
+/// the band is as wide as their outlines, each as a whole, ask for.
+Certainty certainty_of(const Surface& surface, const OutlinePosterior& outlines,
+                       double probability = 0.95);
 
 /// What a probe with a round tip feels early, taken back (erosion.h): the score of the boundary
 /// that lies a radius farther in, with the band's width along it. What is expected to be wrong

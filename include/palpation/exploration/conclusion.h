@@ -6,6 +6,7 @@
 /// noise, the level at the tumour's edge (equation 4), the boundary and how sure it is.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 #include "palpation/belief/level.h"
 #include "palpation/certainty/certainty.h"
 #include "palpation/certainty/edge_belief.h"
+#include "palpation/certainty/outline_posterior.h"
 #include "palpation/exploration/model.h"
 #include "palpation/readings/reading_scale.h"
 
@@ -25,6 +27,9 @@ namespace palpation {
 struct Contour {
   Field field;
   double level = 0.0;
+  /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the
+  /// tip is taken back is nothing.
+  bool tip_hides_all = false;
 };
 
 /// A part that stands out by less than the model's least contrast (Contrast::least).
@@ -72,15 +77,16 @@ struct Conclusion {
   /// What is known of the boundary in depths; nothing unless the level is inferred from its edge,
   /// and one is seen.
   std::optional<EdgeBelief> edge;
-  /// The boundary: of the depth where `edge` knows it, of the component else; what a round tip
-  /// feels early is taken back. Nothing where there is no level.
+  /// The outlines that were drawn, where that was asked for and there is an edge, and a chart that
+  /// they lie in; then level, contour and certainty are of them.
+  std::optional<OutlinePosterior> outlines;
+  /// The boundary: of the depth where `outlines` or `edge` know it, of the component else; what a
+  /// round tip feels early is taken back. Nothing where there is no level.
   std::optional<Contour> contour;
-  /// A boundary was felt, but it is nowhere wider than the probe's tip: what is left of it once the
-  /// tip is taken back is nothing.
-  bool tip_hides_all = false;
   /// How sure the boundary is; nothing where there is no level or no reading.
   std::optional<Certainty> certainty;
 
+  bool tip_hides_all() const { return contour && contour->tip_hides_all; }
   /// That the field is modelled on: belief, marginals, component, level, edge and contour are in
   /// its units, so that with ReadingScale::Log exp of a mean is a reading (its median).
   ReadingScale scale() const { return model.contrast.scale; }
@@ -106,9 +112,12 @@ class ConclusionCache {
 
 /// Where nothing is felt yet, the prior's; a given level is known even then. Depends on the
 /// arguments alone; readings that could not be made (TouchKind::Missed) tell nothing. Reasons why
-/// readings are set aside that are this function's own are judged anew. Throws InvalidInput as
+/// readings are set aside that are this function's own are judged anew. With a seed the boundary's
+/// outlines are drawn (outline_posterior.h), which takes seconds and is honest about corners, horns
+/// and necks; else Laplace's approximation tells how sure it is. Throws InvalidInput as
 /// check(Model), Prior and BeliefOptions say, NumericalError where no field can be fitted.
 Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
-                    ConclusionCache* cache = nullptr);
+                    ConclusionCache* cache = nullptr,
+                    std::optional<std::uint64_t> sampling_seed = std::nullopt);
 
 }  // namespace palpation

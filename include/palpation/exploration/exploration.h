@@ -10,6 +10,7 @@
 /// they lead to the same conclusion and the same next stops, to the bit.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -43,6 +44,11 @@ class Exploration {
   /// Takes up readings that were made elsewhere or before: nothing is concluded from planned stops
   /// that are not among them. Throws as record.
   void take_up(std::span<const Palpation> palpations);
+
+  /// Concludes from the same readings once more, the boundary's outlines drawn: what the end of a
+  /// run may take its time for. The next stops stay as they are, and what is recorded later is
+  /// concluded from as before. Throws as `conclude`; then nothing has changed.
+  void draw_outlines(std::uint64_t seed);
 
   /// For the time while the robot moves: does the work for the stops of next() that no reading
   /// changes, so that after record() the next plan follows at once if all of them were touched, in

@@ -1,0 +1,59 @@
+/// The boundary as a set of outlines, drawn from all that the readings and a wide prior leave open.
+///
+/// An EdgeBelief knows the boundary as a line with normal errors. Its outlines are all alike; a
+/// corner that was not touched, a horn, a neck lie farther out than it knows. Here outlines are
+/// sampled: polygons with a profile across their edge (equation 4 of Garg et al. 2016), by Markov
+/// chain Monte Carlo, from a prior in which corners are likely (certainty/outline_model.h). What is
+/// concluded are figures of the draws: no constant was fitted to any tumour.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "palpation/belief/belief.h"
+#include "palpation/belief/level.h"
+#include "palpation/certainty/edge_belief.h"
+#include "palpation/certainty/expected_error.h"
+
+namespace palpation {
+
+struct OutlineOptions {
+  double fraction = 0.5;      ///< of the way from the low plateau to the high one
+  double noise_log_sd = 0.0;  ///< of the belief's noise, as EdgeBelief::around has it
+  std::uint64_t seed = 1;
+  int draws = 200;
+};
+
+/// An expectation, and what holds 95 % of the draws.
+struct DrawnNumber {
+  double mean = 0.0;
+  double least = 0.0;
+  double most = 0.0;
+};
+
+struct OutlinePosterior {
+  Field depth;   ///< at the vertices, metres, positive inside: the median of the draws', so that it
+                 ///< is positive where a place is inside in more than half of them
+  Field spread;  ///< standard deviation of the draws' depths at the vertices, metres
+  std::vector<double> farthest;  ///< of each draw, rising: how many `spread` its outline reaches
+                                 ///< from the boundary { depth = 0 } where it is farthest from it
+  ExpectedError expected;        ///< of the region { depth >= 0 }: the mean over the draws
+  DrawnNumber area_m2;
+  Level level;  ///< at the boundary of the largest part, in the belief's units
+  /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not
+  /// come to the same answer, and the draws say too little.
+  double disagreement = 0.0;
+
+  /// A draw lies wholly within { |depth| <= score spread } with this probability. Throws
+  /// InvalidInput unless it lies in (0, 1).
+  double band_score(double probability) const;
+};
+
+/// From the edge's boundary on. Depends on the arguments alone: readings in another order are the
+/// same readings. Nothing where the surface has no chart, which the outlines lie in, or the edge
+/// has no boundary. Throws InvalidInput for a fraction outside (0, 1) and fewer than twenty draws.
+std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const EdgeBelief& edge,
+                                                const OutlineOptions& options = {});
+
+}  // namespace palpation

@@ -1,0 +1,63 @@
+/// An outline and its profile that walk through their posterior, by Metropolis' steps.
+///
+/// What a step may change is known beforehand: only the pieces that move, and the readings for
+/// which one of those is or becomes the nearest. The others keep their likelihood, so that a step
+/// costs a few readings, not all.
+#pragma once
+
+#include <vector>
+
+#include "certainty/outline_model.h"
+#include "palpation/base/random.h"
+
+namespace palpation {
+
+class OutlineChain {
+ public:
+  /// The readings and the prior must outlive it. The start's lines must not cross.
+  OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
+               OutlineProfile profile);
+
+  /// Proposes that consecutive nodes of a loop, from `first` on, move to these places; at most all
+  /// of them. `log_volume`: of the proposal's Jacobian. Never lets lines cross. Returns whether it
+  /// was taken.
+  bool move_nodes(int first, const std::vector<Vec2>& places, Random& random,
+                  double log_volume = 0.0);
+  /// Proposes another profile; `is_of_shape` where it differs in log_turn and log_spacing alone,
+  /// else it must differ in the others alone.
+  bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
+
+  const OutlineNodes& outline() const { return outline_; }
+  const OutlineProfile& profile() const { return profile_; }
+  double logit_fraction() const { return law_.logit_fraction; }
+  /// Of each part, the depth of its deepest reading; 0 where none is inside.
+  std::vector<double> deepest_readings() const;
+  /// Of the posterior, without what depends on nothing that moves; as it was added up step by step.
+  double log_density() const;
+
+ private:
+  /// Where a reading lies to the outline, and its log likelihood there.
+  struct Felt {
+    NearestPiece nearest;
+    bool inside = false;
+    double log_likelihood = 0.0;
+  };
+  struct Step;
+
+  double likelihood_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  Step step_from(int first, int moved) const;
+  double shape_about(const Step& step) const;
+  bool crosses_another(const Step& step) const;
+  bool is_untouched(const Step& step, std::size_t reading) const;
+  Felt felt_after(const Step& step, std::size_t reading) const;
+
+  const OutlineReadings& readings_;
+  const OutlinePrior& prior_;
+  OutlineNodes outline_;
+  OutlineProfile profile_;
+  ReadingLaw law_;  // of the profile
+  std::vector<Felt> felt_;
+  std::vector<bool> moves_;  // of each piece, in the step at hand
+};
+
+}  // namespace palpation

@@ -1,0 +1,85 @@
+#include "certainty/outline_model.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/sigmoid.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kWild = 0.01;          ///< part of the readings that tell nothing
+constexpr double kWildReach = 12.0;     ///< of these, in plateau_sd: three times the range
+constexpr double kTurnLogSd = 1.0;      ///< of the turns' half width
+constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
+constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
+constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
+
+double half_square(double z) { return 0.5 * z * z; }
+
+}  // namespace
+
+ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
+  ReadingLaw law{.low = profile.low,
+                 .slope_per_m = std::exp(profile.log_slope),
+                 .logit_fraction = prior.logit_fraction,
+                 .contrast = {},
+                 .noise_square = std::exp(2.0 * profile.log_noise),
+                 .wild_density = kWild / (kWildReach * prior.plateau_sd)};
+  for (const double log_contrast : profile.log_contrast)
+    law.contrast.push_back((profile.high - profile.low) * std::exp(log_contrast));
+  return law;
+}
+
+double log_likelihood(const ReadingLaw& law, double reading, double variance, double depth_m,
+                      int part) {
+  const double share = sigmoid(law.slope_per_m * depth_m + law.logit_fraction);
+  const double square = variance * law.noise_square,
+               off = reading - law.low - law.contrast[part] * share;
+  const double normal =
+      std::exp(-0.5 * off * off / square) / std::sqrt(2.0 * std::numbers::pi * square);
+  return std::log((1.0 - kWild) * normal + law.wild_density);
+}
+
+double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,
+                        const Vec2& after, const OutlineProfile& profile) {
+  const Vec2 in = node - before, out = after - node;
+  const double angle = std::atan2(cross(in, out), in.dot(out)),
+               even = loop.turns * 2.0 * std::numbers::pi / loop.count;
+  const double off = (angle - even) * std::exp(-profile.log_turn);
+  return -std::log1p(off * off) - profile.log_turn;
+}
+
+double log_length_density(const Vec2& from, const Vec2& to, double log_spacing) {
+  const double log_length = 0.5 * std::log((to - from).squaredNorm());
+  // Lognormal; once over the length for the logarithm, once for the end's direction.
+  return -half_square((log_length - log_spacing) / kPieceLogSd) - 2.0 * log_length;
+}
+
+double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile) {
+  double sum = 0.0;
+  for (int node = 0; node < outline.count(); ++node) {
+    const int loop = outline.loop_of[node];
+    const Vec2 &here = outline.place[node], &after = outline.place[outline.next(node)];
+    sum += log_turn_density(outline.loops[loop], outline.place[outline.before(node)], here, after,
+                            profile) +
+           log_length_density(here, after, profile.log_spacing[loop]);
+  }
+  return sum;
+}
+
+double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior) {
+  const OutlineProfile& median = prior.median;
+  double sum = half_square((profile.low - median.low) / prior.plateau_sd) +
+               half_square((profile.high - median.high) / prior.plateau_sd) +
+               half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
+               half_square((profile.log_noise - median.log_noise) / prior.noise_log_sd) +
+               half_square((profile.log_turn - median.log_turn) / kTurnLogSd);
+  for (std::size_t loop = 0; loop < profile.log_spacing.size(); ++loop)
+    sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
+  for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
+    sum += half_square(profile.log_contrast[part] / kContrastLogSd);
+  return -sum;
+}
+
+}  // namespace palpation

@@ -1,0 +1,71 @@
+/// What outlines are taken for, and what readings say of one: the density that is sampled.
+///
+/// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns from node
+/// to node by an angle that is Cauchy's about an even turn: most of an outline is smooth, and
+/// corners, horns and necks are as likely as that law's tails make them; how wide it is, is learned
+/// with the outline. Pieces are about as long as each other. Depth is the signed distance to the
+/// polygon, and a reading
+///
+///     low + contrast (high - low) / (1 + exp(-(slope depth + logit fraction))) + noise
+///
+/// (equation 4 of Garg et al. 2016, zero where the boundary is), the noise normal but for a reading
+/// in a hundred, which tells nothing.
+#pragma once
+
+#include <vector>
+
+#include "certainty/outline_nodes.h"
+
+namespace palpation {
+
+/// The readings, one per place, in the chart's plane.
+struct OutlineReadings {
+  std::vector<Vec2> places;
+  std::vector<double> reading;
+  std::vector<double> variance;  ///< of the noise
+};
+
+/// All but the nodes that is not known.
+struct OutlineProfile {
+  double low = 0.0;
+  double high = 0.0;
+  double log_slope = 0.0;            ///< of a slope per metre
+  double log_noise = 0.0;            ///< of what the noise's standard deviations are multiplied by
+  double log_turn = 0.0;             ///< of the law's half width, radians
+  std::vector<double> log_spacing;   ///< of each loop's pieces, metres
+  std::vector<double> log_contrast;  ///< of each part, the first one's 0
+};
+
+/// Medians and spreads, of all that is positive in logarithms.
+struct OutlinePrior {
+  OutlineProfile median;
+  double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
+  double slope_log_sd = 0.5;
+  double noise_log_sd = 1.0;
+  double logit_fraction = 0.0;
+};
+
+/// How readings come from depths, by a profile.
+struct ReadingLaw {
+  double low, slope_per_m, logit_fraction;
+  std::vector<double> contrast;  ///< of each part
+  double noise_square;           ///< what variances are multiplied by
+  double wild_density;           ///< of a reading that tells nothing, times how many there are
+};
+ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
+
+/// Log density of a reading at a depth in a part.
+double log_likelihood(const ReadingLaw& law, double reading, double variance, double depth_m,
+                      int part);
+
+/// Of the turn at a node of a loop, by the places before it, of it and after it.
+double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,
+                        const Vec2& after, const OutlineProfile& profile);
+/// Of a piece's length, as a density of its end's place.
+double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
+/// Of all nodes.
+double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile);
+/// Of the profile itself.
+double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);
+
+}  // namespace palpation

@@ -1,0 +1,218 @@
+#include "palpation/certainty/outline_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "certainty/outline_start.h"
+#include "certainty/outline_walk.h"
+#include "palpation/base/error.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+constexpr int kChains = 2;
+constexpr int kSettling = 400, kSweeps = 800;
+/// As often chains that do not agree go on, each time for as long as before.
+constexpr int kMostRounds = 3;
+constexpr double kDisagree = 1.0;
+constexpr int kVerticesAtOnce = 256;
+constexpr double kLeastSpread_m = 1e-6;
+constexpr int kFewestDraws = 20;
+
+using Draws = std::vector<OutlineDraw>;
+
+double area_of(const OutlineNodes& outline) {
+  double area = 0.0;
+  for (const NodeLoop& loop : outline.loops) {
+    const auto first = outline.place.begin() + loop.first;
+    area += enclosed_area({first, first + loop.count});
+  }
+  return area;
+}
+
+/// Between the halves of draws, which are of two chains.
+double disagreement_of(const Draws& draws) {
+  const auto half = draws.size() / 2;
+  double mean[2] = {0.0, 0.0}, square = 0.0;
+  for (std::size_t i = 0; i < draws.size(); ++i)
+    mean[i / half] += area_of(draws[i].outline) / static_cast<double>(half);
+  for (std::size_t i = 0; i < draws.size(); ++i)
+    square += std::pow(area_of(draws[i].outline) - mean[i / half], 2);
+  const double sd = std::sqrt(square / static_cast<double>(draws.size()));
+  return sd > 0.0 ? std::abs(mean[0] - mean[1]) / sd : 0.0;
+}
+
+/// Of two chains, one after the other; and how far they are apart.
+std::pair<Draws, double> drawn(const OutlineStart& start, const OutlineOptions& options) {
+  std::vector<OutlineWalk> walks;
+  for (int chain = 0; chain < kChains; ++chain)
+    walks.emplace_back(start.readings, start.prior, start.outline, start.profile,
+                       kChains * options.seed + static_cast<std::uint64_t>(chain));
+  const int each = options.draws / kChains;
+  std::pair<Draws, double> result;
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<Draws> of_chain(kChains);
+    for_ranges(kChains, 1, [&](int first, int last) {
+      for (int chain = first; chain < last; ++chain) {
+        walks[chain].settle(kSettling);
+        of_chain[chain] = walks[chain].draws(kSweeps, each);
+      }
+    });
+    result.first = std::move(of_chain[0]);
+    for (OutlineDraw& draw : of_chain[1]) result.first.push_back(std::move(draw));
+    result.second = disagreement_of(result.first);
+    if (result.second < kDisagree) break;
+  }
+  return result;
+}
+
+/// What part of a vertex's surroundings, so wide, is inside at this depth.
+double share_inside(double depth_m, double width_m) {
+  return std::clamp(depth_m / width_m + 0.5, 0.0, 1.0);
+}
+
+double depth_of(const OutlineDraw& draw, const Vec2& place) {
+  const NearestPiece nearest = nearest_piece(draw.outline, place);
+  const double distance = std::sqrt(nearest.square),
+               wider = draw.wider_m[draw.outline.loops[draw.outline.loop_of[nearest.piece]].part];
+  return (is_inside(draw.outline, place) ? distance : -distance) + wider;
+}
+
+/// The draws' depths: rows are draws, columns vertices.
+Eigen::MatrixXf depths_at(const Surface& surface, const Draws& draws) {
+  const Points2& uv = surface.chart().uv;
+  Eigen::MatrixXf depths(static_cast<Eigen::Index>(draws.size()), surface.vertex_count());
+  for_ranges(surface.vertex_count(), kVerticesAtOnce, [&](int first, int last) {
+    for (int vertex = first; vertex < last; ++vertex) {
+      const Vec2 place = uv.row(vertex).transpose();
+      for (std::size_t i = 0; i < draws.size(); ++i)
+        depths(static_cast<Eigen::Index>(i), vertex) =
+            static_cast<float>(depth_of(draws[i], place));
+    }
+  });
+  return depths;
+}
+
+/// How far each draw's outline, where it crosses the mesh's edges, lies from the boundary.
+std::vector<double> farthest_of(const Surface& surface, const Eigen::MatrixXf& depths,
+                                const Field& score) {
+  std::vector<double> farthest(static_cast<std::size_t>(depths.rows()), 0.0);
+  for (int face = 0; face < surface.face_count(); ++face) {
+    const Eigen::Vector3i corners = surface.triangle(face);
+    for (int i = 0; i < 3; ++i) {
+      const int a = corners[i], b = corners[(i + 1) % 3];
+      for (Eigen::Index draw = 0; draw < depths.rows(); ++draw) {
+        const double at_a = depths(draw, a), at_b = depths(draw, b);
+        if ((at_a >= 0.0) == (at_b >= 0.0)) continue;
+        const double here = score[a] + at_a / (at_a - at_b) * (score[b] - score[a]);
+        farthest[draw] = std::max(farthest[draw], std::abs(here));
+      }
+    }
+  }
+  std::ranges::sort(farthest);
+  return farthest;
+}
+
+double mean_edge_m(const Surface& surface) {
+  return std::sqrt(2.0 * surface.area() / surface.face_count());
+}
+
+/// Of numbers, one a draw.
+DrawnNumber summed_up(std::vector<double> numbers) {
+  std::ranges::sort(numbers);
+  const auto count = numbers.size();
+  DrawnNumber sum{.least = numbers[count / 40], .most = numbers[count - 1 - count / 40]};
+  for (const double number : numbers) sum.mean += number / static_cast<double>(count);
+  return sum;
+}
+
+/// Median and spread of the depths at each vertex.
+void add_depths(const Eigen::MatrixXf& depths, OutlinePosterior& posterior) {
+  const Eigen::Index vertices = depths.cols(), draws = depths.rows();
+  posterior.depth.resize(vertices);
+  posterior.spread.resize(vertices);
+  for_ranges(static_cast<int>(vertices), kVerticesAtOnce, [&](int first, int last) {
+    Eigen::VectorXf here(draws);
+    for (int vertex = first; vertex < last; ++vertex) {
+      here = depths.col(vertex);
+      const double mean = here.cast<double>().mean();
+      posterior.spread[vertex] =
+          std::max(kLeastSpread_m, std::sqrt((here.cast<double>().array() - mean).square().mean()));
+      std::nth_element(here.begin(), here.begin() + draws / 2, here.end());
+      posterior.depth[vertex] = here[draws / 2];
+    }
+  });
+}
+
+/// What of the region and of the draws does not overlap, and the draws' areas.
+void add_areas(const Surface& surface, const Eigen::MatrixXf& depths, OutlinePosterior& posterior) {
+  const double width = mean_edge_m(surface);
+  const Eigen::Index draws = depths.rows();
+  std::vector<double> areas(static_cast<std::size_t>(draws), 0.0);
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const double area = surface.vertex_areas()[vertex],
+                 found = share_inside(posterior.depth[vertex], width);
+    for (Eigen::Index draw = 0; draw < draws; ++draw) {
+      const double drawn = share_inside(depths(draw, vertex), width);
+      areas[draw] += area * drawn;
+      posterior.expected.missed_m2 +=
+          area * std::max(drawn - found, 0.0) / static_cast<double>(draws);
+      posterior.expected.extra_m2 +=
+          area * std::max(found - drawn, 0.0) / static_cast<double>(draws);
+    }
+  }
+  posterior.area_m2 = summed_up(std::move(areas));
+}
+
+Level level_of(const Draws& draws, double fraction) {
+  double sum = 0.0, square = 0.0;
+  const auto count = static_cast<double>(draws.size());
+  for (const OutlineDraw& draw : draws) {
+    const double level = draw.profile.low + fraction * (draw.profile.high - draw.profile.low);
+    sum += level;
+    square += level * level;
+  }
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(square / count - mean * mean, 0.0))};
+}
+
+}  // namespace
+
+double OutlinePosterior::band_score(double probability) const {
+  require(probability > 0.0 && probability < 1.0, "band_score",
+          "probability = " + text_of(probability), "must lie in (0, 1)");
+  const auto count = static_cast<double>(farthest.size());
+  const double rank = std::ceil(probability * (count + 1.0));  // as a fresh draw would fall
+  return farthest[static_cast<std::size_t>(std::clamp(rank, 1.0, count)) - 1];
+}
+
+std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const EdgeBelief& edge,
+                                                const OutlineOptions& options) {
+  require(options.fraction > 0.0 && options.fraction < 1.0, "sample_outlines",
+          "fraction = " + text_of(options.fraction), "must lie in (0, 1)");
+  require(options.draws >= kFewestDraws, "sample_outlines",
+          "draws = " + std::to_string(options.draws),
+          "must be at least " + std::to_string(kFewestDraws));
+  const Surface& surface = belief.prior().surface();
+  if (!surface.has_chart()) return std::nullopt;
+  const std::optional<OutlineStart> start = outline_start(belief, edge, options);
+  if (!start) return std::nullopt;
+  const auto [draws, disagreement] = drawn(*start, options);
+  const Eigen::MatrixXf depths = depths_at(surface, draws);
+  OutlinePosterior posterior{.depth = {},
+                             .spread = {},
+                             .farthest = {},
+                             .expected = {},
+                             .area_m2 = {},
+                             .level = level_of(draws, options.fraction),
+                             .disagreement = disagreement};
+  add_depths(depths, posterior);
+  add_areas(surface, depths, posterior);
+  const Field score = posterior.depth.cwiseQuotient(posterior.spread);
+  posterior.farthest = farthest_of(surface, depths, score);
+  return posterior;
+}
+
+}  // namespace palpation

@@ -1,0 +1,160 @@
+#include "certainty/outline_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "certainty/edge_data.h"
+#include "palpation/boundary/level_set.h"
+#include "palpation/geometry/chart_place.h"
+
+namespace palpation {
+namespace {
+
+/// Pieces: a probe's tip is some millimetres wide, and nothing finer is felt.
+constexpr double kSpacing_m = 0.001;
+constexpr int kLeastNodes = 12;
+constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
+/// Of a noise that is given: edges are no perfect sigmoids.
+constexpr double kGivenNoiseLogSd = 0.3;
+constexpr double kLearnedNoiseLogSd = 1.0;
+constexpr double kModelError = 1e-3;  ///< of the range, as the edge's fit has it
+
+OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range) {
+  const Surface& surface = belief.prior().surface();
+  const Layout layout(belief.prior());
+  EdgeData data = gathered_for_edge(belief);
+  Eigen::VectorXd of_vertices;
+  if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
+    data = with_plateaus_merged(layout, data);
+  const double least_variance = kModelError * kModelError * range * range;
+  std::vector<std::size_t> order(data.places.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Vec2> places;
+  for (const SurfacePoint& place : data.places) places.push_back(chart_place(surface, place));
+  std::ranges::sort(order, {}, [&](std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    return std::array{places[i].x(), places[i].y(), data.reading[row], data.variance[row]};
+  });
+  OutlineReadings readings;
+  for (const std::size_t i : order) {
+    const auto row = static_cast<Eigen::Index>(i);
+    readings.places.push_back(places[i]);
+    readings.reading.push_back(data.reading[row]);
+    readings.variance.push_back(std::max(data.variance[row], least_variance));
+  }
+  return readings;
+}
+
+std::vector<std::vector<Vec2>> lines_of(const Surface& surface, const Field& depth) {
+  std::vector<std::vector<Vec2>> lines;
+  for (const LevelLoop& loop : level_loops(surface, depth, 0.0)) {
+    lines.emplace_back();
+    for (const SurfacePoint& point : loop.points)
+      lines.back().push_back(chart_place(surface, point));
+  }
+  std::ranges::stable_sort(lines, std::greater<>(), [](const std::vector<Vec2>& line) {
+    return std::abs(enclosed_area(line));
+  });
+  return lines;
+}
+
+std::vector<Vec2> as_nodes(const std::vector<Vec2>& line) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    length += (line[(i + 1) % line.size()] - line[i]).norm();
+  return evenly_spaced(line, std::max(kLeastNodes, static_cast<int>(length / kSpacing_m)));
+}
+
+OutlineNodes alone(const std::vector<Vec2>& line) {
+  OutlineNodes outline;
+  outline.add(line, 0);
+  return outline;
+}
+
+/// Lines that enclose a reading, and the largest of all: of the others nothing is known. Holes
+/// belong to the part that they lie in.
+OutlineNodes outline_from(const std::vector<std::vector<Vec2>>& lines,
+                          const std::vector<Vec2>& readings) {
+  OutlineNodes outline;
+  std::vector<OutlineNodes> parts;
+  for (const std::vector<Vec2>& line : lines) {
+    const OutlineNodes nodes = alone(as_nodes(line));
+    const auto encloses = [&](const Vec2& place) { return is_inside(nodes, place); };
+    if (!parts.empty() && std::ranges::none_of(readings, encloses)) continue;
+    int part = static_cast<int>(parts.size());
+    if (nodes.loops.front().turns < 0.0) {
+      const auto holds = [&](const OutlineNodes& of) { return is_inside(of, nodes.place.front()); };
+      const auto around = std::ranges::find_if(parts, holds);
+      if (around == parts.end()) continue;
+      part = static_cast<int>(around - parts.begin());
+    } else {
+      parts.push_back(nodes);
+    }
+    outline.add(nodes.place, part);
+  }
+  return outline;
+}
+
+/// Between lines of nodes that were smooth curves before: those of two loops may cross.
+bool is_simple(const OutlineNodes& outline) {
+  for (int a = 0; a < outline.count(); ++a) {
+    for (int b = a + 1; b < outline.count(); ++b) {
+      if (b == outline.next(a) || a == outline.next(b)) continue;
+      if (cross_each_other(outline.place[a], outline.place[outline.next(a)], outline.place[b],
+                           outline.place[outline.next(b)]))
+        return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief& edge,
+                                          const OutlineOptions& options) {
+  const Surface& surface = belief.prior().surface();
+  const EdgeProfile& profile = edge.profile();
+  const double range = profile.high - profile.low;
+  const std::vector<std::vector<Vec2>> lines = lines_of(surface, edge.depth());
+  if (lines.empty() || !(range > 0.0)) return std::nullopt;
+  OutlineStart start{.readings = readings_in_plane(belief, edge, range),
+                     .prior = {},
+                     .outline = {},
+                     .profile = {}};
+  start.outline = outline_from(lines, start.readings.places);
+  while (!is_simple(start.outline)) {
+    if (start.outline.loops.size() == 1) return std::nullopt;
+    OutlineNodes fewer;
+    for (std::size_t i = 0; i + 1 < start.outline.loops.size(); ++i) {
+      const NodeLoop& loop = start.outline.loops[i];
+      const auto first = start.outline.place.begin() + loop.first;
+      fewer.add({first, first + loop.count}, loop.part);
+    }
+    start.outline = fewer;
+  }
+  const Field mean = belief.at_vertices(Part::Detrended).mean;
+  const ShapePrior shape;
+  OutlineProfile& median = start.prior.median;
+  median = {.low = mean.minCoeff(),
+            .high = mean.maxCoeff(),
+            .log_slope = std::log(shape.slope_per_m),
+            .log_noise = 0.0,
+            .log_turn = std::log(kTurn),
+            .log_spacing = std::vector(start.outline.loops.size(), std::log(kSpacing_m)),
+            .log_contrast = {}};
+  int parts = 1;
+  for (const NodeLoop& loop : start.outline.loops) parts = std::max(parts, loop.part + 1);
+  median.log_contrast.assign(static_cast<std::size_t>(parts), 0.0);
+  start.prior.plateau_sd = shape.plateau_error * (median.high - median.low);
+  start.prior.slope_log_sd = shape.slope_log_sd;
+  start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
+  start.prior.logit_fraction = std::log(options.fraction / (1.0 - options.fraction));
+  start.profile = median;
+  start.profile.low = profile.low;
+  start.profile.high = profile.high;
+  start.profile.log_slope = std::log(profile.slope_per_m);
+  return start;
+}
+
+}  // namespace palpation

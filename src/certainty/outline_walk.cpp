@@ -1,0 +1,163 @@
+#include "certainty/outline_walk.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/sigmoid.h"
+
+namespace palpation {
+namespace {
+
+/// Nodes to either side that move along with a stretch's middle.
+constexpr std::array kHalfWidths = {0, 1, 3, 7};
+constexpr double kFirst_m = 0.0003, kLeast_m = 1e-8, kMost_m = 0.008;
+/// Shares of steps that are taken where they are as long as they should be.
+constexpr double kOfNodes = 0.3, kOfNumbers = 0.4;
+constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
+constexpr double kSpacingStep = 0.05;
+constexpr int kProfileRounds = 2;
+
+double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform(); }
+
+Vec2 direction_of(Random& random) {
+  const double angle = angle_of(random);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+}  // namespace
+
+OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& prior,
+                         OutlineNodes start, OutlineProfile profile, std::uint64_t seed)
+    : chain_(readings, prior, std::move(start), std::move(profile)), random_(seed) {
+  const OutlineNodes& outline = chain_.outline();
+  lengths_.of_stretches.resize(outline.place.size());
+  for (auto& lengths : lengths_.of_stretches) lengths.fill(kFirst_m);
+  lengths_.of_loops.resize(outline.loops.size());
+  for (auto& lengths : lengths_.of_loops) lengths.fill(kFirst_m);
+  lengths_.of_contrasts.assign(chain_.profile().log_contrast.size(), 0.1);
+  const double plateau = 0.2 * prior.plateau_sd;
+  lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1};
+}
+
+void OutlineWalk::settle(int sweeps) {
+  settling_ = true;
+  for (int i = 0; i < sweeps; ++i) sweep();
+  settling_ = false;
+}
+
+std::vector<OutlineDraw> OutlineWalk::draws(int sweeps, int count) {
+  std::vector<OutlineDraw> draws;
+  for (int i = 0; i < sweeps; ++i) {
+    sweep();
+    if (static_cast<int>(draws.size()) * sweeps < (i + 1) * count &&
+        static_cast<int>(draws.size()) < count)
+      draws.push_back({chain_.outline(), chain_.profile(), drawn_widths()});
+  }
+  return draws;
+}
+
+std::vector<double> OutlineWalk::drawn_widths() {
+  const double slope = std::exp(chain_.profile().log_slope), logit = chain_.logit_fraction();
+  const double of_felt = random_.uniform();
+  std::vector<double> wider_m;
+  for (const double deepest : chain_.deepest_readings()) {
+    const double felt = sigmoid(slope * deepest + logit);
+    const double level = sigmoid(logit) * (1.0 - of_felt * (1.0 - felt));
+    wider_m.push_back((logit - std::log(level / (1.0 - level))) / slope);
+  }
+  return wider_m;
+}
+
+void OutlineWalk::tune(double& length, bool taken, double share, double most) const {
+  if (settling_)
+    length = std::clamp(length * std::exp(kGain * ((taken ? 1.0 : 0.0) - share)), kLeast_m, most);
+}
+
+void OutlineWalk::sweep() {
+  const int count = chain_.outline().count();
+  for (int node = 0; node < count; ++node) move_stretch(random_.below(count), 0);
+  for (int width = 1; width < kWidths; ++width) {
+    for (int i = 0; i < std::max(4, count / 2); ++i) move_stretch(random_.below(count), width);
+  }
+  for (std::size_t loop = 0; loop < chain_.outline().loops.size(); ++loop) {
+    // Two of them: each costs as much as many a stretch.
+    for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
+  }
+  for (int round = 0; round < kProfileRounds; ++round) move_profile();
+}
+
+/// All in one direction, the middle the farthest: as likely there as back.
+void OutlineWalk::move_stretch(int middle, int width) {
+  const OutlineNodes& outline = chain_.outline();
+  const NodeLoop& loop = outline.loops[outline.loop_of[middle]];
+  const int half = kHalfWidths[width], count = 2 * half + 1;
+  if (count > loop.count - 2) return;
+  double& length = lengths_.of_stretches[middle][width];
+  const Vec2 way = length * random_.normal() * direction_of(random_);
+  const int first = loop.first + (middle - loop.first + loop.count - half) % loop.count;
+  std::vector<Vec2> places;
+  for (int i = 0, node = first; i < count; ++i, node = outline.next(node)) {
+    const double phase = std::numbers::pi * (i - half) / (half + 1.0);
+    places.push_back(outline.place[node] + 0.5 * (1.0 + std::cos(phase)) * way);
+  }
+  tune(length, chain_.move_nodes(first, places, random_), kOfNodes, kMost_m);
+}
+
+/// Moved, grown, turned, or bent in one to three waves.
+void OutlineWalk::move_loop(int loop, int kind) {
+  const OutlineNodes& outline = chain_.outline();
+  const auto [first, count, part, turns] = outline.loops[loop];
+  const auto begin = outline.place.begin() + first;
+  std::vector<Vec2> places(begin, begin + count);
+  Vec2 middle = Vec2::Zero();
+  for (const Vec2& place : places) middle += place / count;
+  double& length = lengths_.of_loops[loop][kind];
+  const double step = length * random_.normal();
+  double log_volume = 0.0;
+  if (kind == 0) {
+    const Vec2 way = step * direction_of(random_);
+    for (Vec2& place : places) place += way;
+  } else if (kind == 1) {
+    const double log_growth = step / kMost_m;
+    // Of all places but their middle, which stays.
+    log_volume = 2.0 * (count - 1) * log_growth;
+    for (Vec2& place : places) place = middle + std::exp(log_growth) * (place - middle);
+  } else if (kind == 2) {
+    const double turn = step / kMost_m, cosine = std::cos(turn), sine = std::sin(turn);
+    for (Vec2& place : places) {
+      const Vec2 arm = place - middle;
+      place = middle + Vec2(cosine * arm.x() - sine * arm.y(), sine * arm.x() + cosine * arm.y());
+    }
+  } else {
+    const double waves = kind - 2, phase = angle_of(random_);
+    const Vec2 way = step * direction_of(random_);
+    for (int i = 0; i < count; ++i)
+      places[i] += std::cos(2.0 * std::numbers::pi * waves * i / count + phase) * way;
+  }
+  tune(length, chain_.move_nodes(first, places, random_, log_volume), kOfNodes, kMost_m);
+}
+
+void OutlineWalk::move_profile() {
+  for (int i = 0; i < kOfProfile; ++i) {
+    OutlineProfile profile = chain_.profile();
+    double* const number[kOfProfile] = {&profile.low, &profile.high, &profile.log_slope,
+                                        &profile.log_noise, &profile.log_turn};
+    *number[i] += lengths_.of_profile[i] * random_.normal();
+    const bool is_turn = i == kOfProfile - 1;
+    tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);
+  }
+  for (std::size_t part = 1; part < lengths_.of_contrasts.size(); ++part) {
+    OutlineProfile profile = chain_.profile();
+    profile.log_contrast[part] += lengths_.of_contrasts[part] * random_.normal();
+    tune(lengths_.of_contrasts[part], chain_.move_profile(profile, false, random_), kOfNumbers,
+         1.0);
+  }
+  for (std::size_t loop = 0; loop < chain_.profile().log_spacing.size(); ++loop) {
+    OutlineProfile profile = chain_.profile();
+    profile.log_spacing[loop] += kSpacingStep * random_.normal();
+    chain_.move_profile(profile, true, random_);
+  }
+}
+
+}  // namespace palpation

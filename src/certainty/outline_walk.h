@@ -1,0 +1,60 @@
+/// One chain through the outlines' posterior: what is proposed, and how far.
+///
+/// A sweep tries each node, stretches of nodes of several widths, and each loop as a whole (moved,
+/// grown, turned, bent), and the profile. Steps find their own lengths while the walk settles, and
+/// keep them from then on, so that what is kept is of the posterior.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "certainty/outline_chain.h"
+
+namespace palpation {
+
+struct OutlineDraw {
+  OutlineNodes outline;
+  OutlineProfile profile;
+  /// How much deeper than in the outline a place lies in the tumour, for each part, metres. A
+  /// tumour is as high as its plateau, or as what was felt of it: where a plateau was not reached,
+  /// the readings do not say which, and a hill has none. So each draw takes a height between the
+  /// two, all as likely, and its boundary at the fraction of that.
+  std::vector<double> wider_m;
+};
+
+class OutlineWalk {
+ public:
+  /// As OutlineChain has it.
+  OutlineWalk(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
+              OutlineProfile profile, std::uint64_t seed);
+
+  /// Sweeps while the steps' lengths are found.
+  void settle(int sweeps);
+  /// Further sweeps, of which so many outlines are kept, evenly.
+  std::vector<OutlineDraw> draws(int sweeps, int count);
+
+  const OutlineChain& chain() const { return chain_; }
+
+ private:
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 5;
+  struct Lengths {
+    std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
+    std::vector<std::array<double, kWhole>> of_loops;       ///< metres
+    std::vector<double> of_contrasts;
+    std::array<double, kOfProfile> of_profile;
+  };
+
+  void sweep();
+  std::vector<double> drawn_widths();
+  void move_stretch(int middle, int width);
+  void move_loop(int loop, int kind);
+  void move_profile();
+  void tune(double& length, bool taken, double share, double most) const;
+
+  OutlineChain chain_;
+  Random random_;
+  Lengths lengths_;
+  bool settling_ = false;
+};
+
+}  // namespace palpation

@@ -1,0 +1,189 @@
+// Outlines as polygons that are drawn from their posterior: depths by hand, steps against the whole
+// density, draws against closed forms.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "certainty/outline_chain.h"
+#include "certainty/outline_walk.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kMm = 1e-3;
+
+OutlineNodes rectangle(double width_m, double height_m, int nodes) {
+  OutlineNodes outline;
+  outline.add(
+      evenly_spaced({Vec2(0, 0), Vec2(width_m, 0), Vec2(width_m, height_m), Vec2(0, height_m)},
+                    nodes),
+      0);
+  return outline;
+}
+
+/// Over and beside a rectangle of 8 by 8 mm, as its profile would feel them, with noise.
+OutlineReadings felt_around(const OutlineNodes& outline, int count, Random& random) {
+  OutlineReadings readings;
+  for (int i = 0; i < count; ++i) {
+    const Vec2 place = kMm * Vec2(-4.0 + 16.0 * random.uniform(), -4.0 + 16.0 * random.uniform());
+    const double share = 1.0 / (1.0 + std::exp(-1200.0 * depth_in(outline, place)));
+    readings.places.push_back(place);
+    readings.reading.push_back(7.0 + 2.0 * share + 0.1 * random.normal());
+    readings.variance.push_back(0.01);
+  }
+  return readings;
+}
+
+OutlinePrior prior_of(const OutlineNodes& outline) {
+  OutlinePrior prior;
+  prior.median = {.low = 7.0,
+                  .high = 9.0,
+                  .log_slope = std::log(1200.0),
+                  .log_noise = 0.0,
+                  .log_turn = std::log(0.12),
+                  .log_spacing = std::vector(outline.loops.size(), std::log(kMm)),
+                  .log_contrast = {0.0, 0.0}};
+  prior.plateau_sd = 0.5;
+  return prior;
+}
+
+TEST(OutlineNodes, DepthIsTheSignedDistance) {
+  const OutlineNodes square = rectangle(8 * kMm, 8 * kMm, 32);
+  EXPECT_NEAR(depth_in(square, kMm * Vec2(4, 3)), 3 * kMm, 1e-15);
+  EXPECT_NEAR(depth_in(square, kMm * Vec2(-2, 4)), -2 * kMm, 1e-15);
+  EXPECT_NEAR(depth_in(square, kMm * Vec2(11, 12)), -5 * kMm, 1e-15);  // from a corner
+}
+
+TEST(OutlineNodes, AHoleIsOutside) {
+  OutlineNodes ring = rectangle(8 * kMm, 8 * kMm, 32);
+  ring.add({kMm * Vec2(3, 3), kMm * Vec2(3, 5), kMm * Vec2(5, 5), kMm * Vec2(5, 3)}, 0);
+  EXPECT_EQ(ring.loops[1].turns, -1.0);
+  EXPECT_NEAR(depth_in(ring, kMm * Vec2(4, 4)), -1 * kMm, 1e-15);
+  EXPECT_NEAR(depth_in(ring, kMm * Vec2(4, 2)), 1 * kMm, 1e-15);
+}
+
+TEST(OutlineNodes, NodesAreEvenlySpacedFarFromTheOrigin) {
+  const Vec2 away(3.0, -2.0);
+  const std::vector<Vec2> line = {away, away + Vec2(0.01, 0), away + Vec2(0.01, 0.02)};
+  const std::vector<Vec2> nodes = evenly_spaced(line, 17);
+  ASSERT_EQ(nodes.size(), 17u);
+  EXPECT_EQ(nodes.front(), away);
+  EXPECT_NEAR(enclosed_area(line), 1e-4, 1e-15);
+}
+
+TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
+  Random random(3);
+  const OutlineNodes truth = rectangle(8 * kMm, 8 * kMm, 32);
+  OutlineNodes start = rectangle(7 * kMm, 9 * kMm, 32);
+  start.add({kMm * Vec2(-3.5, -3), kMm * Vec2(-2, -3.5), kMm * Vec2(-2, -2), kMm * Vec2(-3, -1.5)},
+            1);
+  const OutlineReadings readings = felt_around(truth, 80, random);
+  const OutlinePrior prior = prior_of(start);
+  OutlineWalk chain(readings, prior, start, prior.median, 5);
+  chain.settle(60);
+  const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile());
+  // Some 20,000 steps were taken: each adds and removes the same numbers.
+  EXPECT_NEAR(chain.chain().log_density(), fresh.log_density(), 1e-9);
+}
+
+TEST(OutlineChain, LinesNeverCross) {
+  Random random(4);
+  OutlineNodes start = rectangle(8 * kMm, 8 * kMm, 32);
+  start.add({kMm * Vec2(9, 1), kMm * Vec2(11, 1), kMm * Vec2(11, 3), kMm * Vec2(9, 3)}, 1);
+  const OutlineReadings nothing;
+  const OutlinePrior prior = prior_of(start);
+  OutlineWalk chain(nothing, prior, start, prior.median, 6);
+  for (int round = 0; round < 20; ++round) {
+    chain.settle(5);
+    const OutlineNodes& outline = chain.chain().outline();
+    for (int a = 0; a < outline.count(); ++a) {
+      for (int b = 0; b < outline.count(); ++b) {
+        if (a == b || b == outline.next(a) || a == outline.next(b)) continue;
+        EXPECT_FALSE(cross_each_other(outline.place[a], outline.place[outline.next(a)],
+                                      outline.place[b], outline.place[outline.next(b)]));
+      }
+    }
+  }
+}
+
+TEST(OutlineChain, ItsDensityIsTheSameWhereverTheTissueLies) {
+  Random random(7);
+  const OutlineNodes outline = rectangle(8 * kMm, 6 * kMm, 28);
+  OutlineReadings readings = felt_around(outline, 60, random);
+  const OutlinePrior prior = prior_of(outline);
+  const double here = OutlineChain(readings, prior, outline, prior.median).log_density();
+  OutlineNodes moved = outline;
+  const Eigen::Rotation2D<double> turn(0.7);
+  for (Vec2& place : moved.place) place = turn * place + Vec2(0.3, -0.2);
+  for (Vec2& place : readings.places) place = turn * place + Vec2(0.3, -0.2);
+  EXPECT_NEAR(OutlineChain(readings, prior, moved, prior.median).log_density(), here, 1e-9);
+}
+
+// Where the outline is held still and nothing else is unknown, low is normal about the mean of what
+// was felt outside: the conjugate posterior of a mean.
+TEST(OutlineChain, APlateauIsDrawnFromItsConjugatePosterior) {
+  Random random(8);
+  const OutlineNodes outline = rectangle(2 * kMm, 2 * kMm, 12);
+  OutlineReadings readings;
+  double sum = 0.0;
+  constexpr int kCount = 20;
+  for (int i = 0; i < kCount; ++i) {
+    readings.places.push_back(Vec2(0.1 + 0.01 * i, 0.2));  // far outside: all low
+    readings.reading.push_back(7.3 + 0.1 * random.normal());
+    readings.variance.push_back(0.01);
+    sum += readings.reading.back();
+  }
+  const OutlinePrior prior = prior_of(outline);
+  OutlineChain chain(readings, prior, outline, prior.median);
+  const double precision = kCount / 0.01 + 1.0 / 0.25, mean = (sum / 0.01 + 7.0 / 0.25) / precision;
+  constexpr int kDraws = 40'000;
+  double drawn = 0.0, square = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    OutlineProfile next = chain.profile();
+    next.low += 0.05 * random.normal();
+    chain.move_profile(next, false, random);
+    drawn += chain.profile().low / kDraws;
+    square += chain.profile().low * chain.profile().low / kDraws;
+  }
+  const double sd = 1.0 / std::sqrt(precision);
+  // Draws are correlated over some ten: four standard errors.
+  EXPECT_NEAR(drawn, mean, 4.0 * sd * std::sqrt(10.0 / kDraws));
+  EXPECT_NEAR(std::sqrt(square - drawn * drawn), sd, 0.08 * sd);
+}
+
+// Without readings the profile's draws are the prior's.
+TEST(OutlineWalk, WithoutReadingsTheSlopeIsDrawnFromItsPrior) {
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  const OutlineReadings nothing;
+  const OutlinePrior prior = prior_of(outline);
+  OutlineWalk chain(nothing, prior, outline, prior.median, 9);
+  chain.settle(300);
+  const std::vector<OutlineDraw> draws = chain.draws(4000, 2000);
+  double mean = 0.0, square = 0.0;
+  for (const OutlineDraw& draw : draws) {
+    const double z = (draw.profile.log_slope - std::log(1200.0)) / prior.slope_log_sd;
+    mean += z / 2000.0;
+    square += z * z / 2000.0;
+  }
+  // Three tries a sweep: draws are correlated over three or so, a standard error of .04.
+  EXPECT_NEAR(mean, 0.0, 0.15);
+  EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0, 0.12);
+}
+
+TEST(OutlineWalk, TheSameSeedDrawsTheSame) {
+  Random random(10);
+  const OutlineNodes truth = rectangle(8 * kMm, 8 * kMm, 32);
+  const OutlineReadings readings = felt_around(truth, 60, random);
+  const OutlinePrior prior = prior_of(truth);
+  const auto last = [&](std::uint64_t seed) {
+    OutlineWalk chain(readings, prior, truth, prior.median, seed);
+    chain.settle(20);
+    return chain.draws(20, 5).back().outline.place[3];
+  };
+  EXPECT_EQ(last(1), last(1));
+  EXPECT_NE(last(1), last(2));
+}
+
+}  // namespace
+}  // namespace palpation
