@@ -32,6 +32,7 @@ std::vector<Choice> choices_for(const Scene& scene, const Surface& surface) {
   for (const double explore_mm : {0.5, 1.0, 2.0})
     choices.push_back(
         {"plan on " + fixed(explore_mm, 1) + " mm", {{"plan.explore_mm", explore_mm}}});
+  choices.push_back({"Laplace's certainty", {{"certainty", "laplace"}}});
   choices.push_back({"plain arithmetic", {{"error.arithmetic", "plain"}}});
   choices.push_back({"grown field", {{"field.rebuild_gain", 0.5}}});
   choices.push_back({"single precision", {{"field.precision", "single"}}});
@@ -48,7 +49,7 @@ std::vector<Choice> choices_for(const Scene& scene, const Surface& surface) {
 Scene exact_scene(Scene scene) {
   scene = scene.with("speed", "exact");
   for (const char* path : {"plan.explore_mm", "error.arithmetic", "field.rebuild_gain",
-                           "field.precision", "field.reduced_rank"})
+                           "field.precision", "field.reduced_rank", "certainty"})
     scene = scene.with(path, exact_value(path));
   return scene;
 }

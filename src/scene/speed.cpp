@@ -14,8 +14,8 @@ const std::vector<SpeedPart>& speed_parts(const std::string& speed) {
   static const std::vector<SpeedPart> exact = {};
   static const std::vector<SpeedPart> fast = {{"plan.explore_mm", 0.5},
                                               {"error.arithmetic", "plain"}};
-  static const std::vector<SpeedPart> draft = {{"plan.explore_mm", 1.0},
-                                               {"error.arithmetic", "plain"}};
+  static const std::vector<SpeedPart> draft = {
+      {"plan.explore_mm", 1.0}, {"error.arithmetic", "plain"}, {"certainty", "laplace"}};
   return speed == "fast" ? fast : speed == "draft" ? draft : exact;
 }
 

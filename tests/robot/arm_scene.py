@@ -6,6 +6,7 @@ import subprocess
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [27, 27]}},
     "field": {"length_mm": 4, "signal_sd": 0.1, "noise": 0.005},
+    "certainty": "laplace",
     "plan": {"initial": {"count": 9}, "batch": 5, "batches": 2},
     "probe": {"low": 0.3, "high": 0.5, "noise": 0.025, "tumours": [{"shape": "disk", "centre_mm": [11, 9, 0], "radius_mm": 5}]},
     "robot": {"frame": "PSM1_base", "standoff_mm": 3, "indent_mm": 1, "from_tissue": [1, 0, 0, -0.01, 0, 1, 0, -0.01, 0, 0, 1, -0.12, 0, 0, 0, 1]},

@@ -13,6 +13,7 @@ from support import InFolder, PALPATE, palpate, rows_of
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [41, 41]}},
+    "certainty": "laplace",
     "plan": {"batches": 2},
     "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 5}]},
 }

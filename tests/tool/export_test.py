@@ -50,6 +50,7 @@ def write_asymmetric_mesh(path):
 SCENE = {
     "surface": {"mesh": "tissue.obj", "unit": "mm"},
     "reading_unit": "N/mm",
+    "certainty": "laplace",
     "plan": {"initial": {"count": 25}, "batches": 3},
     "probe": {"noise": 0.02, "tumours": [{"shape": "disk", "centre_mm": [*DISK_MM, 0.0], "radius_mm": 4}]},
 }

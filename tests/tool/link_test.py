@@ -22,6 +22,7 @@ from support import InFolder, PALPATE, PATIENCE_S, palpate, rows_of
 DISK_MM = (7.0, 12.0)
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 25], "vertices": [21, 26]}, "frame": "LPS"},
+    "certainty": "laplace",
     "plan": {"initial": {"count": 25}, "batch": 4, "batches": 3},
     "probe": {"noise": 0.02, "tumours": [{"shape": "disk", "centre_mm": [*DISK_MM, 0], "radius_mm": 4}]},
 }

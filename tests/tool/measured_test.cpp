@@ -18,7 +18,7 @@ namespace palpation::tool {
 namespace {
 
 constexpr const char* kScene =
-    R"({"surface": {"plane": {"size_mm": [20, 20], "vertices": [11, 11]}}, "plan": {"batch": 3, "initial": {"count": 5}}})";
+    R"({"surface": {"plane": {"size_mm": [20, 20], "vertices": [11, 11]}}, "plan": {"batch": 3, "initial": {"count": 5}}, "certainty": "laplace"})";
 
 /// Writes scene and measurements, and is gone with them.
 class Files {

@@ -16,6 +16,7 @@ from support import InFolder, PALPATE, PATIENCE_S
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [150, 150]}},
+    "certainty": "laplace",
     "plan": {"batches": 8},
     "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 4}]},
 }

@@ -13,7 +13,7 @@ import unittest
 
 from support import InFolder, PALPATE, PATIENCE_S
 
-SCENE = {"surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}}, "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2}}
+SCENE = {"certainty": "laplace", "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}}, "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2}}
 
 
 class Caller:

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 const char* const kScene = R"({
   "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}},
+  "certainty": "laplace",
   "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2},
   "robot": {"frame": "PSM1_base"}})";
 

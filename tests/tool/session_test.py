@@ -16,6 +16,7 @@ from support import InFolder, PALPATE, PATIENCE_S, palpate, rows_of
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}},
+    "certainty": "laplace",
     "plan": {"initial": {"count": 9}, "batch": 4, "batches": 3},
     "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 4}]},
 }

@@ -57,6 +57,7 @@ class InFolder(unittest.TestCase):
 
 SMALL = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [12, 12]}},
+    "certainty": "laplace",
     "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2},
     "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [10, 10, 0], "radius_mm": 4}]},
 }

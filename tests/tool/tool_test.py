@@ -19,6 +19,7 @@ LIVER = ROOT.parent / "shared" / "data" / "meshes" / "liver-smooth.obj"
 SCENE = {
     "version": 1,
     "surface": {"plane": {"size_mm": [25, 50], "vertices": [51, 101]}},
+    "certainty": "laplace",
     "plan": {"acquisition": "straddle", "batches": 4},
     "probe": {"noise": 0.05, "tumours": [{"shape": "disk", "centre_mm": [11.5, 30, 0], "radius_mm": 6.25}]},
 }
@@ -134,6 +135,18 @@ class Tool(InFolder):
         narrow = json.loads(self.summary_of("simulate", "--set", "band.probability=0.5", "--set", "band.cut_risk=0.4"))
         self.assertLess(narrow["band"]["half_width_mm"], band["half_width_mm"])
         self.assertLess(narrow["cut"]["area_mm2"], cut["area_mm2"])
+
+    def test_what_is_sampled_is_said_and_is_the_same_again(self):
+        sampled = self.summary_of("simulate", "--set", "certainty=sampled")
+        self.assertEqual(sampled, self.summary_of("simulate", "--set", "certainty=sampled"))
+        summary, laplace = json.loads(sampled), json.loads(self.summary_of("simulate", "--overwrite"))
+        self.assertEqual((summary["certainty"], laplace["certainty"]), ("sampled", "laplace"))
+        least, most = summary["area_interval_mm2"]
+        self.assertTrue(least < summary["area_mm2"] < most, summary["area_interval_mm2"])
+        self.assertIsNone(laplace["area_interval_mm2"])
+        # The same touches: plans go by Laplace's approximation in both.
+        self.assertEqual(summary["path_mm"], laplace["path_mm"])
+        self.assertNotEqual(summary["expected_missed_mm2"], summary["expected_extra_mm2"])
 
     def test_a_tumour_at_the_border_is_found_scored_and_told(self):
         out = self.folder / "out"
