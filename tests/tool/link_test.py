@@ -287,7 +287,7 @@ class Link(InFolder):
                 client.close()
             else:
                 rude.append(client)
-            if len(rude) > 20:
+            if len(rude) > 8:  # so that with those whose end has not been noticed yet there are fewer than 32
                 rude.pop(0).close()
         told = self.record(1, count=1)
         other.until(is_settled(rows + told))
