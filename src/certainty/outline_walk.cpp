@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/sigmoid.h"
+#include "palpation/base/interruption.h"
 
 namespace palpation {
 namespace {
@@ -75,6 +76,7 @@ void OutlineWalk::tune(double& length, bool taken, double share, double most) co
 }
 
 void OutlineWalk::sweep() {
+  check_interruption();
   const int count = chain_.outline().count();
   for (int node = 0; node < count; ++node) move_stretch(random_.below(count), 0);
   for (int width = 1; width < kWidths; ++width) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -201,14 +202,16 @@ void bind_conclusion(py::module_& module) {
       });
   module.def(
       "conclude",
-      [](const Readings& readings, const Model& model) {
+      [](const Readings& readings, const Model& model, std::optional<std::uint64_t> seed) {
         return long_call([&] {
           return Concluded(readings.surface,
-                           conclude(readings.surface, model, readings.palpations));
+                           conclude(readings.surface, model, readings.palpations, nullptr, seed));
         });
       },
-      "readings"_a, "model"_a = Model(),
-      "All that follows from readings: the field, the level, the boundary and how sure it is.");
+      "readings"_a, "model"_a = Model(), py::kw_only(), "sampling_seed"_a = py::none(),
+      "All that follows from readings: the field, the level, the boundary and how sure it is. With "
+      "sampling_seed the boundary's outlines are drawn, which takes seconds and is honest about "
+      "corners, horns and necks: what the tool does when all is felt.");
 }
 
 }  // namespace palpation::python

@@ -228,6 +228,18 @@ void bind_exploration(py::module_& module) {
             });
           },
           "For the time while the robot moves: does the work that no reading changes.");
+  exploration.def(
+      "draw_outlines",
+      [](Shared& shared, std::uint64_t seed) {
+        const auto explorer = shared.take(kName);
+        long_call([&] {
+          explorer->exploration.draw_outlines(seed);
+          return true;
+        });
+      },
+      "seed"_a = 1,
+      "Concludes from the same readings once more, the boundary's outlines drawn: what the end of "
+      "a run may take its time for. The next stops stay as they are.");
   bind_state(exploration);
 }
 

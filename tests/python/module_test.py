@@ -306,6 +306,7 @@ class AskAndTell(unittest.TestCase):
         while stops := exploration.ask():
             exploration.tell(phantom.touch(stops.vertices, random, travel=stops.travel))
 
+        exploration.draw_outlines(scene["seed"])
         readings = exploration.readings
         self.assertEqual(readings.to_csv().encode(), expected)
         conclusion = exploration.conclusion
@@ -321,7 +322,7 @@ class AskAndTell(unittest.TestCase):
             path.write_bytes(expected)
             read = pp.Readings.read_csv(path, tissue)
         self.assertEqual(read.to_csv().encode(), expected)
-        again = pp.conclude(read)
+        again = pp.conclude(read, sampling_seed=scene["seed"])
         self.assertTrue(np.array_equal(again.mean, conclusion.mean) and np.array_equal(again.score, conclusion.score))
         self.assertEqual(again.region().wkt, boundary.strip())
 
@@ -415,7 +416,7 @@ class Vtk(unittest.TestCase):
             scene = ROOT / "examples/planar.json"
             subprocess.run([PALPATE, "simulate", scene, "--out", run, "--quiet", "--set", "plan.batches=3"], check=True)
             tissue = pp.read_mesh(ROOT / "meshes/planar_phantom.ply", "mm").surface()
-            conclusion = pp.conclude(pp.Readings.read_csv(run / "measurements.csv", tissue))
+            conclusion = pp.conclude(pp.Readings.read_csv(run / "measurements.csv", tissue), sampling_seed=json.loads(scene.read_text())["seed"])
             self.assert_alike(pp.to_vtk(conclusion), self.read(run / "surface.vtp"), but=("acquisition", "truth"))
             subprocess.run([PALPATE, "boundary", scene, "--measurements", run / "measurements.csv", "--out", run / "b", "--quiet"], check=True)
             self.assert_alike(pp.boundary_to_vtk(conclusion), self.read(run / "b/boundary.vtp"))
