@@ -1,6 +1,7 @@
 /// All of the library. Programs that want less include the units they use.
 #pragma once
 
+#include "palpation/base/contract.h"
 #include "palpation/base/error.h"
 #include "palpation/base/interruption.h"
 #include "palpation/base/learnable.h"

@@ -2,12 +2,26 @@
 
 #include <array>
 #include <charconv>
+#include <utility>
+
+#include "palpation/base/contract.h"
 
 namespace palpation {
 
 void require(bool condition, const std::string& function, const std::string& value,
              const std::string& rule) {
-  if (!condition) throw InvalidInput(function + ": " + value + " " + rule);
+  if (!condition) throw BrokenContract(function, value, rule);
+}
+
+BrokenContract::BrokenContract(std::string function, std::string value, std::string rule)
+    : InvalidInput(function + ": " + value + " " + rule),
+      function_(std::move(function)),
+      value_(std::move(value)),
+      rule_(std::move(rule)) {}
+
+std::string rule_words(const InvalidInput& error) {
+  const auto* const broken = dynamic_cast<const BrokenContract*>(&error);
+  return broken != nullptr ? broken->value() + " " + broken->rule() : error.what();
 }
 
 std::string text_of(double value) {

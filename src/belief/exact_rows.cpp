@@ -10,6 +10,7 @@
 #include "base/cholesky.h"
 #include "belief/correlations.h"
 #include "belief/exact_engine.h"
+#include "belief/field_not_fitted.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 
@@ -162,11 +163,13 @@ void ExactEngine::append_to_factor(const Prior& prior, FactorRows& fresh) const 
   }
   factor.rightCols(count).triangularView<Eigen::StrictlyUpper>().setZero();
   if (done == count) return;
-  throw NumericalError(
-      "Belief: site " + std::to_string(first + done) + " leaves the pivot " + text_of(pivot) +
-      ", so the covariance is not positive definite in double precision: sites all but coincide, "
-      "and the noise (" +
-      text_of(diagonal_[first + done]) + " of the signal's variance) does not part them");
+  throw FieldNotFitted("Belief", "site " + std::to_string(first + done) + " leaves the pivot " +
+                                     text_of(pivot) +
+                                     ", so the covariance is not positive definite in double "
+                                     "precision: sites all but coincide, "
+                                     "and the noise (" +
+                                     text_of(diagonal_[first + done]) +
+                                     " of the signal's variance) does not part them");
 }
 
 /// L^-1 of 1, the readings and the tilts.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "belief/field_not_fitted.h"
 #include "belief/likelihood.h"
 #include "belief/noise_alone.h"
 #include "belief/sites.h"
@@ -262,8 +263,8 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations,
   round_best(objective, options.rounding_nats, search);
   const Optimum& best = objective.best;
   if (!std::isfinite(best.value)) {
-    throw NumericalError("learn: no starting point gives a finite likelihood over " +
-                         std::to_string(sites.size()) + " places");
+    throw FieldNotFitted("learn", "no starting point gives a finite likelihood over " +
+                                      std::to_string(sites.size()) + " places");
   }
   return {objective.at(best.x.data()), best.value, best.log_likelihood - alone.log_likelihood,
           best.value - at_start};

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/cannot_read.h"
 #include "io/files_read.h"
-#include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
@@ -133,7 +133,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 
 std::string read_file(const fs::path& path, std::uintmax_t limit_bytes) {
   const auto fail = [&](const std::string& why) {
-    throw IoError(path.string() + ": cannot read: " + why);
+    throw CannotRead(path.string() + ": cannot read: " + why);
   };
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file.is_open()) fail(reason(errno));

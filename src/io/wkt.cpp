@@ -10,7 +10,7 @@
 #include "io/mesh_source.h"
 #include "io/mesh_text.h"
 #include "io/number_text.h"
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/io/atomic_file.h"
 
 namespace palpation {
@@ -182,11 +182,6 @@ std::vector<PolygonWithHoles> polygons_of(std::span<const PlacedPolygon> placed)
   return polygons;
 }
 
-std::string without_function(const std::string& words) {
-  constexpr std::string_view kFunction = "Region: ";
-  return words.starts_with(kFunction) ? words.substr(kFunction.size()) : words;
-}
-
 std::vector<std::string> warnings_of(const MeshSource& source,
                                      std::span<const PolygonWithHoles> polygons) {
   std::vector<std::string> warnings = repairs_of(polygons).words();
@@ -201,10 +196,10 @@ std::vector<std::string> warnings_of(const MeshSource& source,
     try {
       const Region region(std::span(&one.polygon, 1));
     } catch (const InvalidInput& of_one) {
-      source.fail_at_byte(one.byte, without_function(of_one.what()));
+      source.fail_at_byte(one.byte, rule_words(of_one));
     }
   }
-  source.fail(without_function(error.what()));
+  source.fail(rule_words(error));
 }
 
 }  // namespace

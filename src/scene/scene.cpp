@@ -53,10 +53,10 @@ json override_value(const SceneKey& key, const std::string& text, const std::str
   if (is_word && text.front() != '"') return text;
   try {
     return parse_json(text, name);
-  } catch (const IoError& error) {
-    const bool is_structured =
-        std::string_view("[{\"").find(text.front()) != std::string_view::npos;
-    if (is_structured || std::string_view(error.what()).ends_with("too large for a double")) throw;
+  } catch (const NumberTooLarge&) {
+    throw;
+  } catch (const IoError&) {
+    if (std::string_view("[{\"").find(text.front()) != std::string_view::npos) throw;
     return text;
   }
 }

@@ -71,8 +71,8 @@ class SceneReader : public json::json_sax_t {
     const std::string words = error.what();  // "[json.exception.parse_error.101] parse error at
                                              // line 3, column 5: syntax error ..."
     if (error.id == 406)
-      throw IoError(start + cut(printable(words.substr(words.rfind(' ') + 1))) +
-                    " is too large for a double");
+      throw NumberTooLarge(start + cut(printable(words.substr(words.rfind(' ') + 1))) +
+                           " is too large for a double");
     const std::size_t rule = words.find(": ");
     throw IoError(start + "not JSON: " +
                   printable(words.substr(rule == std::string::npos ? 0 : rule + 2, 3 * kLongest)));

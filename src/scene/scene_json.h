@@ -7,10 +7,19 @@
 #include <string>
 #include <string_view>
 
+#include "palpation/base/error.h"
+
 namespace palpation::tool {
 
-/// Throws IoError: "<name>:<line>:<column>: ..." where the text is not JSON, "<name>: <key>: ..."
-/// where a key stands twice or values nest deeper than 32 levels. A byte order mark is welcome.
+/// A number in JSON that no double holds.
+class NumberTooLarge : public IoError {
+ public:
+  using IoError::IoError;
+};
+
+/// Throws IoError: "<name>:<line>:<column>: ..." where the text is not JSON (NumberTooLarge where
+/// it is, but holds such a number), "<name>: <key>: ..." where a key stands twice or values nest
+/// deeper than 32 levels. A byte order mark is welcome.
 nlohmann::json parse_json(std::string_view text, const std::string& name);
 
 /// The same of a file of at most 16 MiB; throws IoError too where it cannot be read.

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/geometry/clearance.h"
 #include "palpation/geometry/patch.h"
 #include "scene/mesh_words.h"
@@ -235,7 +235,7 @@ void check_chart(const Scene& scene, const Surface& surface) {
   try {
     surface.chart();
   } catch (const InvalidInput& error) {
-    scene.refuse("surface", without("Surface::chart: ", error.what()) + next);
+    scene.refuse("surface", rule_words(error) + next);
   }
 }
 

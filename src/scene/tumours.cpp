@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 
+#include "palpation/base/contract.h"
 #include "scene/scene_json.h"
 #include "scene/words.h"
 
@@ -33,15 +36,20 @@ Tumour tumour_of(const json& shape) {
   return outline;
 }
 
-bool is_refused(const Surface& surface, const Tumour& tumour, std::string& words) {
+/// What is wrong with a tumour, and of what it is wrong; nothing where it is sound.
+struct TumourFault {
+  std::string of, words;
+};
+
+std::optional<TumourFault> tumour_fault(const Surface& surface, const Tumour& tumour) {
   try {
     signed_distance(surface, std::span(&tumour, 1));
-    return false;
-  } catch (const InvalidInput& error) {
-    words = error.what();
-    const std::string start = "signed_distance: tumour 1: ";
-    if (words.starts_with(start)) words.erase(0, start.size());
-    return true;
+    return std::nullopt;
+  } catch (const BrokenContract& error) {
+    constexpr std::string_view kFirst = "tumour 1: ";  // of a list of one
+    std::string of = error.value();
+    if (of.starts_with(kFirst)) of.erase(0, kFirst.size());
+    return TumourFault{of, of + " " + error.rule()};
   }
 }
 
@@ -62,7 +70,7 @@ void check_place(const Scene& scene, const Surface& surface, const std::string& 
 }
 
 [[noreturn]] void refuse_tumour(const Scene& scene, const Surface& surface, const std::string& path,
-                                const json& shape, const std::string& words) {
+                                const json& shape, const TumourFault& fault) {
   if (shape.contains("centre_mm"))
     check_place(scene, surface, path + ".centre_mm", shape["centre_mm"]);
   if (shape["shape"] == "polygon") {
@@ -71,15 +79,15 @@ void check_place(const Scene& scene, const Surface& surface, const std::string& 
     const json& points = shape["points_mm"];
     for (std::size_t i = 0; i < points.size(); ++i)
       check_place(scene, surface, path + ".points_mm[" + std::to_string(i) + "]", points[i]);
-    scene.refuse(path + ".points_mm", "is " + words);
+    scene.refuse(path + ".points_mm", "is " + fault.words);
   }
-  if (shape["shape"] == "horseshoe" && words.starts_with("facing"))
+  if (shape["shape"] == "horseshoe" && fault.of == "facing")
     scene.refuse(path + ".facing", "must have a part along the surface");
-  if (shape["shape"] == "horseshoe" && words.starts_with("arc radius"))
+  if (shape["shape"] == "horseshoe" && fault.of.starts_with("arc radius"))
     scene.refuse(path + ".arc_radius_mm", "is " + shown(shape["arc_radius_mm"]) +
                                               ", but must not exceed the tissue's size, " +
                                               fixed(surface.diameter() * 1000.0, 1) + " mm");
-  scene.refuse(path, words);
+  scene.refuse(path, fault.words);
 }
 
 }  // namespace
@@ -93,10 +101,9 @@ std::vector<Tumour> tumours_of(const Scene& scene) {
 void refuse_tumours(const Scene& scene, const Surface& surface,
                     const std::vector<Tumour>& tumours) {
   for (std::size_t i = 0; i < tumours.size(); ++i) {
-    std::string words;
-    if (is_refused(surface, tumours[i], words))
+    if (const auto fault = tumour_fault(surface, tumours[i]))
       refuse_tumour(scene, surface, "probe.tumours[" + std::to_string(i) + "]", scene.tumours()[i],
-                    words);
+                    *fault);
   }
 }
 

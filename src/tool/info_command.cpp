@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "io/cannot_read.h"
 #include "palpation/base/error.h"
 #include "palpation/geometry/surface.h"
 #include "palpation/io/read_mesh.h"
@@ -32,11 +33,11 @@ std::string counts_and_size(const TriangleMesh& mesh) {
 MeshFile read(const InfoArguments& arguments, const MeshRepair& repair = {}) {
   try {
     return read_mesh_of_any_size(arguments.file, length_unit(arguments.unit), repair);
+  } catch (const CannotRead&) {
+    throw;
   } catch (const IoError& error) {
-    const std::string message = error.what();
-    if (message.find(": cannot read: ") != std::string::npos) throw;
     throw IoError(
-        message +
+        std::string(error.what()) +
         "\n  Repair the file at that place (palpate help mesh repair), or export it again "
         "from the program that made it: PLY is the safest choice.");
   }

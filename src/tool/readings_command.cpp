@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/io/robot_log.h"
 #include "palpation/probing/oscillation.h"
 #include "palpation/probing/probings.h"
@@ -40,7 +40,7 @@ LogFile read(const ReadingsArguments& arguments) {
   try {
     return read_robot_log(arguments.files.log, rules);
   } catch (const InvalidInput& error) {
-    throw WrongUsage("readings: " + without("read_robot_log: ", error.what()));
+    throw WrongUsage("readings: " + rule_words(error));
   }
 }
 
@@ -103,11 +103,11 @@ ProbedLog read_as(const std::string& kind, const RobotLog& log,
     return slide_readings(log, {.frequency_hz = arguments.slide.frequency_hz.value_or(0.0),
                                 .window_periods = arguments.slide.window_periods.value_or(4),
                                 .step_periods = arguments.slide.window_periods.value_or(4)});
-  } catch (const InvalidInput& error) {
-    std::string words = without("slide_readings: ", error.what());
-    if (words.ends_with("name its frequency") || words.ends_with("the one that is meant"))
-      words += ": --frequency-hz";
-    throw IoError(arguments.files.log.string() + ": " + words);
+  } catch (const BrokenContract& error) {
+    const bool lacks_frequency = error.function() == "slide_readings" &&
+                                 error.value() == "the log" && !arguments.slide.frequency_hz;
+    throw IoError(arguments.files.log.string() + ": " + rule_words(error) +
+                  (lacks_frequency ? ": --frequency-hz" : ""));
   }
 }
 

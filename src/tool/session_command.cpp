@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/session/session.h"
 #include "scene/make_folder.h"
 #include "scene/progress.h"
@@ -69,8 +69,7 @@ void as_asked(const Act& act) {
   try {
     act();
   } catch (const InvalidInput& error) {
-    const std::string words = error.what();
-    throw IoError("session: " + words.substr(std::min(words.find(": ") + 2, words.size())));
+    throw IoError("session: " + rule_words(error));
   }
 }
 

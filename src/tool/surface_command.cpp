@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/self_intersection.h"
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/belief/height.h"
 #include "palpation/geometry/reconstruct.h"
 #include "palpation/geometry/surface.h"
@@ -172,8 +172,7 @@ void print_whether_flat(const Surface& surface) {
   try {
     surface.chart();
   } catch (const InvalidInput& error) {
-    print("Warning: no boundary can be drawn on all of it: " +
-          without("Surface::chart: ", error.what()) +
+    print("Warning: no boundary can be drawn on all of it: " + rule_words(error) +
           ". A wider --gap closes holes and notches of the rim; of a slide, the readings that "
           "palpate "
           "readings makes of it are better contacts than its log.");

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/base/parallel.h"
 #include "palpation/base/random.h"
 
@@ -99,6 +99,19 @@ TEST(Require, SaysFunctionValueAndRule) {
   } catch (const InvalidInput& error) {
     EXPECT_STREQ(error.what(), "disk: radius -1 must be positive");
   }
+}
+
+TEST(Require, CarriesThemAsDataToo) {
+  try {
+    require(false, "disk", "radius -1", "must be positive");
+    FAIL() << "nothing was thrown";
+  } catch (const BrokenContract& error) {
+    EXPECT_EQ(error.function(), "disk");
+    EXPECT_EQ(error.value(), "radius -1");
+    EXPECT_EQ(error.rule(), "must be positive");
+    EXPECT_EQ(rule_words(error), "radius -1 must be positive");
+  }
+  EXPECT_EQ(rule_words(InvalidInput("all that is known")), "all that is known");
 }
 
 TEST(TextOf, ReadsBackAsTheSameDouble) {
