@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
+#include "scene/bound_keys.h"
 #include "scene/registration_file.h"
 #include "scene/setup.h"
 #include "scene/words.h"
@@ -20,10 +20,6 @@ constexpr double kAroundTissue_m = 0.02;
 constexpr double kLeastUncertainty_m = 1e-5;
 /// No arm of a surgical robot reaches farther.
 constexpr double kFarthest_m = 10.0;
-
-double degrees(const Scene& scene, const char* key) {
-  return scene.number(key) * std::numbers::pi / 180.0;
-}
 
 void take_box(const Scene& scene, const Surface& surface, GateLimits& limits) {
   const Robot robot = robot_of(scene);
@@ -51,29 +47,15 @@ void take_box(const Scene& scene, const Surface& surface, GateLimits& limits) {
 }  // namespace
 
 GateLimits gate_limits_of(const Scene& scene, const Surface& surface) {
-  GateLimits limits;
-  limits.force = {.contact_n = scene.number("robot.limits.contact_n"),
-                  .warn_n = scene.number("robot.limits.warn_n"),
-                  .hold_n = scene.number("robot.limits.hold_n"),
-                  .stiffest_n_per_m = scene.number("robot.limits.stiffest_n_per_mm") * 1000.0,
-                  .frozen_s = scene.number("robot.limits.frozen_ms") / 1000.0};
-  limits.motion.air_m_per_s = scene.metres("robot.limits.air_mm_per_s");
-  limits.motion.contact_m_per_s = scene.metres("robot.limits.contact_mm_per_s");
-  limits.motion.step_m = scene.metres("robot.limits.step_mm");
-  limits.motion.astray_m = scene.metres("robot.limits.astray_mm");
-  limits.cone.axis_rad = degrees(scene, "robot.limits.cone_deg");
-  limits.extra_indent_m = scene.metres("robot.limits.extra_indent_mm");
-  limits.uncertainty_m = scene.metres("robot.uncertainty_mm");
+  GateLimits limits = bound(scene, limit_keys());
   const auto registration = registration_of(scene);
   if (registration && !scene.gives("robot.uncertainty_mm"))
     limits.uncertainty_m = std::max(registration->uncertainty_m, kLeastUncertainty_m);
-  limits.data_age_s = scene.number("robot.limits.data_age_ms") / 1000.0;
-  limits.frame = scene.has("robot.frame") ? scene.word("robot.frame") : "";
   take_box(scene, surface, limits);
   try {
     check(limits);
   } catch (const InvalidInput& error) {
-    scene.refuse("robot.limits", without("GateLimits: ", error.what()));
+    scene.refuse("robot.limits", rule_words(error));
   }
   return limits;
 }

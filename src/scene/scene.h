@@ -34,6 +34,8 @@ class Scene {
 
   bool has(const std::string& path) const;    ///< given, or with a default
   bool gives(const std::string& path) const;  ///< given
+  /// Given, or by default; throws IoError, which says what the key means, where there is neither.
+  const nlohmann::json& value(const std::string& path) const;
   double number(const std::string& path) const;
   int integer(const std::string& path) const;
   std::uint64_t seed() const;
@@ -62,7 +64,6 @@ class Scene {
   [[noreturn]] void refuse_value(const std::string& path, const std::string& rule) const;
 
  private:
-  const nlohmann::json& value(const std::string& path) const;
   const nlohmann::json* value_of_speed(const std::string& path) const;
   void check_members(const nlohmann::json& object, const std::string& prefix) const;
   void check_together() const;

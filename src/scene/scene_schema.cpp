@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "palpation/world/catalogue.h"
+#include "scene/bound_keys.h"
 
 namespace palpation::tool {
 namespace {
@@ -19,6 +20,8 @@ constexpr double kMostSeed = 9007199254740991.0;  // beyond it not every whole n
 constexpr int kMostTumours = 100;
 constexpr int kMostCorners = 10000;
 constexpr int kMostWishes = 1000;
+/// In place of a default: the one of the member that the key sets (bound_keys.h), if it has any.
+constexpr std::nullptr_t kBound = nullptr;
 
 SceneKey key(std::string path, ValueKind kind, std::string unit, std::string meaning) {
   SceneKey key;
@@ -47,9 +50,9 @@ SceneKey integer(std::string path, double least, double most, json standard, std
                   std::move(standard));
 }
 
-SceneKey truth(std::string path, bool standard, std::string meaning) {
+SceneKey truth(std::string path, json standard, std::string meaning) {
   SceneKey result = key(std::move(path), ValueKind::Truth, "", std::move(meaning));
-  result.standard = standard;
+  result.standard = std::move(standard);
   return result;
 }
 
@@ -64,15 +67,14 @@ SceneKey word(std::string path, std::vector<std::string> words, json standard,
 SceneKey number_or_learn(std::string path, std::string unit, double least, double most,
                          std::string meaning) {
   SceneKey result =
-      number(std::move(path), std::move(unit), least, most, "learn", std::move(meaning));
+      number(std::move(path), std::move(unit), least, most, kBound, std::move(meaning));
   result.kind = ValueKind::NumberOrWord;
   result.words = {"learn"};
   return result;
 }
 
-SceneKey by_default(json standard, SceneKey key) {
-  key.standard = std::move(standard);
-  return key;
+SceneKey bound_word(std::string path, std::string meaning) {
+  return word(std::move(path), {}, kBound, std::move(meaning));
 }
 
 SceneKey text(std::string path, std::string meaning) {
@@ -122,7 +124,6 @@ std::vector<std::string> names_of_worlds() {
 }
 
 std::vector<SceneKey> make_scene_keys() {
-  const json identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   return {
       integer("version", kSceneVersion, kSceneVersion, kSceneVersion, "of this format"),
       word("speed", {"exact", "fast", "draft"}, "exact",
@@ -167,12 +168,11 @@ std::vector<SceneKey> make_scene_keys() {
               "work on the triangles that face this direction, parts as for the box; not zero"),
       number("surface.patch.within_deg", "degrees", 1e-3, 180.0, 60.0,
              "how far their normals may be from it"),
-      word("field.metric", {"chart", "ambient", "intrinsic"}, "chart",
-           "distance between places: in the chart, straight through space, or along the surface by "
-           "its Laplacian"),
-      word("field.kernel",
-           {"squared-exponential", "matern-1/2", "matern-3/2", "matern-5/2", "periodic"},
-           "squared-exponential", "covariance of the stiffness at two places"),
+      bound_word(
+          "field.metric",
+          "distance between places: in the chart, straight through space, or along the surface by "
+          "its Laplacian"),
+      bound_word("field.kernel", "covariance of the stiffness at two places"),
       number_or_learn(
           "field.length_mm", "mm", kLeastLength_mm, kMostLength_mm,
           "over which stiffness changes; a millionth to a million times the tissue's size"),
@@ -184,64 +184,66 @@ std::vector<SceneKey> make_scene_keys() {
                           "standard deviation of a reading; 0: repeats at one place must agree")),
       or_zero(number("field.noise_to_signal", "", 1e-12, 1e6, nullptr,
                      "in place of field.noise: the same as a fraction of a fixed signal_sd")),
-      number("field.length_prior_mm", "mm", kLeastLength_mm, kMostLength_mm, 3.5,
+      number("field.length_prior_mm", "mm", kLeastLength_mm, kMostLength_mm, kBound,
              "what a learned length is likely to be: the median of a lognormal prior (spread 0.4)"),
-      number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, nullptr,
+      number("field.period_mm", "mm", kLeastLength_mm, kMostLength_mm, kBound,
              "period of the periodic kernel, the same along both axes; needed with it, and without "
              "effect on others"),
-      word("field.trend", {"zero", "constant", "linear"}, "constant",
-           "mean of the field before any reading; linear: a constant and a slope, which a tilt of "
-           "the tissue or a drifting sensor adds: "
-           "level and boundary are of the field without it"),
-      or_zero(number("field.constant_sd", "reading", kLeastReading, kMostReading, nullptr,
+      bound_word(
+          "field.trend",
+          "mean of the field before any reading; linear: a constant and a slope, which a tilt of "
+          "the tissue or a drifting sensor adds: "
+          "level and boundary are of the field without it"),
+      or_zero(number("field.constant_sd", "reading", kLeastReading, kMostReading, kBound,
                      "how well that constant is known beforehand (as signal_sd); left out: not at "
                      "all; without effect on a trend of zero")),
       truth("field.standardize", true,
             "readings are z-scored, as GPy does; where anything is learned it matters only to a "
             "trend of zero, which is then about their "
             "mean"),
-      word(
-          "field.transform", {"none", "log"}, "none",
+      bound_word(
+          "field.transform",
           "log: a field of the readings' logarithms, for readings that are positive and skewed, "
           "as real tissue's often are; the level's fraction is then of the way between logarithms"),
-      word("field.precision", {"double", "single"}, "double",
-           "single: half the memory of the field's model and less time, the field off by a "
-           "ten-thousandth of the signal at most; for noise "
-           "of "
-           "3.2 % of the signal and more: where a learned noise is lower, double is taken"),
+      bound_word("field.precision",
+                 "single: half the memory of the field's model and less time, the field off by a "
+                 "ten-thousandth of the signal at most; for noise "
+                 "of "
+                 "3.2 % of the signal and more: where a learned noise is lower, double is taken"),
       or_zero(number(
-          "field.reduced_rank", "", 1e-13, 1e-4, 0.0,
+          "field.reduced_rank", "", 1e-13, 1e-4, kBound,
           "for readings by the thousand, as along paths: the part of the prior's variance that may "
           "be left out, 1e-10 say, so that "
           "a smooth field is modelled by some hundreds of features whatever the readings' number; "
           "bounded, and exact where that "
           "does not pay (rough kernels, few readings) or their noise is too small; 0: exact")),
-      number("field.rebuild_gain", "nats", 0.0, 100.0, 0.0,
+      number("field.rebuild_gain", "nats", 0.0, 100.0, kBound,
              "how much better other hyperparameters must explain the readings before the field is "
              "built anew with them, 0.5 say; until "
              "then it grows by the new readings alone, and the next plan follows the last of them "
              "sooner; 0: the best ones always"),
-      number("field.indenter_radius_mm", "mm", 0.0, 20.0, 0.0,
+      number("field.indenter_radius_mm", "mm", 0.0, 20.0, kBound,
              "of the probe's round tip, which feels an edge by as much too early: the boundary is "
              "drawn that much inwards; 0: not at all"),
-      truth("field.heavy_tails", false,
+      truth("field.heavy_tails", kBound,
             "noise is Student's t with four degrees of freedom: readings far from the field weigh "
             "less, none is set aside"),
-      truth("field.screening", false,
+      truth("field.screening", kBound,
             "faults of scans are found, too, and set aside with the reason in measurements.csv: "
             "jams, hangs, start-ups, base steps between rows; lost contact here and there and "
             "what readings around contradict are found without it"),
-      by_default(0.0, number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
-                                      "how far behind the probe's travel its readings belong; 0: "
-                                      "readings belong where they are made; "
-                                      "learned ones lie between -0.5 and 3 mm")),
-      word("level.estimate", {"known", "range", "edge"}, "edge",
-           "where tissue becomes tumour: known beforehand; min + fraction (max - min) of the mean; "
-           "or that fraction of the way between the "
-           "plateaus of the readings' profile across the edge, with a standard deviation"),
-      number("level.fraction", "", 1e-6, 1.0 - 1e-6, 0.5,
+      number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
+                      "how far behind the probe's travel its readings belong; 0: "
+                      "readings belong where they are made; "
+                      "learned ones lie between -0.5 and 3 mm"),
+      bound_word(
+          "level.estimate",
+          "where tissue becomes tumour: known beforehand; min + fraction (max - min) of the mean; "
+          "or that fraction of the way between the "
+          "plateaus of the readings' profile across the edge, with a standard deviation"),
+      number("level.fraction", "", 1e-6, 1.0 - 1e-6, kBound,
              "of that way; it also defines the true outline of a simulated tumour"),
-      number("level.value", "reading", -kMostReading, kMostReading, nullptr,
+      number("level.value", "reading", -kMostReading, kMostReading, kBound,
              "the level, needed where level.estimate is known; kept, but without effect, where it "
              "is not"),
       word("plan.acquisition",
@@ -252,46 +254,45 @@ std::vector<SceneKey> make_scene_keys() {
            "the most, and the rest where the straddle criterion looks for more tumours; raster and "
            "refinement are the classical scans instead, whose length does not depend on "
            "plan.batches"),
-      number("plan.edge_share", "", 0.0, 1.0, 0.65,
+      number("plan.edge_share", "", 0.0, 1.0, kBound,
              "share of a batch that goes to the boundary, where plan.acquisition is auto and "
              "level.estimate edge"),
       number("plan.gamma", "", 0.0, 1.0, 0.5, "for ucb and ils-ucb: 0 explores, 1 exploits"),
       word("plan.scaling", {"raw", "max"}, "raw",
            "for ucb and ils-ucb: as the paper writes them, or both terms divided by their maxima"),
-      word("plan.initial.design", {"grid", "random", "low-discrepancy"}, "grid",
-           "the design of the initial samples"),
-      integer("plan.initial.count", 0, 10000, 16,
+      bound_word("plan.initial.design", "the design of the initial samples"),
+      integer("plan.initial.count", 0, 10000, kBound,
               "number of initial samples; no more than the tissue has vertices"),
-      integer("plan.batch", 1, 10000, 10,
+      integer("plan.batch", 1, 10000, kBound,
               "samples planned together; no more than the tissue has vertices"),
-      integer("plan.batches", 0, 100000, 9, "number of batches after the initial samples"),
-      number("plan.least_spacing_mm", "mm", 0.0, kMostLength_mm, 0.5,
+      integer("plan.batches", 0, 100000, kBound, "number of batches after the initial samples"),
+      number("plan.least_spacing_mm", "mm", 0.0, kMostLength_mm, kBound,
              "least distance between the stops of a batch"),
-      truth("plan.readings_along_path", false,
+      truth("plan.readings_along_path", kBound,
             "in-transit readings: the probe also reads between stops, once per mm"),
-      truth("plan.safe_start", true,
+      truth("plan.safe_start", kBound,
             "draw no conclusion and explore by variance alone until the readings show contrast "
             "beyond their noise; no effect where field and level are both given"),
-      number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, 0.0,
+      number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, kBound,
              "stop once the expected wrong area is no larger; 0: when the batches are done"),
-      number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, 0.0,
+      number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, kBound,
              "stop once the band's mean half width is no larger; 0: when the batches are done"),
-      number("plan.stop.least_gain", "", 0.0, 1.0, 0.0,
+      number("plan.stop.least_gain", "", 0.0, 1.0, kBound,
              "stop once three batches reduced the expected wrong area by less than this fraction, "
              "and the next would too; 0: when the batches are done"),
       number(
-          "plan.min_contrast", "reading", kLeastReading, kMostReading, nullptr,
+          "plan.min_contrast", "reading", kLeastReading, kMostReading, kBound,
           "least contrast of a tumour, above healthy tissue (a factor where field.transform is "
           "log): what surely stands out by less is none, and is named; the summary says how wide "
           "one of it can be and still be undetected; left out: whatever stands out, and a tumour "
           "of four times the readings' scatter"),
       number(
-          "plan.goal.max_undetected_diameter_mm", "mm", 0.1, kMostLength_mm, nullptr,
+          "plan.goal.max_undetected_diameter_mm", "mm", 0.1, kMostLength_mm, kBound,
           "a tumour as wide as this is not to be missed, wherever it is: what is not spent on the "
           "boundary goes first where one could still hide, and the run says so where one can; "
           "left out: no such goal"),
       number(
-          "plan.goal.probability", "", 0.01, 1.0 - 1e-6, 0.95,
+          "plan.goal.probability", "", 0.01, 1.0 - 1e-6, kBound,
           "with which such a tumour is to be found; its contrast is plan.min_contrast, else that "
           "of what was found, else four times the readings' scatter"),
       or_zero(number("plan.explore_mm", "mm", 0.05, 3.0, 0.0,
@@ -310,19 +311,20 @@ std::vector<SceneKey> make_scene_keys() {
              "of a raster scan's rows, and the coarsest cells of a refinement: four times this"),
       word("probe.kind", {"simulated"}, "simulated",
            "where readings come from in `palpate simulate`"),
-      number("probe.low", "reading", -kMostReading, kMostReading, 7.0,
+      number("probe.low", "reading", -kMostReading, kMostReading, kBound,
              "simulated reading on healthy tissue"),
-      number("probe.high", "reading", -kMostReading, kMostReading, 9.0,
+      number("probe.high", "reading", -kMostReading, kMostReading, kBound,
              "simulated reading deep inside a tumour; above probe.low, by 1e-30 at least and "
              "enough to tell them apart"),
-      number("probe.slope_per_m", "1/m", 1e-3, 1e9, 1400.0, "steepness of the edge between them"),
-      number("probe.noise", "", 0.0, 1e6, 0.0, "standard deviation, as a fraction of high - low"),
-      number("probe.bias", "", -1e6, 1e6, 0.0,
+      number("probe.slope_per_m", "1/m", 1e-3, 1e9, kBound, "steepness of the edge between them"),
+      number("probe.noise", "", 0.0, 1e6, kBound,
+             "standard deviation, as a fraction of high - low"),
+      number("probe.bias", "", -1e6, 1e6, kBound,
              "the paper's beta: what is added from one end of the tissue to the other, as a "
              "fraction of high - low"),
       numbers("probe.bias_axis", 3, "", -kMostDirection, kMostDirection, nullptr,
               "along which; not zero; left out: the longest side of the tissue"),
-      number("probe.lag_mm", "mm", -100.0, 100.0, 0.0,
+      number("probe.lag_mm", "mm", -100.0, 100.0, kBound,
              "lag of a simulated reading: at x, travelling along t, it is that of x - lag t"),
       tumours("probe.tumours", kMostTumours, "a list of shapes; several may overlap"),
       word("probe.world", names_of_worlds(), nullptr,
@@ -331,19 +333,19 @@ std::vector<SceneKey> make_scene_keys() {
       word("certainty", {"sampled", "laplace"}, "sampled",
            "of the boundary when all is felt: from outlines that are drawn, in seconds, or by "
            "Laplace's approximation, which every plan goes by"),
-      number("band.probability", "", 0.01, 1.0 - 1e-6, 0.95,
+      number("band.probability", "", 0.01, 1.0 - 1e-6, kBound,
              "probability that the whole true outline lies between the band's two curves"),
       number("band.cut_risk", "", 1e-6, 0.5, 0.05,
              "risk of the cut line: outside of it a place is tumour with at most this probability"),
-      numbers("robot.from_tissue", 16, "", -kMostDirection, kMostDirection, identity,
+      numbers("robot.from_tissue", 16, "", -kMostDirection, kMostDirection, kBound,
               "rigid transform to the robot's frame, row by row, its translation in metres"),
       text("robot.registration",
            "in place of robot.from_tissue: a file that palpate register wrote, relative to the "
            "scene; robot.uncertainty_mm is what it says, unless it is given"),
-      number("robot.standoff_mm", "mm", 0.0, 1000.0, 5.0,
+      number("robot.standoff_mm", "mm", 0.0, 1000.0, kBound,
              "height of the approach point above the tissue"),
-      number("robot.indent_mm", "mm", 0.0, 100.0, 2.0, "how deep the probe presses"),
-      number("robot.spring_n_per_m", "N/m", 0.0, 1e9, 80.0,
+      number("robot.indent_mm", "mm", 0.0, 100.0, kBound, "how deep the probe presses"),
+      number("robot.spring_n_per_m", "N/m", 0.0, 1e9, kBound,
              "of the probe's tip: what waypoints.csv expects of the force follows from it and "
              "robot.indent_mm"),
       number("robot.margin_mm", "mm", 0.0, 1000.0, 0.0,
@@ -352,15 +354,16 @@ std::vector<SceneKey> make_scene_keys() {
       numbers("robot.shaft_direction", 3, "", -kMostDirection, kMostDirection, nullptr,
               "from the tissue along the probe's shaft, in the robot's frame: only tissue whose "
               "normal is near it is touched; left out: all"),
-      number("robot.cone_deg", "degrees", 1e-3, 180.0, 60.0, "the greatest angle between the two"),
-      number("robot.clearance_mm", "mm", 0.0, 1000.0, 0.0,
+      number("robot.cone_deg", "degrees", 1e-3, 180.0, kBound,
+             "the greatest angle between the two"),
+      number("robot.clearance_mm", "mm", 0.0, 1000.0, kBound,
              "tissue is touched only where a line of this length along its normal does not meet "
              "tissue again; 0: everywhere"),
-      number("robot.probe_radius_mm", "mm", 0.0, 100.0, 0.0,
+      number("robot.probe_radius_mm", "mm", 0.0, 100.0, kBound,
              "of the probe, whose tip is round: over robot.clearance_mm it must have room as well; "
              "0: a line"),
       number(
-          "robot.uncertainty_mm", "mm", 0.01, 100.0, 1.0,
+          "robot.uncertainty_mm", "mm", 0.01, 100.0, kBound,
           "how far, along its normal, the tissue may lie from where it is taken to be: it widens "
           "the stretch that the gate lets the probe search for contact, and nothing else"),
       number("robot.place_uncertainty_mm", "mm", 0.0, 100.0, 0.0,
@@ -368,43 +371,54 @@ std::vector<SceneKey> make_scene_keys() {
              "band is wider by it; left out: what robot.registration says"),
       text("robot.frame",
            "the frame_id of the arm's poses; the gate refuses any other; left out: none is named"),
-      number("robot.limits.contact_n", "N", 1e-3, 1e3, 0.1, "from here on the tip touches"),
-      number("robot.limits.warn_n", "N", 1e-3, 1e3, 2.0,
+      number("robot.limits.contact_n", "N", 1e-3, 1e3, kBound, "from here on the tip touches"),
+      number("robot.limits.warn_n", "N", 1e-3, 1e3, kBound,
              "from here on the gate lets the tip only go back; above contact_n"),
-      number("robot.limits.hold_n", "N", 1e-3, 1e3, 5.0,
+      number("robot.limits.hold_n", "N", 1e-3, 1e3, kBound,
              "from here on the arm holds until a person acknowledges; above warn_n"),
       number(
-          "robot.limits.stiffest_n_per_mm", "N/mm", 1e-3, 1e4, 5.0,
+          "robot.limits.stiffest_n_per_mm", "N/mm", 1e-3, 1e4, kBound,
           "of the tissue: what it adds at contact speed while data get old must lead from warn_n "
           "to hold_n at most"),
-      number("robot.limits.frozen_ms", "ms", 0.0, 1e4, 80.0,
+      number("robot.limits.frozen_ms", "ms", 0.0, 1e4, kBound,
              "a force that is the same to the last digit for so long, while the tip looks for "
              "contact or presses, is of a sensor that is stuck; 0: it may be"),
-      number("robot.limits.air_mm_per_s", "mm/s", 0.01, 1e3, 30.0, "fastest over the tissue"),
-      number("robot.limits.contact_mm_per_s", "mm/s", 0.01, 1e3, 5.0,
+      number("robot.limits.air_mm_per_s", "mm/s", 0.01, 1e3, kBound, "fastest over the tissue"),
+      number("robot.limits.contact_mm_per_s", "mm/s", 0.01, 1e3, kBound,
              "fastest in search of contact, pressing and going back"),
-      number("robot.limits.step_mm", "mm", 1e-3, 100.0, 1.0, "from one set point to the next"),
-      number("robot.limits.astray_mm", "mm", 0.01, 100.0, 2.0,
+      number("robot.limits.step_mm", "mm", 1e-3, 100.0, kBound, "from one set point to the next"),
+      number("robot.limits.astray_mm", "mm", 0.01, 100.0, kBound,
              "farthest of the tip from where it was sent"),
-      number("robot.limits.extra_indent_mm", "mm", 1e-3, 100.0, 1.0,
+      number("robot.limits.extra_indent_mm", "mm", 1e-3, 100.0, kBound,
              "deepest beyond robot.indent_mm, from where it touched"),
-      number("robot.limits.cone_deg", "degrees", 0.1, 89.0, 20.0,
+      number("robot.limits.cone_deg", "degrees", 0.1, 89.0, kBound,
              "greatest angle between the probe's axis and the tissue's inward normal at a touch"),
-      number("robot.limits.data_age_ms", "ms", 1.0, 1e4, 50.0, "oldest pose and force"),
+      number("robot.limits.data_age_ms", "ms", 1.0, 1e4, kBound, "oldest pose and force"),
       numbers("robot.limits.box_mm", 6, "mm", -kMostLength_mm, kMostLength_mm, nullptr,
               "the tip stays in this box in the robot's frame, from its least corner to its "
               "greatest; left out: 20 mm and the way in and out around the tissue"),
       word("error.arithmetic", {"exact", "plain"}, "exact",
            "of the error against a known truth: exact Booleans of polygons, with distances; or "
            "areas summed triangle by triangle, without"),
-      integer("seed", 0, kMostSeed, 1, "seed of all random numbers"),
+      integer("seed", 0, kMostSeed, kBound, "seed of all random numbers"),
   };
+}
+
+/// What stands at the members that keys set: their defaults and words.
+std::vector<SceneKey> with_members(std::vector<SceneKey> keys) {
+  for (SceneKey& key : keys) {
+    const std::optional<FromMember> member = from_member(key.path);
+    if (!member) continue;
+    if (key.standard.is_null()) key.standard = member->standard;
+    if (key.kind == ValueKind::Word) key.words = member->words;
+  }
+  return keys;
 }
 
 }  // namespace
 
 const std::vector<SceneKey>& scene_keys() {
-  static const std::vector<SceneKey> keys = make_scene_keys();
+  static const std::vector<SceneKey> keys = with_members(make_scene_keys());
   return keys;
 }
 

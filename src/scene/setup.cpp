@@ -2,30 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
 #include "palpation/geometry/distance.h"
+#include "scene/bound_keys.h"
 #include "scene/registration_file.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
-
-Metric metric_named(const std::string& name) {
-  if (name == "ambient") return Metric::Ambient;
-  return name == "intrinsic" ? Metric::Intrinsic : Metric::Chart;
-}
-
-KernelFamily kernel_family(const std::string& name) {
-  if (name == "matern-1/2") return KernelFamily::Matern12;
-  if (name == "matern-3/2") return KernelFamily::Matern32;
-  if (name == "matern-5/2") return KernelFamily::Matern52;
-  if (name == "periodic") return KernelFamily::Periodic;
-  return KernelFamily::SquaredExponential;
-}
 
 Acquisition acquisition_of(const Scene& scene) {
   const std::string name = scene.word("plan.acquisition");
@@ -41,42 +28,28 @@ Acquisition acquisition_of(const Scene& scene) {
   return ils_ucb(gamma, scaling);
 }
 
-Learnable learnable(const Scene& scene, const char* key) {
-  return scene.word(key) == "learn" ? kLearned : Learnable(scene.number(key));
-}
-
-Learnable learnable_metres(const Scene& scene, const char* key) {
-  return scene.word(key) == "learn" ? kLearned : Learnable(scene.metres(key));
-}
-
-KernelModel kernel_model_of(const Scene& scene, Metric metric) {
-  KernelModel kernel{.family = kernel_family(scene.word("field.kernel")),
-                     .length_m = learnable_metres(scene, "field.length_mm"),
-                     .signal_sd = learnable(scene, "field.signal_sd"),
-                     .length_median_m = scene.metres("field.length_prior_mm")};
-  if (kernel.family == KernelFamily::Periodic) {
-    if (metric != Metric::Chart)
+void check_kernel(const Scene& scene, FieldModel& field) {
+  if (field.kernel.family != KernelFamily::Periodic) {
+    field.kernel.period_m = 0.0;
+  } else {
+    if (field.metric != Metric::Chart)
       scene.refuse("field.kernel", "is \"periodic\", which needs field.metric chart");
-    kernel.period_m = scene.metres("field.period_mm");
+    scene.value("field.period_mm");
   }
-  if (kernel.family == KernelFamily::Matern12 && metric == Metric::Intrinsic)
+  if (field.kernel.family == KernelFamily::Matern12 && field.metric == Metric::Intrinsic)
     scene.refuse("field.kernel",
                  "is \"matern-1/2\", which field.metric intrinsic does not have: take "
                  "squared-exponential, matern-3/2 or matern-5/2");
-  return kernel;
 }
 
-NoiseModel noise_of(const Scene& scene, const KernelModel& kernel) {
-  NoiseModel noise{.sd = learnable(scene, "field.noise"),
-                   .heavy_tails = scene.truth("field.heavy_tails")};
-  if (!scene.has("field.noise_to_signal")) return noise;
+void take_noise_to_signal(const Scene& scene, const KernelModel& kernel, NoiseModel& noise) {
+  if (!scene.has("field.noise_to_signal")) return;
   if (!noise.sd.is_learned())
     scene.refuse("field.noise_to_signal", "stands in place of field.noise: give one of them");
   if (kernel.length_m.is_learned() || kernel.signal_sd.is_learned())
     scene.refuse("field.noise_to_signal", "needs a fixed field.length_mm and field.signal_sd");
   noise.sd = scene.number("field.noise_to_signal");
   noise.is_relative = true;
-  return noise;
 }
 
 /// Single precision needs noise, and to know how much.
@@ -122,49 +95,27 @@ void leave_out_margin(const Scene& scene, const Surface& surface, std::vector<in
 }
 
 /// Values in the reading's unit have no meaning beside logarithms.
-ReadingScale scale_of(const Scene& scene) {
-  if (scene.word("field.transform") == "none") return ReadingScale::Raw;
+void check_logarithms(const Scene& scene, const Model& model) {
+  if (model.contrast.scale == ReadingScale::Raw) return;
   for (const char* key : {"field.signal_sd", "field.noise"}) {
     if (scene.word(key) != "learn")
       scene.refuse(key,
                    "is in the reading's unit, which logarithms (field.transform log) do not "
                    "have: set it to learn");
   }
-  if (scene.word("level.estimate") == "known" && scene.number("level.value") <= 0.0)
+  if (model.level.known && *model.level.known <= 0.0)
     scene.refuse_value("level.value", "above 0, where field.transform is log");
-  if (scene.has("plan.min_contrast") && scene.number("plan.min_contrast") <= 1.0)
+  if (model.contrast.least && *model.contrast.least <= 1.0)
     scene.refuse_value("plan.min_contrast", "above 1: where field.transform is log it is a factor");
-  return ReadingScale::Log;
-}
-
-LevelRule level_rule_of(const Scene& scene) {
-  LevelRule rule;
-  rule.fraction = scene.number("level.fraction");
-  if (scene.word("level.estimate") == "known") rule.known = scene.number("level.value");
-  rule.estimate =
-      scene.word("level.estimate") == "range" ? LevelEstimate::Range : LevelEstimate::Edge;
-  return rule;
 }
 
 }  // namespace
 
 FieldModel field_of(const Scene& scene) {
-  FieldModel field{.metric = metric_named(scene.word("field.metric")),
-                   .standardize = scene.truth("field.standardize")};
-  field.kernel = kernel_model_of(scene, field.metric);
-  field.noise = noise_of(scene, field.kernel);
-  field.trend.is_linear = scene.word("field.trend") == "linear";
-  if (scene.word("field.trend") == "zero")
-    field.trend.constant.sd = 0.0;
-  else if (scene.has("field.constant_sd"))
-    field.trend.constant.sd = scene.number("field.constant_sd");
-  field.economy = {.reduced_rank_tolerance = scene.number("field.reduced_rank"),
-                   .single_precision = scene.word("field.precision") == "single",
-                   .rebuild_gain = scene.number("field.rebuild_gain")};
+  FieldModel field = bound(scene, field_keys());
+  check_kernel(scene, field);
+  take_noise_to_signal(scene, field.kernel, field.noise);
   check_precision(scene, field);
-  field.probe = {.lag_m = learnable_metres(scene, "field.lag_mm"),
-                 .indenter_radius_m = scene.metres("field.indenter_radius_mm"),
-                 .screening = scene.truth("field.screening")};
   return field;
 }
 
@@ -172,68 +123,40 @@ FieldModel field_of(const Scene& scene) {
 constexpr double kTwoSided95 = 1.959963984540054;
 
 Model model_of(const Scene& scene) {
-  return {.field = field_of(scene),
-          .level = level_rule_of(scene),
-          .band = {.probability = scene.number("band.probability"),
-                   .place_sd_m = place_uncertainty_m(scene) / kTwoSided95},
-          .contrast = {.scale = scale_of(scene),
-                       .least = scene.has("plan.min_contrast")
-                                    ? std::optional(scene.number("plan.min_contrast"))
-                                    : std::nullopt,
-                       .safe_start = scene.truth("plan.safe_start")}};
+  Model model = bound(scene, model_keys());
+  model.field = field_of(scene);
+  if (scene.word("level.estimate") == "known") scene.value("level.value");
+  model.band.place_sd_m = place_uncertainty_m(scene) / kTwoSided95;
+  check_logarithms(scene, model);
+  return model;
 }
 
 Plan plan_of(const Scene& scene) {
-  Plan plan;
+  Plan plan = bound(scene, plan_keys());
   plan.acquisition = acquisition_of(scene);
-  const std::string design = scene.word("plan.initial.design");
-  plan.initial = {.design = design == "random" ? Design::Random
-                            : design == "grid" ? Design::Grid
-                                               : Design::LowDiscrepancy,
-                  .count = scene.integer("plan.initial.count"),
-                  .seed = scene.seed()};
-  plan.batch.size = scene.integer("plan.batch");
-  if (scene.truth("plan.readings_along_path")) plan.batch.way_reading_m = kWayStep_m;
-  plan.batch.least_spacing_m = scene.metres("plan.least_spacing_mm");
-  plan.batches = scene.integer("plan.batches");
-  plan.stop = {.error_m2 = scene.number("plan.stop.expected_error_mm2") * 1e-6,
-               .band_m = scene.metres("plan.stop.band_mm"),
-               .least_gain = scene.number("plan.stop.least_gain")};
-  plan.aim.edge_share =
-      scene.word("plan.acquisition") == "auto" ? scene.number("plan.edge_share") : 0.0;
-  if (scene.has("plan.goal.max_undetected_diameter_mm"))
-    plan.aim.undetected_diameter_m = scene.metres("plan.goal.max_undetected_diameter_mm");
-  plan.aim.probability = scene.number("plan.goal.probability");
+  if (scene.word("plan.acquisition") != "auto") plan.aim.edge_share = 0.0;
   return plan;
 }
 
 Robot robot_of(const Scene& scene) {
-  Robot robot;
-  const std::vector<double> rows = scene.numbers("robot.from_tissue");
-  for (int i = 0; i < 16; ++i) robot.from_tissue(i / 4, i % 4) = rows[i];
+  Robot robot = bound(scene, robot_keys());
   if (const auto registration = registration_of(scene))
     robot.from_tissue = registration->from_tissue;
-  robot.standoff_m = scene.metres("robot.standoff_mm");
-  robot.indent_m = scene.metres("robot.indent_mm");
-  robot.spring_n_per_m = scene.number("robot.spring_n_per_m");
   try {
     check(robot);
-  } catch (const InvalidInput& error) {
-    scene.refuse("robot.from_tissue", without("Robot: from_tissue ", error.what()));
+  } catch (const BrokenContract& error) {
+    scene.refuse("robot.from_tissue", error.rule());
   }
   return robot;
 }
 
 Access access_of(const Scene& scene) {
-  Access access;
+  Access access = bound(scene, access_keys());
   if (scene.gives("robot.shaft_direction")) {
     const std::vector<double> direction = scene.numbers("robot.shaft_direction");
     const Eigen::Matrix3d to_robot = robot_of(scene).from_tissue.topLeftCorner<3, 3>();
     access.shaft_direction = to_robot.transpose() * Vec3(direction[0], direction[1], direction[2]);
   }
-  access.cone_rad = scene.number("robot.cone_deg") * std::numbers::pi / 180.0;
-  access.clearance_m = scene.metres("robot.clearance_mm");
-  access.probe_radius_m = scene.metres("robot.probe_radius_mm");
   return access;
 }
 

@@ -11,13 +11,10 @@
 #include "palpation/geometry/surface.h"
 #include "palpation/world/catalogue.h"
 #include "palpation/world/phantom.h"
+#include "scene/bound_keys.h"
 #include "scene/scene.h"
 
 namespace palpation::tool {
-
-/// The probe's readings on its way are this far apart, as the robot's are (Garg et al. 2016,
-/// section VII).
-inline constexpr double kWayStep_m = 0.001;
 
 FieldModel field_of(const Scene& scene);
 Model model_of(const Scene& scene);

@@ -1,10 +1,10 @@
 // What a scene's simulated probe touches.
 #include <utility>
 
-#include "palpation/base/error.h"
+#include "palpation/base/contract.h"
+#include "scene/bound_keys.h"
 #include "scene/setup.h"
 #include "scene/tumours.h"
-#include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
@@ -12,14 +12,8 @@ namespace {
 constexpr std::uint64_t kWorldStream = 0x776f726c64u;
 
 StiffnessModel stiffness_of(const Scene& scene) {
-  StiffnessModel model;
-  model.low = scene.number("probe.low");
-  model.high = scene.number("probe.high");
-  model.slope_per_m = scene.number("probe.slope_per_m");
-  model.noise = scene.number("probe.noise");
-  model.bias = scene.number("probe.bias");
-  model.fraction = scene.number("level.fraction");
-  model.lag_m = scene.metres("probe.lag_mm");
+  StiffnessModel model = bound(scene, stiffness_keys());
+  model.fraction = bound(scene, model_keys()).level.fraction;  // as the estimate's
   if (scene.gives("probe.bias_axis")) {
     const std::vector<double> axis = scene.numbers("probe.bias_axis");
     model.bias_axis = Vec3(axis[0], axis[1], axis[2]).stableNormalized();
@@ -59,11 +53,10 @@ DrawnWorld world_of(const Scene& scene, const Surface& surface) {
 Phantom phantom_of(const Scene& scene, const Surface& surface, const PhantomDesign& design) {
   try {
     return Phantom(surface, design);
-  } catch (const InvalidInput& error) {
+  } catch (const BrokenContract& error) {
     refuse_tumours(scene, surface, tumours_of(scene));
-    const std::string words = without("Phantom: ", error.what());
-    const std::string axis = "bias axis ";
-    scene.refuse(words.starts_with(axis) ? "probe.bias_axis" : "probe", without(axis, words));
+    if (error.value() == "bias axis") scene.refuse("probe.bias_axis", error.rule());
+    scene.refuse("probe", rule_words(error));
   }
 }
 
