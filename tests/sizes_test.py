@@ -35,7 +35,6 @@ EXCEPTIONS = {
     ("src/certainty/edge_design.cpp", "function", "most_telling"): 81,
     ("src/experiments/experiment_command.h", "options", "ExperimentArguments"): 11,
     ("src/geometry/surface_state.h", "class", "State"): 25,
-    ("src/scene/episode.h", "class", "Episode"): 19,
     ("src/tool/commands.h", "class", "MeshArguments"): 17,
     ("src/tool/commands.h", "options", "MeshArguments"): 17,
     ("src/tool/surface_command.h", "options", "SurfaceArguments"): 11,

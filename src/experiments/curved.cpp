@@ -140,7 +140,7 @@ Figures outcome_of(const Scene& scene, const Surface& surface) {
   Figures figures;
   figures.set("error_mm2", errors_mm2.back())
       .set("errors_mm2", list_text(errors_mm2))
-      .set("batch_s", median(episode.batch_seconds));
+      .set("batch_s", median(episode.seconds.batches));
   if (episode.error && episode.error->mean_distance_m)
     figures.set("mean_distance_mm", *episode.error->mean_distance_m * 1e3);
   return figures;

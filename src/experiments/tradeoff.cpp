@@ -73,7 +73,7 @@ Outcome outcome_of(const Scene& scene, const Surface& tissue) {
   const double error_m2 = episode.error ? episode.error->symmetric_difference_m2 : tissue.area();
   return {episode.estimate, Figures()
                                 .set("run_s", running.seconds())
-                                .set("batch_s", median(episode.batch_cpu_seconds))
+                                .set("batch_s", median(episode.seconds.batches_cpu))
                                 .set("error_mm2", error_m2 * kMm2)};
 }
 

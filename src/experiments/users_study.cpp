@@ -110,7 +110,7 @@ Figures figures_of(const Episode& episode) {
   const bool found = !episode.estimate.empty();
   Figures row;
   row.set("readings", static_cast<double>(exploration.readings().size()))
-      .set("path_mm", episode.path_m * 1e3)
+      .set("path_mm", episode.course.length_m * 1e3)
       .set("stop_reason", episode.stop_reason())
       .set("found", found)
       .set("error_mm2", (episode.error ? episode.error->symmetric_difference_m2 : area_m2) * 1e6);

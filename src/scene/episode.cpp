@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "belief/field_not_fitted.h"
 #include "exploration/coarse_run.h"
 #include "exploration/search_goal.h"
 #include "palpation/base/error.h"
@@ -36,14 +37,6 @@ class CountingProbe {
   int batch_ = 0;
   int felt_ = 0;  // in this batch
 };
-
-/// The tour of the last `stop_count` stops.
-void add_tour(Episode& episode, const Tour& tour, std::size_t stop_count) {
-  for (const int leg : tour.legs)
-    episode.legs.push_back(static_cast<int>(episode.stops.size() - stop_count) + leg);
-  episode.way.insert(episode.way.end(), tour.way.begin(), tour.way.end());
-  episode.path_m += tour.length_m;
-}
 
 double way_step_m(const Scene& scene) {
   return scene.truth("plan.readings_along_path") ? kWayStep_m : 0.0;
@@ -83,23 +76,22 @@ Episode run_coarse_exploration(const Scene& scene, const Surface& surface, const
   Plan nothing = plan_of(scene);
   nothing.initial.count = nothing.batches = 0;
   Episode episode = started(scene, surface, world, nothing);
-  episode.start_seconds = starting.seconds();
+  episode.seconds.start = starting.seconds();
   BatchStopwatch stopwatch;
   std::vector<int> planned = planner.next();
   const auto finish_batch = [&](const Tour& tour) {
-    for (const int stop : planned)
-      episode.stops.push_back(coarse.vertices[static_cast<std::size_t>(stop)]);
-    add_tour(episode, tour, planned.size());
+    for (int& stop : planned) stop = coarse.vertices[static_cast<std::size_t>(stop)];
+    episode.course.add(planned, tour);
     planned = planner.next();
     TraceRow row;
     row.batch = planner.batch() - 1;
     row.measurements = static_cast<int>(planner.conclusion().palpations.size());
-    row.path_m = episode.path_m;
+    row.path_m = episode.course.length_m;
     if (planner.conclusion().level) row.level = level_in_readings(planner.conclusion())->value;
     if (planner.conclusion().certainty)
       row.expected_error_m2 = planner.conclusion().certainty->expected.symmetric_difference_m2();
     if (!planned.empty()) episode.trace.push_back(row);  // the last one is of the conclusion
-    note_time(episode, stopwatch);
+    episode.seconds.end_batch(stopwatch);
   };
   episode.exploration.take_up(run_coarsely(planner, coarse, surface,
                                            CountingProbe(scene, planner, world.probe), finish_batch,
@@ -116,13 +108,12 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
   BatchStopwatch stopwatch;
   std::vector<int> planned = episode.exploration.next();
   const auto finish_batch = [&](const Tour& tour) {
-    episode.stops.insert(episode.stops.end(), planned.begin(), planned.end());
-    add_tour(episode, tour, planned.size());
+    episode.course.add(planned, tour);
     planned = episode.exploration.next();
     restate(episode);
-    note_time(episode, stopwatch);
+    episode.seconds.end_batch(stopwatch);
     if (after_batch) after_batch(episode);
-    stopwatch = BatchStopwatch();
+    stopwatch = BatchStopwatch();  // what comes after a batch is no part of the next
   };
   run(episode.exploration, CountingProbe(scene, episode.exploration, world.probe), finish_batch,
       way_step_m(scene));
@@ -151,11 +142,9 @@ template <typename Run>
 auto with_advice(const Scene& scene, const Run& run) {
   try {
     return run();
-  } catch (const NumericalError& error) {
-    const std::string words = error.what();
-    if (!words.starts_with("Belief: ") && !words.starts_with("learn: ")) throw;
-    throw NumericalError(scene.name() + ": field: cannot be fitted to the readings: " +
-                         words.substr(words.find(": ") + 2) +
+  } catch (const FieldNotFitted& error) {
+    throw NumericalError(scene.name() +
+                         ": field: cannot be fitted to the readings: " + error.reason() +
                          ". What helps: field.noise above 0 or learned, a shorter field.length_mm, "
                          "a field.signal_sd like the readings' own");
   }

@@ -11,7 +11,9 @@
 #include "palpation/boundary/region_error.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/exploration/trace.h"
+#include "scene/course.h"
 #include "scene/scene.h"
+#include "scene/stopwatch.h"
 
 namespace palpation::tool {
 
@@ -48,21 +50,13 @@ struct Episode {
   std::optional<Superlevel> plain_truth{};  ///< where errors are asked for in plain arithmetic
   std::optional<RegionError> error{};
   Trace trace{};
-  std::vector<int> stops{};         ///< all planned stops, in the order of travel
-  std::vector<SurfacePoint> way{};  ///< the places between them
-  std::vector<int> legs{};  ///< the stop that each of these leads to, by its place among the stops
-  double path_m = 0.0;
-  double cut_risk = 0.05;  ///< of the cut line
-  double band_probability = 0.95;
-  double level_fraction = 0.5;
-  double start_seconds =
-      0.0;  ///< until the field could take readings: an intrinsic one finds the surface's waves
-  std::vector<double>
-      batch_seconds{};  ///< planning and updating, the boundary and its error included
-  std::vector<double> batch_cpu_seconds{};  ///< the same, of this thread's processor
+  Course course{};
+  double cut_risk;  ///< of the cut line
+  RunTimes seconds{};
   std::optional<std::string> coarse_stop_reason{};
 
   const Conclusion& conclusion() const { return exploration.conclusion(); }
+  double band_probability() const { return conclusion().model.band.probability; }
   /// Why nothing more is to be touched.
   const std::string& stop_reason() const {
     return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason();

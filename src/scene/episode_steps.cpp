@@ -37,9 +37,7 @@ Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach giv
   Reach reach = within_reach(scene, surface, std::move(given_reach));
   return Episode{
       .exploration = Exploration(surface, model_of(scene), std::move(plan), std::move(reach)),
-      .cut_risk = scene.number("band.cut_risk"),
-      .band_probability = scene.number("band.probability"),
-      .level_fraction = scene.number("level.fraction")};
+      .cut_risk = scene.number("band.cut_risk")};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {
@@ -49,7 +47,7 @@ Episode started(const Scene& scene, const Surface& surface, const World& world, 
   episode.truth_is = world.truth_is;
   if (scene.word("error.arithmetic") == "plain")
     episode.plain_truth = Superlevel{world.truth, world.true_level};
-  episode.start_seconds = starting.seconds();
+  episode.seconds.start = starting.seconds();
   return episode;
 }
 
@@ -58,7 +56,7 @@ void restate(Episode& episode) {
   TraceRow row;
   row.batch = exploration.batch() - 1;
   row.measurements = static_cast<int>(exploration.conclusion().palpations.size());
-  row.path_m = episode.path_m;
+  row.path_m = episode.course.length_m;
   if (exploration.conclusion().belief.site_count() > 0) {
     episode.estimate = Region();
     if (exploration.conclusion().level) {
@@ -73,12 +71,6 @@ void restate(Episode& episode) {
     row.error = episode.error;
   }
   episode.trace.push_back(row);
-}
-
-void note_time(Episode& episode, BatchStopwatch& stopwatch) {
-  episode.batch_seconds.push_back(stopwatch.wall.seconds());
-  episode.batch_cpu_seconds.push_back(stopwatch.cpu.seconds());
-  stopwatch = BatchStopwatch();
 }
 
 }  // namespace palpation::tool

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "scene/episode.h"
-#include "scene/stopwatch.h"
 
 namespace palpation::tool {
 
@@ -16,14 +15,6 @@ Episode started(const Scene& scene, const Surface& surface, const World& world, 
 
 /// The estimate and its error as they follow from the exploration's state, and a row of the trace.
 void restate(Episode& episode);
-
-struct BatchStopwatch {
-  Stopwatch wall;
-  CpuStopwatch cpu;
-};
-
-/// Of a batch that ends; the next one begins.
-void note_time(Episode& episode, BatchStopwatch& stopwatch);
 
 /// A classical scan in place of batches: a raster, or a recursive refinement.
 Episode run_scan(const Scene& scene, const Surface& surface, const World& world,

@@ -154,7 +154,7 @@ std::optional<double> over_reachable(const Episode& episode) {
                        .slope_per_m = edge->profile().slope_per_m,
                        .noise = noise_sd / contrast,
                        .readings = episode.conclusion().belief.site_count(),
-                       .fraction = episode.level_fraction});
+                       .fraction = episode.conclusion().model.level.fraction});
   const bool has_noise = noise_sd > kNoNoise * contrast;
   if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
   return episode.conclusion().certainty->expected.symmetric_difference_m2() /

@@ -19,7 +19,7 @@ std::vector<double> readings_that_count(const Exploration& exploration) {
 double scatter(const Exploration& exploration) { return scatter_of(exploration.conclusion()); }
 
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
-  return palpation::diameter_ruled_out_m(episode.conclusion(), episode.band_probability);
+  return palpation::diameter_ruled_out_m(episode.conclusion(), episode.band_probability());
 }
 
 std::optional<GoalState> goal_state(const Episode& episode) {

@@ -37,7 +37,7 @@ void scan(Episode& episode, std::span<const SurfacePoint> places, const Probe& p
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3 here = episode.exploration.surface().position(places[i]);
     const Vec3 step = i == 0 ? Vec3(Vec3::Zero()) : Vec3(here - previous);
-    episode.path_m += step.norm();
+    episode.course.length_m += step.norm();
     const Vec3 heading = step.norm() > 0.0 ? step.normalized() : Vec3(Vec3::Zero());
     const std::optional<Palpation> palpation = probe(places[i], heading);
     fresh.push_back(palpation ? *palpation : missed_at(places[i]));
@@ -61,7 +61,7 @@ Episode run_scan(const Scene& scene, const Surface& surface, const World& world,
   std::vector<Palpation> felt;
   const auto finish_stage = [&](BatchStopwatch stopwatch) {
     restate(episode);
-    note_time(episode, stopwatch);
+    episode.seconds.end_batch(stopwatch);
     if (after_batch) after_batch(episode);
   };
   if (scene.word("plan.acquisition") == "raster") {

@@ -125,7 +125,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
       {"parts", parts},
       {"expected_error_mm2",
        episode.trace.empty() ? json(nullptr) : maybe(episode.trace.back().expected_error_m2, kMm2)},
-      {"path_mm", episode.path_m * kMm},
+      {"path_mm", episode.course.length_m * kMm},
       {"learned",
        {{"length_mm", episode.conclusion().belief.prior().kernel().length_m * kMm},
         {"signal_sd", episode.conclusion().belief.signal_sd()},

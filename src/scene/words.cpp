@@ -71,7 +71,8 @@ std::string nothing_words(const Episode& episode) {
   if (!diameter_m)
     return "So few readings cannot rule out any tumour that stands out " + contrast + ".\n";
   return "No tumour that stands out " + contrast + " is wider than " + fixed(*diameter_m * 1e3, 1) +
-         " mm, with probability " + percent(episode.band_probability) + " wherever it might be.\n";
+         " mm, with probability " + percent(episode.band_probability()) +
+         " wherever it might be.\n";
 }
 
 double area_found_m2(const Episode& episode) {
@@ -103,7 +104,7 @@ std::string found_words(const Episode& episode) {
         "No other tumour that stands out " +
         (has_least_contrast(episode) ? least_contrast_words(episode) : std::string("as much")) +
         " is wider than " + fixed(*diameter_m * 1e3, 1) + " mm, with probability " +
-        percent(episode.band_probability) + ".\n";
+        percent(episode.band_probability()) + ".\n";
   return words;
 }
 
@@ -211,9 +212,10 @@ std::string episode_words(const Episode& episode) {
                             [](const Palpation& one) { return !one.set_aside.empty(); }));
   std::string words = counted(readings, "reading");
   if (set_aside > 0) words += " (" + std::to_string(set_aside) + " set aside)";
-  if (episode.path_m > 0.0) words += " over a path of " + fixed(episode.path_m * 1e3, 0) + " mm";
+  if (episode.course.length_m > 0.0)
+    words += " over a path of " + fixed(episode.course.length_m * 1e3, 0) + " mm";
   words += ".\n";
-  if (!episode.stops.empty()) words += stop_words(episode.stop_reason());
+  if (!episode.course.stops.empty()) words += stop_words(episode.stop_reason());
   words += found_words(episode);
   if (episode.error)
     words += error_words(*episode.error, episode.exploration.surface().area(),

@@ -87,13 +87,14 @@ void run_and_report(const SceneArguments& arguments, const std::string& command,
   const Stopwatch writing;
   const Robot robot = robot_of(scene);
   std::vector<SurfacePoint> stops;
-  for (int stop : episode.stops) stops.push_back(tissue.surface.at_vertex(stop));
+  for (int stop : episode.course.stops) stops.push_back(tissue.surface.at_vertex(stop));
   output->write_waypoints(waypoints(tissue.surface, stops, robot),
-                          waypoints(tissue.surface, episode.way, robot), episode.legs);
+                          waypoints(tissue.surface, episode.course.way, robot),
+                          episode.course.legs);
   output->write(episode, &world,
-                {{"prepare_s", prepared_seconds + episode.start_seconds},
-                 {"run_s", running_seconds - episode.start_seconds},
-                 {"batches_s", episode.batch_seconds},
+                {{"prepare_s", prepared_seconds + episode.seconds.start},
+                 {"run_s", running_seconds - episode.seconds.start},
+                 {"batches_s", episode.seconds.batches},
                  {"write_s", writing.seconds()}});
   output->finish(arguments.quiet);
 }
