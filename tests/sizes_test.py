@@ -32,7 +32,6 @@ EXCEPTIONS = {
     ("include/palpation/exploration/model.h", "options", "Model"): 20,
     ("include/palpation/exploration/plan.h", "options", "Plan"): 12,
     ("include/palpation/world/phantom.h", "options", "StiffnessModel"): 8,
-    ("src/certainty/edge_design.cpp", "function", "most_telling"): 81,
     ("src/experiments/experiment_command.h", "options", "ExperimentArguments"): 11,
     ("src/geometry/surface_state.h", "class", "State"): 25,
     ("src/tool/commands.h", "class", "MeshArguments"): 17,

@@ -28,44 +28,130 @@ std::vector<int> one_per_cell(const Layout& layout, std::span<const int> candida
   return thinned;
 }
 
+/// How readings at the candidates follow the depth there, and the profile.
+struct Candidates {
+  std::vector<int> vertices;
+  std::vector<SurfacePoint> points{};
+  Eigen::VectorXd by_depth{};
+  ProfileSlopes by_profile{}, by_profile_variance{};
+};
+
+/// `fit`: EdgeBelief::Fit, which is nobody else's to name; so below.
+template <typename Fit>
+Candidates candidates_at(const Surface& surface, const Fit& fit, const Field& depth,
+                         std::vector<int> vertices) {
+  Candidates made{.vertices = std::move(vertices)};
+  const auto size = static_cast<Eigen::Index>(made.vertices.size());
+  made.by_depth.resize(size);
+  made.by_profile.resize(size, fit.edge.profile.size());
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const int vertex = made.vertices[i];
+    made.points.push_back(surface.at_vertex(vertex));
+    const ReadingSlopes slopes =
+        profile_slopes(fit.edge.profile, fit.part[vertex], depth[vertex] + fit.shift_m());
+    made.by_depth[i] = slopes.by_depth;
+    made.by_profile.row(i) = slopes.by_profile;
+  }
+  made.by_profile_variance = made.by_profile * fit.prior.variance.asDiagonal();
+  return made;
+}
+
 /// Posterior covariances of readings at the candidates and of depths at the nodes, kept up to date
 /// as candidates are picked.
 class Design {
  public:
-  Eigen::MatrixXd depth_reading;     // nodes x candidates
-  Eigen::VectorXd depth_variance;    // at the nodes
-  Eigen::VectorXd reading_variance;  // at the candidates, the touch's noise included
+  template <typename Fit>
+  Design(const Fit& fit, const BoundaryNodes& nodes, const Candidates& candidates)
+      : length_m_(nodes.length_m), noise_(fit.touch_variance) {
+    const Eigen::VectorXd& by_depth = candidates.by_depth;
+    const ProfileSlopes& by_profile_variance = candidates.by_profile_variance;
+    of_candidates_ = fit.edge.by_depth.asDiagonal() *
+                     fit.correction.covariance(fit.data.places, candidates.points) *
+                     by_depth.asDiagonal();
+    of_candidates_ += fit.edge.by_profile * by_profile_variance.transpose();
+    fit.edge.covariance.matrixL().solveInPlace(of_candidates_);
+    Eigen::MatrixXd of_nodes = fit.readings_with_depths(nodes.points);
+    fit.edge.covariance.matrixL().solveInPlace(of_nodes);
+
+    const double sd = fit.correction.kernel().signal_sd, shift = fit.shift_m();
+    depth_reading_ =
+        fit.correction.covariance(nodes.points, candidates.points) * by_depth.asDiagonal();
+    depth_reading_.rowwise() += shift * by_profile_variance.col(2).transpose();
+    depth_reading_ -= of_nodes.transpose() * of_candidates_;
+    depth_variance_ = (sd * sd + shift * shift * fit.prior.variance[2] -
+                       of_nodes.colwise().squaredNorm().transpose().array())
+                          .max(0.0);
+    reading_variance_ = sd * sd * by_depth.cwiseAbs2() +
+                        by_profile_variance.cwiseProduct(candidates.by_profile).rowwise().sum() -
+                        of_candidates_.colwise().squaredNorm().transpose();
+    reading_variance_ = reading_variance_.cwiseMax(0.0).array() + noise_;
+  }
 
   /// How much a reading there lowers the integral of the depth's standard deviation.
-  double gain(const std::vector<double>& length_m, Eigen::Index candidate) const {
+  double gain(Eigen::Index candidate) const {
     double sum = 0.0;
-    for (Eigen::Index node = 0; node < depth_variance.size(); ++node) {
-      const double told = depth_reading(node, candidate) * depth_reading(node, candidate) /
-                          reading_variance[candidate];
-      sum += length_m[node] * (std::sqrt(depth_variance[node]) -
-                               std::sqrt(std::max(depth_variance[node] - told, 0.0)));
+    for (Eigen::Index node = 0; node < depth_variance_.size(); ++node) {
+      const double told = depth_reading_(node, candidate) * depth_reading_(node, candidate) /
+                          reading_variance_[candidate];
+      sum += length_m_[node] * (std::sqrt(depth_variance_[node]) -
+                                std::sqrt(std::max(depth_variance_[node] - told, 0.0)));
     }
     return sum;
   }
 
-  /// `with_picked`: posterior covariance of the candidates' readings with the picked one's, before
-  /// any pick.
+  /// `with_picked`: prior covariance of the candidates' readings with the picked one's.
   void pick(Eigen::Index candidate, Eigen::VectorXd with_picked) {
+    with_picked -= of_candidates_.transpose() * of_candidates_.col(candidate);
     for (const Eigen::VectorXd& row : rows_) with_picked -= row * row[candidate];
-    const double sd = std::sqrt(reading_variance[candidate]);
+    const double sd = std::sqrt(reading_variance_[candidate]);
     Eigen::VectorXd row = with_picked / sd;
-    const Eigen::VectorXd told = depth_reading.col(candidate) / sd;
-    depth_reading -= told * row.transpose();
-    depth_variance = (depth_variance - told.cwiseAbs2()).cwiseMax(0.0);
-    reading_variance = (reading_variance - row.cwiseAbs2()).cwiseMax(noise);
+    const Eigen::VectorXd told = depth_reading_.col(candidate) / sd;
+    depth_reading_ -= told * row.transpose();
+    depth_variance_ = (depth_variance_ - told.cwiseAbs2()).cwiseMax(0.0);
+    reading_variance_ = (reading_variance_ - row.cwiseAbs2()).cwiseMax(noise_);
     rows_.push_back(std::move(row));
   }
 
-  double noise = 0.0;
-
  private:
+  std::vector<double> length_m_;      // of the boundary around each node
+  double noise_;                      // of a touch
+  Eigen::MatrixXd of_candidates_;     // readings so far x candidates, whitened
+  Eigen::MatrixXd depth_reading_;     // nodes x candidates
+  Eigen::VectorXd depth_variance_;    // at the nodes
+  Eigen::VectorXd reading_variance_;  // at the candidates, the touch's noise included
   std::vector<Eigen::VectorXd> rows_;
 };
+
+/// Of the candidates that gain all but the most the one where the field is least known; -1: none
+/// gains anything.
+int best_of(const Design& design, const std::vector<int>& vertices,
+            const std::vector<bool>& allowed, const Field& field_variance) {
+  std::vector<double> gains(vertices.size(), 0.0);
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    if (allowed[i]) gains[i] = design.gain(static_cast<Eigen::Index>(i));
+  }
+  const double best = *std::max_element(gains.begin(), gains.end());
+  if (!(best > 0.0)) return -1;
+  int picked = -1;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    if (!allowed[i] || gains[i] < kAsGood * best) continue;
+    if (picked < 0 || field_variance[vertices[i]] > field_variance[vertices[picked]])
+      picked = static_cast<int>(i);
+  }
+  return picked;
+}
+
+/// Prior covariance of the candidates' readings with one of theirs.
+Eigen::VectorXd covariance_with(int picked, const Surface& surface, const Prior& correction,
+                                const Candidates& candidates) {
+  const SurfacePoint place = surface.at_vertex(candidates.vertices[picked]);
+  Eigen::VectorXd covariance =
+      candidates.by_depth.cwiseProduct(
+          correction.covariance(candidates.points, std::span(&place, 1)).col(0)) *
+      candidates.by_depth[picked];
+  covariance += candidates.by_profile_variance * candidates.by_profile.row(picked).transpose();
+  return covariance;
+}
 
 }  // namespace
 
@@ -77,73 +163,22 @@ std::vector<int> EdgeBelief::most_telling(std::span<const int> all_candidates, i
           std::to_string(field_variance.size()) + " variances", "must be one for each vertex");
   const Fit& fit = most_likely();
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
-  const std::vector<int> candidates = one_per_cell(Layout(fit.correction), all_candidates);
+  std::vector<int> thinned = one_per_cell(Layout(fit.correction), all_candidates);
   std::vector<int> picks;
-  if (nodes.points.empty() || candidates.empty()) return picks;
+  if (nodes.points.empty() || thinned.empty()) return picks;
 
-  std::vector<SurfacePoint> points;
-  const auto size = static_cast<Eigen::Index>(candidates.size());
-  Eigen::VectorXd by_depth(size);
-  ProfileSlopes by_profile(size, fit.edge.profile.size());
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const int vertex = candidates[i];
-    points.push_back(surface_.at_vertex(vertex));
-    const ReadingSlopes slopes =
-        profile_slopes(fit.edge.profile, fit.part[vertex], depth_[vertex] + fit.shift_m());
-    by_depth[i] = slopes.by_depth;
-    by_profile.row(i) = slopes.by_profile;
-  }
-  const ProfileSlopes by_profile_variance = by_profile * fit.prior.variance.asDiagonal();
-
-  // Whitened covariances with the readings so far.
-  Eigen::MatrixXd of_candidates = fit.edge.by_depth.asDiagonal() *
-                                  fit.correction.covariance(fit.data.places, points) *
-                                  by_depth.asDiagonal();
-  of_candidates += fit.edge.by_profile * by_profile_variance.transpose();
-  fit.edge.covariance.matrixL().solveInPlace(of_candidates);
-  Eigen::MatrixXd of_nodes = fit.readings_with_depths(nodes.points);
-  fit.edge.covariance.matrixL().solveInPlace(of_nodes);
-
-  const double sd = fit.correction.kernel().signal_sd, shift = fit.shift_m();
-  Design design;
-  design.noise = fit.touch_variance;
-  design.depth_reading = fit.correction.covariance(nodes.points, points) * by_depth.asDiagonal();
-  design.depth_reading.rowwise() += shift * by_profile_variance.col(2).transpose();
-  design.depth_reading -= of_nodes.transpose() * of_candidates;
-  design.depth_variance = (sd * sd + shift * shift * fit.prior.variance[2] -
-                           of_nodes.colwise().squaredNorm().transpose().array())
-                              .max(0.0);
-  design.reading_variance = sd * sd * by_depth.cwiseAbs2() +
-                            by_profile_variance.cwiseProduct(by_profile).rowwise().sum() -
-                            of_candidates.colwise().squaredNorm().transpose();
-  design.reading_variance = design.reading_variance.cwiseMax(0.0).array() + design.noise;
-
-  std::vector<bool> allowed(candidates.size(), true);
+  const Candidates candidates = candidates_at(surface_, fit, depth_, std::move(thinned));
+  Design design(fit, nodes, candidates);
+  std::vector<bool> allowed(candidates.vertices.size(), true);
   while (static_cast<int>(picks.size()) < count) {
-    std::vector<double> gains(candidates.size(), 0.0);
-    for (std::size_t i = 0; i < gains.size(); ++i) {
-      if (allowed[i]) gains[i] = design.gain(nodes.length_m, static_cast<Eigen::Index>(i));
-    }
-    const double best = *std::max_element(gains.begin(), gains.end());
-    if (!(best > 0.0)) break;
-    int picked = -1;
-    for (std::size_t i = 0; i < gains.size(); ++i) {
-      if (!allowed[i] || gains[i] < kAsGood * best) continue;
-      if (picked < 0 || field_variance[candidates[i]] > field_variance[candidates[picked]])
-        picked = static_cast<int>(i);
-    }
-    const int vertex = candidates[picked];
+    const int picked = best_of(design, candidates.vertices, allowed, field_variance);
+    if (picked < 0) break;
+    const int vertex = candidates.vertices[picked];
     picks.push_back(vertex);
-    const SurfacePoint place = surface_.at_vertex(vertex);
-    Eigen::VectorXd with_picked =
-        by_depth.cwiseProduct(fit.correction.covariance(points, std::span(&place, 1)).col(0)) *
-        by_depth[picked];
-    with_picked += by_profile_variance * by_profile.row(picked).transpose();
-    with_picked -= of_candidates.transpose() * of_candidates.col(picked);
-    design.pick(picked, std::move(with_picked));
+    design.pick(picked, covariance_with(picked, surface_, fit.correction, candidates));
     const std::vector<int> near = vertices_near(surface_, vertex, least_spacing_m);
     for (std::size_t i = 0; i < allowed.size(); ++i) {
-      if (std::binary_search(near.begin(), near.end(), candidates[i])) allowed[i] = false;
+      if (std::binary_search(near.begin(), near.end(), candidates.vertices[i])) allowed[i] = false;
     }
     allowed[picked] = false;
   }
