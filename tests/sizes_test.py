@@ -37,7 +37,6 @@ EXCEPTIONS = {
     ("src/tool/commands.h", "class", "MeshArguments"): 17,
     ("src/tool/commands.h", "options", "MeshArguments"): 17,
     ("src/tool/surface_command.h", "options", "SurfaceArguments"): 11,
-    ("src/tool/main.cpp", "options", "Arguments"): 56,
 }
 
 BLANKED = re.compile(

@@ -1,6 +1,7 @@
 // palpate: where to touch next, and where the tumour under the surface ends.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <thread>
 
@@ -30,18 +31,13 @@ using namespace palpation::tool;
 
 constexpr double kMostTrials = 1e6;
 
-struct Arguments {
-  SceneArguments scene;
-  InfoArguments info;
-  MeshArguments mesh;
-  SurfaceArguments surface;
-  ExperimentArguments experiment;
-  std::filesystem::path measurements, a, b;
-  std::vector<std::filesystem::path> inputs;  ///< of an experiment: a scene, a study, or shards
-  std::vector<std::filesystem::path> recordings;
-  bool overwrite = false;  // tables of an experiment
-  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-};
+/// Of every command that takes long.
+void add_threads(CLI::App& command, const std::string& what) {
+  const auto count =
+      std::make_shared<int>(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  command.add_option("--threads", *count, what)->check(whole(1, 1024));
+  command.parse_complete_callback([count] { set_thread_count(*count); });
+}
 
 /// An empty name, as of a variable in a script that is not set, would mean that nothing is asked
 /// for.
@@ -51,154 +47,168 @@ void add_out(CLI::App& command, std::filesystem::path& folder, const std::string
   });
 }
 
-CLI::App* scene_command(CLI::App& app, Arguments& arguments, const std::string& name,
-                        const std::string& what) {
-  CLI::App* command = app.add_subcommand(name, what);
-  command
-      ->add_option("SCENE", arguments.scene.scene,
-                   "the scene, a JSON file (see: palpate help scene)")
+/// A command on a scene, and what it will be given.
+struct SceneCommand {
+  CLI::App& command;
+  std::shared_ptr<SceneArguments> scene = std::make_shared<SceneArguments>();
+};
+
+SceneCommand scene_command(CLI::App& app, const std::string& name, const std::string& what) {
+  SceneCommand made{*app.add_subcommand(name, what)};
+  SceneArguments& arguments = *made.scene;
+  made.command
+      .add_option("SCENE", arguments.scene, "the scene, a JSON file (see: palpate help scene)")
       ->required();
-  add_out(*command, arguments.scene.out,
-          "folder for the results; without it they are only printed");
-  command->add_flag("--overwrite", arguments.scene.overwrite,
-                    "replace another run's results in that folder");
-  command
-      ->add_option(
-          "--set", arguments.scene.overrides,
+  add_out(made.command, arguments.out, "folder for the results; without it they are only printed");
+  made.command.add_flag("--overwrite", arguments.overwrite,
+                        "replace another run's results in that folder");
+  made.command
+      .add_option(
+          "--set", arguments.overrides,
           "override a value of the scene, such as plan.acquisition=evr; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  command->add_option("--seed", arguments.scene.seed, "override the scene's seed")
+  made.command.add_option("--seed", arguments.seed, "override the scene's seed")
       ->check(whole(0, kMostSeed));
-  command
-      ->add_option("--threads", arguments.threads,
-                   "how many threads to use; the results do not depend on it")
-      ->check(whole(1, 1024));
-  command->add_flag("--quiet", arguments.scene.quiet, "print only warnings and errors");
-  return command;
+  add_threads(made.command, "how many threads to use; the results do not depend on it");
+  made.command.add_flag("--quiet", arguments.quiet, "print only warnings and errors");
+  return made;
 }
 
-void add_scene_commands(CLI::App& app, Arguments& arguments) {
-  scene_command(app, arguments, "simulate", "Run the whole plan on a simulated phantom")
-      ->callback([&] { simulate(arguments.scene); });
-
-  CLI::App* planning =
-      scene_command(app, arguments, "plan", "Where to touch next, from what was measured so far");
-  planning->add_option("--measurements", arguments.measurements,
-                       "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
-                       "robot.from_tissue says; left out: nothing was measured yet");
-  planning->callback([&] { plan(arguments.scene, arguments.measurements); });
-
-  CLI::App* bounding =
-      scene_command(app, arguments, "boundary", "Where the tumour ends, from what was measured");
-  bounding
-      ->add_option("--measurements", arguments.measurements,
-                   "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
-                   "robot.from_tissue says")
-      ->required();
-  bounding->callback([&] { boundary(arguments.scene, arguments.measurements); });
-
-  CLI::App* replaying = scene_command(
-      app, arguments, "replay", "Run the whole plan, each touch answered from dense recordings");
-  replaying
-      ->add_option("--recording", arguments.recordings,
-                   "CSV with columns x,y,z,reading [m]; one for each direction of travel")
-      ->required()
-      ->allow_extra_args(false);
-  replaying->callback([&] { replay(arguments.scene, arguments.recordings); });
-
-  CLI::App* comparing =
-      scene_command(app, arguments, "compare", "Compare two boundaries: the area between them");
-  comparing->add_option("A", arguments.a, "the estimate: a .wkt or .vtp file")->required();
-  comparing->add_option("B", arguments.b, "the truth, or what is taken for it")->required();
-  comparing->callback([&] { compare_boundaries(arguments.scene, arguments.a, arguments.b); });
+/// A file that is given, or several.
+template <typename Given>
+std::shared_ptr<Given> add_given(CLI::App& command, const std::string& name,
+                                 const std::string& what, bool is_required = true) {
+  const auto given = std::make_shared<Given>();
+  command.add_option(name, *given, what)->required(is_required)->allow_extra_args(false);
+  return given;
 }
 
-void add_info_command(CLI::App& app, Arguments& arguments) {
+void add_scene_commands(CLI::App& app) {
+  using std::filesystem::path;
+  const SceneCommand simulating =
+      scene_command(app, "simulate", "Run the whole plan on a simulated phantom");
+  simulating.command.callback([scene = simulating.scene] { simulate(*scene); });
+
+  const SceneCommand planning =
+      scene_command(app, "plan", "Where to touch next, from what was measured so far");
+  const auto so_far =
+      add_given<path>(planning.command, "--measurements",
+                      "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
+                      "robot.from_tissue says; left out: nothing was measured yet",
+                      false);
+  planning.command.callback([scene = planning.scene, so_far] { plan(*scene, *so_far); });
+
+  const SceneCommand bounding =
+      scene_command(app, "boundary", "Where the tumour ends, from what was measured");
+  const auto measured =
+      add_given<path>(bounding.command, "--measurements",
+                      "CSV with columns x,y,z,reading: metres in the frame of the mesh, whatever "
+                      "robot.from_tissue says");
+  bounding.command.callback([scene = bounding.scene, measured] { boundary(*scene, *measured); });
+
+  const SceneCommand replaying =
+      scene_command(app, "replay", "Run the whole plan, each touch answered from dense recordings");
+  const auto recordings = add_given<std::vector<path>>(
+      replaying.command, "--recording",
+      "CSV with columns x,y,z,reading [m]; one for each direction of travel");
+  replaying.command.callback(
+      [scene = replaying.scene, recordings] { replay(*scene, *recordings); });
+
+  const SceneCommand comparing =
+      scene_command(app, "compare", "Compare two boundaries: the area between them");
+  const auto a = add_given<path>(comparing.command, "A", "the estimate: a .wkt or .vtp file");
+  const auto b = add_given<path>(comparing.command, "B", "the truth, or what is taken for it");
+  comparing.command.callback(
+      [scene = comparing.scene, a, b] { compare_boundaries(*scene, *a, *b); });
+}
+
+void add_info_command(CLI::App& app) {
+  const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* telling = app.add_subcommand(
       "info", "Check a mesh, or the tissue of a scene: what it supports, what to do next");
   telling
       ->add_option(
-          "FILE", arguments.info.file,
+          "FILE", arguments->file,
           "a mesh (OBJ, OFF, STL, PLY or VTP); or a scene (.json): its tissue, cut out and refined")
       ->required();
   telling
-      ->add_option("--unit", arguments.info.unit,
+      ->add_option("--unit", arguments->unit,
                    "of a mesh's coordinates (required for a mesh): mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   telling
-      ->add_option("--set", arguments.info.overrides,
+      ->add_option("--set", arguments->overrides,
                    "override a value of the scene; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  telling->callback([&] { info(arguments.info); });
+  telling->callback([arguments] { info(*arguments); });
 }
 
-void experiment_or_merge(Arguments& arguments) {
-  ExperimentArguments& asked = arguments.experiment;
+/// What stands behind an experiment's name: a scene, a study, or the folders of shards.
+using Inputs = std::vector<std::filesystem::path>;
+
+void experiment_or_merge(ExperimentArguments asked, const Inputs& inputs, Existing results) {
   if (asked.name.empty())
     throw WrongUsage("experiment: NAME is required: palpate experiment --list lists them");
-  const Existing results = arguments.overwrite ? Existing::Replaced : Existing::Kept;
   if (asked.name == "merge") {
-    if (arguments.inputs.empty())
+    if (inputs.empty())
       throw WrongUsage("experiment merge: needs the folders that hold the shards");
-    return merge_experiment(arguments.inputs, asked.out, results);
+    return merge_experiment(inputs, asked.out, results);
   }
-  if (arguments.inputs.size() > 1)
+  if (inputs.size() > 1)
     throw WrongUsage("experiment " + asked.name + ": takes one scene, not " +
-                     std::to_string(arguments.inputs.size()));
-  if (!arguments.inputs.empty()) asked.scene = arguments.inputs.front();
+                     std::to_string(inputs.size()));
+  if (!inputs.empty()) asked.scene = inputs.front();
   experiment(asked, results);
 }
 
-void add_experiment_command(CLI::App& app, Arguments& arguments) {
+void add_experiment_command(CLI::App& app) {
+  const auto arguments = std::make_shared<ExperimentArguments>();
+  const auto inputs = std::make_shared<Inputs>();
+  const auto overwrite = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("experiment", "Measure a method over many trials");
-  command->add_option("NAME", arguments.experiment.name, "which; or merge, to add up shards")
+  command->add_option("NAME", arguments->name, "which; or merge, to add up shards")
       ->check(CLI::IsMember(experiment_names()));
-  command->add_option("SCENE", arguments.inputs,
+  command->add_option("SCENE", *inputs,
                       "in place of the paper's phantom; of study its file; of merge the shards' "
                       "folders");
   command
-      ->add_option("--shard", arguments.experiment.shard,
+      ->add_option("--shard", arguments->shard,
                    "run only the I-th of N parts of the trials, and keep their rows in --out")
       ->type_name("I/N");
-  command
-      ->add_option("--trials", arguments.experiment.trials, "per cell; default: 5, for tradeoff 20")
+  command->add_option("--trials", arguments->trials, "per cell; default: 5, for tradeoff 20")
       ->check(whole(1, kMostTrials));
   command
-      ->add_option("--first-seed", arguments.experiment.first_seed,
+      ->add_option("--first-seed", arguments->first_seed,
                    "seed of the first trial; the others follow")
       ->check(whole(0, kMostSeed - kMostTrials));
   command
-      ->add_option("--set", arguments.experiment.overrides,
+      ->add_option("--set", arguments->overrides,
                    "override a value of every scene; once for each value")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   command
       ->add_option(
-          "--only", arguments.experiment.only,
+          "--only", arguments->only,
           "for table1, table2 and curved: run only the cells with this text in their names")
       ->allow_extra_args(false);
-  command->add_option("--world", arguments.experiment.material.world,
+  command->add_option("--world", arguments->material.world,
                       "for experiment coverage: worlds of the catalogue, a family, a kind, or all");
-  command->add_option("--recordings", arguments.experiment.material.recordings,
+  command->add_option("--recordings", arguments->material.recordings,
                       "for experiment recordings: the folder with the physical recordings");
-  command->add_flag("--print-scene", arguments.experiment.print_scene,
+  command->add_flag("--print-scene", arguments->print_scene,
                     "print the scene of every cell instead of running it; of one cell a scene that "
                     "simulate takes");
   const CLI::Option* list = command->add_flag("--list")->description(
       "list the experiments; with a name, the cells of that one");
-  add_out(*command, arguments.experiment.out, "folder for the table and the picture");
-  command->add_flag("--overwrite", arguments.overwrite,
+  add_out(*command, arguments->out, "folder for the table and the picture");
+  command->add_flag("--overwrite", *overwrite,
                     "begin anew in a folder that holds another experiment");
-  command
-      ->add_option("--threads", arguments.threads,
-                   "trials run at once; the results do not depend on it")
-      ->check(whole(1, 1024));
-  command->add_flag("--quiet", arguments.experiment.quiet, "no progress");
-  command->callback([&arguments, list] {
-    if (list->count() > 0) return list_experiments(arguments.experiment);
-    experiment_or_merge(arguments);
+  add_threads(*command, "trials run at once; the results do not depend on it");
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->callback([arguments, inputs, overwrite, list] {
+    if (list->count() > 0) return list_experiments(*arguments);
+    experiment_or_merge(*arguments, *inputs, *overwrite ? Existing::Replaced : Existing::Kept);
   });
 }
 
@@ -219,11 +229,9 @@ int run_tool(int count, char** words) {
       "Start with:  palpate simulate examples/planar.json --out out/planar\nExit codes: 0 done, 2 "
       "wrong usage, 3 an input is at fault, 4 "
       "the machine or the arithmetic failed, 130 interrupted.");
-  Arguments arguments;
-  app.parse_complete_callback([&] { set_thread_count(arguments.threads); });
-  add_scene_commands(app, arguments);
-  add_info_command(app, arguments);
-  add_mesh_command(app, arguments.mesh, arguments.surface);
+  add_scene_commands(app);
+  add_info_command(app);
+  add_mesh_command(app);
   add_readings_command(app);
   add_register_command(app);
   add_session_command(app);
@@ -232,10 +240,8 @@ int run_tool(int count, char** words) {
   add_export_command(app);
   add_report_command(app);
   add_draw_command(app);
-  add_experiment_command(app, arguments);
+  add_experiment_command(app);
   add_help_command(app);
-  for (CLI::App* command : app.get_subcommands({}))
-    command->parse_complete_callback([&] { set_thread_count(arguments.threads); });
   try {
     app.parse(count, words);
     return kDone;

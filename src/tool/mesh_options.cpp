@@ -1,11 +1,17 @@
 #include "tool/mesh_options.h"
 
+#include <memory>
+
+#include "tool/commands.h"
 #include "tool/option_checks.h"
 #include "tool/repair_command.h"
+#include "tool/surface_command.h"
 
 namespace palpation::tool {
 
-void add_mesh_command(CLI::App& app, MeshArguments& mesh, SurfaceArguments& surface) {
+void add_mesh_command(CLI::App& app) {
+  const auto arguments = std::make_shared<MeshArguments>();
+  MeshArguments& mesh = *arguments;
   CLI::App* making =
       app.add_subcommand("mesh", "Make a phantom, or a surface from contacts; or repair one");
   CLI::Option* kind =
@@ -52,14 +58,14 @@ void add_mesh_command(CLI::App& app, MeshArguments& mesh, SurfaceArguments& surf
   making->add_option("--unit", mesh.unit, "of the file: mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   making->add_flag("--overwrite", mesh.overwrite, "replace another mesh of that name");
-  add_surface_command(*making, surface);
+  add_surface_command(*making);
   add_repair_command(*making);
-  making->callback([&, making, kind, output] {
+  making->callback([arguments, making, kind, output] {
     if (!making->get_subcommands().empty()) return;
     for (const CLI::Option* needed : {kind, output}) {
       if (needed->count() == 0) throw CLI::RequiredError(needed->get_name());
     }
-    make_mesh(mesh);
+    make_mesh(*arguments);
   });
 }
 

@@ -27,7 +27,7 @@ struct SurfaceArguments {
 
 void make_surface(const SurfaceArguments& arguments);
 
-/// Adds the command to `palpate mesh`. It runs on these arguments: they must outlive the parsing.
-void add_surface_command(CLI::App& mesh, SurfaceArguments& arguments);
+/// Adds the command to `palpate mesh`.
+void add_surface_command(CLI::App& mesh);
 
 }  // namespace palpation::tool

@@ -1,8 +1,12 @@
+#include <memory>
+
 #include "tool/surface_command.h"
 
 namespace palpation::tool {
 
-void add_surface_command(CLI::App& mesh, SurfaceArguments& arguments) {
+void add_surface_command(CLI::App& mesh) {
+  const auto asked = std::make_shared<SurfaceArguments>();
+  SurfaceArguments& arguments = *asked;
   CLI::App* command = mesh.add_subcommand(
       "surface", "Tissue from contact points or a point cloud, with how sure it is");
   ContactArguments& contacts = arguments.contacts;
@@ -43,7 +47,7 @@ void add_surface_command(CLI::App& mesh, SurfaceArguments& arguments) {
           "how points are joined: seen along one direction (projection), in space (front); "
           "auto: by their shape")
       ->check(CLI::IsMember({"auto", "projection", "front"}));
-  command->callback([&arguments] { make_surface(arguments); });
+  command->callback([asked] { make_surface(*asked); });
 }
 
 }  // namespace palpation::tool
