@@ -5,11 +5,15 @@
 namespace palpation::tool {
 
 void make_folder(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure || !std::filesystem::is_directory(folder))
-    throw WriteError(folder.string() + ": cannot make this folder: " +
-                     (failure ? failure.message() : "there is a file of that name"));
+  namespace fs = std::filesystem;
+  std::error_code failure, ignored;
+  fs::create_directories(folder, failure);
+  if (!failure && fs::is_directory(folder)) return;
+  const bool leads_nowhere = fs::is_symlink(folder, ignored) && !fs::exists(folder, ignored);
+  throw WriteError(folder.string() + ": cannot make this folder: " +
+                   (leads_nowhere ? "there is a link of that name, which leads nowhere"
+                    : failure     ? failure.message()
+                                  : "there is a file of that name"));
 }
 
 }  // namespace palpation::tool

@@ -438,8 +438,9 @@ class Files(WithSmallScene):
     # What is given
 
     def test_what_can_be_no_folder_is_said_to_be_none(self):
+        (self.folder / "nowhere").symlink_to(self.folder / "gone")
         for out, words in ((self.scene, "scene.json: cannot make this folder"), (self.measured, "cannot make this folder"), (self.measured / "below", "cannot make this folder"),
-                           ("/dev/null", "/dev/null: cannot make this folder")):
+                           ("/dev/null", "/dev/null: cannot make this folder"), (self.folder / "nowhere", "a link of that name, which leads nowhere")):
             self.refused(4, "plan", self.scene, "--measurements", self.measured, "--out", out, says=words)
 
     def test_a_persons_other_name_for_a_result_keeps_its_bytes(self):
