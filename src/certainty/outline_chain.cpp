@@ -1,11 +1,15 @@
 #include "certainty/outline_chain.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace palpation {
 namespace {
+
+/// Up to here moved pieces are asked one by one.
+constexpr std::size_t kFew = 9;
 
 struct MovedPiece {
   int node;       ///< its first
@@ -24,41 +28,74 @@ struct OutlineChain::Step {
 };
 
 OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior,
-                           OutlineNodes start, OutlineProfile profile)
-    : readings_(readings),
-      prior_(prior),
+                           OutlineNodes start, OutlineProfile profile, const Amendments& amendments)
+    : readings_(&readings),
+      prior_(&prior),
       outline_(std::move(start)),
+      pieces_(outline_),
       profile_(std::move(profile)),
       law_(law_of(profile_, prior)),
+      amendments_(amendments),
       felt_(readings.places.size()),
       moves_(outline_.place.size(), false) {
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    const Vec2& place = readings_.places[i];
-    felt_[i] = {nearest_piece(outline_, place), is_inside(outline_, place)};
+    const Vec2& place = readings_->places[i];
+    felt_[i] = {pieces_.nearest(place), pieces_.encloses(place)};
     felt_[i].log_likelihood = likelihood_of(i, felt_[i], law_);
+    // The worse a reading fits, the likelier something is missing there.
+    const double best = log_likelihood(law_, law_.low, readings_->variance[i], 0.0),
+                 lacking = best - felt_[i].log_likelihood;
+    anchors_.push_back((i > 0 ? anchors_.back() : 0.0) + 1.0 + lacking * lacking);
   }
+  for (double& share : anchors_) share /= anchors_.back();
+}
+
+int OutlineChain::part_of(const Felt& felt) const {
+  return outline_.loops[outline_.loop_of[felt.nearest.piece]].part;
+}
+
+double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
+  const double distance = std::sqrt(felt.nearest.square);
+  double depth = felt.inside ? distance : -distance;
+  for (const Amendment& amendment : amendments_) {
+    if (amendment.is_present && !amendment.adds)
+      depth = std::min(depth, -amendment.depth_at(readings_->places[reading]));
+  }
+  return depth;
 }
 
 double OutlineChain::likelihood_of(std::size_t reading, const Felt& felt,
                                    const ReadingLaw& law) const {
-  const double distance = std::sqrt(felt.nearest.square);
-  return log_likelihood(law, readings_.reading[reading], readings_.variance[reading],
-                        felt.inside ? distance : -distance,
-                        outline_.loops[outline_.loop_of[felt.nearest.piece]].part);
+  double rise = law.contrast[part_of(felt)] * share_at(law, depth_of(reading, felt));
+  for (const Amendment& amendment : amendments_) {
+    if (amendment.is_present && amendment.adds)
+      rise = std::max(rise, law.range * std::exp(amendment.log_contrast) *
+                                share_at(law, amendment.depth_at(readings_->places[reading])));
+  }
+  return log_likelihood(law, readings_->reading[reading], readings_->variance[reading], rise);
 }
 
 std::vector<double> OutlineChain::deepest_readings() const {
-  std::vector<double> deepest(profile_.log_contrast.size(), 0.0);
-  for (const Felt& felt : felt_) {
-    double& of_part = deepest[outline_.loops[outline_.loop_of[felt.nearest.piece]].part];
-    if (felt.inside) of_part = std::max(of_part, std::sqrt(felt.nearest.square));
+  const std::size_t parts = profile_.log_contrast.size();
+  std::vector<double> deepest(parts + kAmendments, 0.0);
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    double& of_part = deepest[part_of(felt_[i])];
+    of_part = std::max(of_part, depth_of(i, felt_[i]));
+    for (std::size_t which = 0; which < kAmendments; ++which) {
+      const Amendment& amendment = amendments_[which];
+      double& of_this = deepest[parts + which];
+      if (amendment.is_present && amendment.adds)
+        of_this = std::max(of_this, amendment.depth_at(readings_->places[i]));
+    }
   }
   return deepest;
 }
 
 double OutlineChain::log_density() const {
-  double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, prior_);
+  double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
   for (const Felt& felt : felt_) sum += felt.log_likelihood;
+  for (const Amendment& amendment : amendments_)
+    sum += amendment.is_present ? log_amendment_density(amendment) : 0.0;
   return sum;
 }
 
@@ -91,15 +128,20 @@ bool OutlineChain::crosses_another(const Step& step) const {
 
 /// Neither which side it lies on nor what is nearest to it can have changed.
 bool OutlineChain::is_untouched(const Step& step, std::size_t reading) const {
-  const Vec2& place = readings_.places[reading];
+  const Vec2& place = readings_->places[reading];
   const NearestPiece& nearest = felt_[reading].nearest;
   return !moves_[nearest.piece] && !step.ever.contains(place) &&
          step.now.squaredExteriorDistance(place) > nearest.square;
 }
 
 OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t reading) const {
-  const Vec2& place = readings_.places[reading];
+  const Vec2& place = readings_->places[reading];
   Felt felt = felt_[reading];
+  if (step.pieces.size() > kFew) {
+    felt = {pieces_.nearest(place), pieces_.encloses(place)};
+    felt.log_likelihood = likelihood_of(reading, felt, law_);
+    return felt;
+  }
   const bool may_flip = step.ever.contains(place);
   NearestPiece moved{.square = 1e300};
   for (const MovedPiece& piece : step.pieces) {
@@ -112,7 +154,7 @@ OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t readin
   if (moved.square <= felt.nearest.square) {
     felt.nearest = moved;
   } else if (moves_[felt.nearest.piece]) {
-    felt.nearest = nearest_piece(outline_, place);
+    felt.nearest = pieces_.nearest(place);
   }
   felt.log_likelihood = likelihood_of(reading, felt, law_);
   return felt;
@@ -133,41 +175,55 @@ OutlineChain::Step OutlineChain::step_from(int first, int moved) const {
   return step;
 }
 
+/// In two stages, each of which leaves its part of the density in balance: first the shape's,
+/// which costs little, then the readings' (Christen and Fox 2005).
 bool OutlineChain::move_nodes(int first, const std::vector<Vec2>& places, Random& random,
                               double log_volume) {
   Step step = step_from(first, static_cast<int>(places.size()));
-  double change = -shape_about(step);
+  const double before = shape_about(step);
   for (std::size_t i = 0; i < places.size(); ++i) outline_.place[step.nodes[i]] = places[i];
+  const bool taken =
+      std::log(random.uniform()) < shape_about(step) - before + log_volume && feel(step, random);
+  if (!taken) {
+    for (const MovedPiece& piece : step.pieces) outline_.place[piece.node] = piece.from;
+  }
+  return taken;
+}
+
+/// Whether a step whose nodes have moved is taken for what the readings say.
+bool OutlineChain::feel(Step& step, Random& random) {
   for (const MovedPiece& piece : step.pieces) {
+    const Vec2 &from = outline_.place[piece.node], &to = outline_.place[outline_.next(piece.node)];
     moves_[piece.node] = true;
-    step.now.extend(outline_.place[piece.node]).extend(outline_.place[outline_.next(piece.node)]);
+    pieces_.set(piece.node, from, to);
+    step.now.extend(from).extend(to);
     step.ever.extend(piece.from).extend(piece.to);
   }
   step.ever.extend(step.now);
-  change += shape_about(step) + log_volume;
-
-  std::vector<std::pair<std::size_t, Felt>> fresh;
+  double change = 0.0;
   bool taken = !crosses_another(step);
   if (taken) {
+    fresh_.clear();
     for (std::size_t i = 0; i < felt_.size(); ++i) {
       if (is_untouched(step, i)) continue;
-      fresh.emplace_back(i, felt_after(step, i));
-      change += fresh.back().second.log_likelihood - felt_[i].log_likelihood;
+      fresh_.emplace_back(i, felt_after(step, i));
+      change += fresh_.back().second.log_likelihood - felt_[i].log_likelihood;
     }
     taken = std::log(random.uniform()) < change;
   }
   for (const MovedPiece& piece : step.pieces) {
     moves_[piece.node] = false;
-    if (!taken) outline_.place[piece.node] = piece.from;
+    if (!taken) pieces_.set(piece.node, piece.from, piece.to);
   }
-  if (!taken) return false;
-  for (const auto& [reading, felt] : fresh) felt_[reading] = felt;
-  return true;
+  if (taken) {
+    for (const auto& [reading, felt] : fresh_) felt_[reading] = felt;
+  }
+  return taken;
 }
 
 bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random) {
-  double change = log_profile_density(profile, prior_) - log_profile_density(profile_, prior_);
-  const ReadingLaw law = law_of(profile, prior_);
+  double change = log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
+  const ReadingLaw law = law_of(profile, *prior_);
   std::vector<double> likelihoods;
   if (is_of_shape) {
     change += log_shape_density(outline_, profile) - log_shape_density(outline_, profile_);
@@ -182,6 +238,61 @@ bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape,
   law_ = law;
   for (std::size_t i = 0; i < likelihoods.size(); ++i) felt_[i].log_likelihood = likelihoods[i];
   return true;
+}
+
+/// Of the readings' part of the density; the rest has changed by `change`.
+bool OutlineChain::try_amendment(int which, const Amendment& amendment, double change,
+                                 Random& random) {
+  const Amendment before = std::exchange(amendments_[which], amendment);
+  std::vector<double> likelihoods;
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    likelihoods.push_back(likelihood_of(i, felt_[i], law_));
+    change += likelihoods.back() - felt_[i].log_likelihood;
+  }
+  if (!(std::log(random.uniform()) < change)) {
+    amendments_[which] = before;
+    return false;
+  }
+  for (std::size_t i = 0; i < likelihoods.size(); ++i) felt_[i].log_likelihood = likelihoods[i];
+  return true;
+}
+
+/// Fresh ones come from their prior but for the anchor: the rest of the density cancels.
+bool OutlineChain::switch_amendment(int which, Random& random) {
+  if (felt_.empty()) return false;
+  const auto anchor_ratio = [&](std::size_t anchor) {
+    const double share = anchors_[anchor] - (anchor > 0 ? anchors_[anchor - 1] : 0.0);
+    return -std::log(static_cast<double>(felt_.size()) * share);
+  };
+  const Amendment& now = amendments_[which];
+  if (now.is_present) return try_amendment(which, {}, -anchor_ratio(now.anchor), random);
+  const auto found = std::ranges::upper_bound(anchors_, random.uniform());
+  const auto anchor = std::min<std::size_t>(found - anchors_.begin(), felt_.size() - 1);
+  return try_amendment(which,
+                       drawn_amendment(static_cast<int>(anchor), readings_->places[anchor], random),
+                       anchor_ratio(anchor), random);
+}
+
+bool OutlineChain::move_amendment(int which, const Amendment& amendment, Random& random) {
+  const double density = log_amendment_density(amendment);
+  return std::isfinite(density) &&
+         try_amendment(which, amendment, density - log_amendment_density(amendments_[which]),
+                       random);
+}
+
+void OutlineChain::anchor_anew(int which, Random& random) {
+  Amendment& amendment = amendments_[which];
+  const double radius = std::exp(amendment.log_radius);
+  const Vec2 middle = amendment.anchor_place + radius * amendment.offset;
+  std::vector<int> within;
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    if ((readings_->places[i] - middle).squaredNorm() <= radius * radius)
+      within.push_back(static_cast<int>(i));
+  }
+  if (within.empty()) return;
+  amendment.anchor = within[random.below(static_cast<int>(within.size()))];
+  amendment.anchor_place = readings_->places[amendment.anchor];
+  amendment.offset = (middle - amendment.anchor_place) / radius;
 }
 
 }  // namespace palpation

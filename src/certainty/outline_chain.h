@@ -5,18 +5,25 @@
 /// costs a few readings, not all.
 #pragma once
 
+#include <array>
+#include <utility>
 #include <vector>
 
+#include "certainty/outline_amendment.h"
 #include "certainty/outline_model.h"
+#include "certainty/outline_pieces.h"
 #include "palpation/base/random.h"
 
 namespace palpation {
 
 class OutlineChain {
  public:
+  static constexpr int kAmendments = 2;
+  using Amendments = std::array<Amendment, kAmendments>;
+
   /// The readings and the prior must outlive it. The start's lines must not cross.
   OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
-               OutlineProfile profile);
+               OutlineProfile profile, const Amendments& amendments = {});
 
   /// Proposes that consecutive nodes of a loop, from `first` on, move to these places; at most all
   /// of them. `log_volume`: of the proposal's Jacobian. Never lets lines cross. Returns whether it
@@ -27,10 +34,19 @@ class OutlineChain {
   /// else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
 
+  /// Proposes that an amendment which is present is not, or that a fresh one is.
+  bool switch_amendment(int which, Random& random);
+  /// Proposes that a present amendment has another form, as likely as back; its anchor may differ.
+  bool move_amendment(int which, const Amendment& amendment, Random& random);
+  /// Makes any of the readings within its radius of its middle its anchor.
+  void anchor_anew(int which, Random& random);
+
   const OutlineNodes& outline() const { return outline_; }
+  const Amendments& amendments() const { return amendments_; }
   const OutlineProfile& profile() const { return profile_; }
-  double logit_fraction() const { return law_.logit_fraction; }
-  /// Of each part, the depth of its deepest reading; 0 where none is inside.
+  const ReadingLaw& law() const { return law_; }
+  /// Of each part, then of each amendment, the depth of its deepest reading; 0 where none is
+  /// inside.
   std::vector<double> deepest_readings() const;
   /// Of the posterior, without what depends on nothing that moves; as it was added up step by step.
   double log_density() const;
@@ -44,20 +60,30 @@ class OutlineChain {
   };
   struct Step;
 
+  int part_of(const Felt& felt) const;
+  /// Of a reading in the loops, less what amendments take.
+  double depth_of(std::size_t reading, const Felt& felt) const;
   double likelihood_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  bool try_amendment(int which, const Amendment& amendment, double change, Random& random);
   Step step_from(int first, int moved) const;
   double shape_about(const Step& step) const;
+  bool feel(Step& step, Random& random);
   bool crosses_another(const Step& step) const;
   bool is_untouched(const Step& step, std::size_t reading) const;
   Felt felt_after(const Step& step, std::size_t reading) const;
 
-  const OutlineReadings& readings_;
-  const OutlinePrior& prior_;
+  const OutlineReadings* readings_;
+  const OutlinePrior* prior_;
   OutlineNodes outline_;
+  OutlinePieces pieces_;  // of the outline
   OutlineProfile profile_;
   ReadingLaw law_;  // of the profile
+  Amendments amendments_;
+  std::vector<double>
+      anchors_;  // how often fresh amendments have these or earlier ones, rising to 1
   std::vector<Felt> felt_;
-  std::vector<bool> moves_;  // of each piece, in the step at hand
+  std::vector<bool> moves_;                          // of each piece, in the step at hand
+  std::vector<std::pair<std::size_t, Felt>> fresh_;  // of the step at hand
 };
 
 }  // namespace palpation

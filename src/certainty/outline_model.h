@@ -9,7 +9,8 @@
 ///     low + contrast (high - low) / (1 + exp(-(slope depth + logit fraction))) + noise
 ///
 /// (equation 4 of Garg et al. 2016, zero where the boundary is), the noise normal but for a reading
-/// in a hundred, which tells nothing.
+/// in a hundred, which tells nothing. What amendments add (outline_amendment.h) reads as a part of
+/// its own, and a place reads as the highest of what it lies in.
 #pragma once
 
 #include <vector>
@@ -42,21 +43,25 @@ struct OutlinePrior {
   double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
-  double logit_fraction = 0.0;
+  double fraction = 0.5;  ///< of the way from low to high, where the boundary is
 };
+
+inline constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 
 /// How readings come from depths, by a profile.
 struct ReadingLaw {
-  double low, slope_per_m, logit_fraction;
+  double low, range;
+  double slope_per_m, logit_fraction;
   std::vector<double> contrast;  ///< of each part
   double noise_square;           ///< what variances are multiplied by
   double wild_density;           ///< of a reading that tells nothing, times how many there are
 };
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
 
-/// Log density of a reading at a depth in a part.
-double log_likelihood(const ReadingLaw& law, double reading, double variance, double depth_m,
-                      int part);
+/// What share of its contrast tissue has at a depth.
+double share_at(const ReadingLaw& law, double depth_m);
+/// Log density of a reading where tissue reads so much higher than `low`.
+double log_likelihood(const ReadingLaw& law, double reading, double variance, double rise);
 
 /// Of the turn at a node of a loop, by the places before it, of it and after it.
 double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,

@@ -73,23 +73,33 @@ double share_inside(double depth_m, double width_m) {
   return std::clamp(depth_m / width_m + 0.5, 0.0, 1.0);
 }
 
-double depth_of(const OutlineDraw& draw, const Vec2& place) {
-  const NearestPiece nearest = nearest_piece(draw.outline, place);
-  const double distance = std::sqrt(nearest.square),
-               wider = draw.wider_m[draw.outline.loops[draw.outline.loop_of[nearest.piece]].part];
-  return (is_inside(draw.outline, place) ? distance : -distance) + wider;
+double depth_of(const OutlineDraw& draw, const OutlinePieces& pieces, const Vec2& place) {
+  const OutlineNodes& outline = draw.outline;
+  const auto [square, piece] = pieces.nearest(place);
+  double depth = pieces.encloses(place) ? std::sqrt(square) : -std::sqrt(square);
+  for (const Amendment& amendment : draw.amendments) {
+    if (!amendment.adds) depth = std::min(depth, -amendment.depth_at(place));
+  }
+  depth += draw.wider_m[outline.loops[outline.loop_of[piece]].part];
+  for (const Amendment& amendment : draw.amendments) {
+    if (amendment.adds) depth = std::max(depth, amendment.depth_at(place) + amendment.wider_m);
+  }
+  return depth;
 }
 
 /// The draws' depths: rows are draws, columns vertices.
 Eigen::MatrixXf depths_at(const Surface& surface, const Draws& draws) {
   const Points2& uv = surface.chart().uv;
   Eigen::MatrixXf depths(static_cast<Eigen::Index>(draws.size()), surface.vertex_count());
+  std::vector<OutlinePieces> pieces;
+  for (const OutlineDraw& draw : draws) pieces.emplace_back(draw.outline);
   for_ranges(surface.vertex_count(), kVerticesAtOnce, [&](int first, int last) {
     for (int vertex = first; vertex < last; ++vertex) {
       const Vec2 place = uv.row(vertex).transpose();
-      for (std::size_t i = 0; i < draws.size(); ++i)
+      for (std::size_t i = 0; i < draws.size(); ++i) {
         depths(static_cast<Eigen::Index>(i), vertex) =
-            static_cast<float>(depth_of(draws[i], place));
+            static_cast<float>(depth_of(draws[i], pieces[i], place));
+      }
     }
   });
   return depths;

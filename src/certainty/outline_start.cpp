@@ -149,7 +149,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   start.prior.plateau_sd = shape.plateau_error * (median.high - median.low);
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
-  start.prior.logit_fraction = std::log(options.fraction / (1.0 - options.fraction));
+  start.prior.fraction = options.fraction;
   start.profile = median;
   start.profile.low = profile.low;
   start.profile.high = profile.high;

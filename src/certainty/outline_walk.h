@@ -1,8 +1,8 @@
 /// One chain through the outlines' posterior: what is proposed, and how far.
 ///
 /// A sweep tries each node, stretches of nodes of several widths, and each loop as a whole (moved,
-/// grown, turned, bent), and the profile. Steps find their own lengths while the walk settles, and
-/// keep them from then on, so that what is kept is of the posterior.
+/// grown, turned, bent), the profile, and amendments. Steps find their own lengths while the walk
+/// settles, and keep them from then on, so that what is kept is of the posterior.
 #pragma once
 
 #include <array>
@@ -16,10 +16,11 @@ struct OutlineDraw {
   OutlineNodes outline;
   OutlineProfile profile;
   /// How much deeper than in the outline a place lies in the tumour, for each part, metres. A
-  /// tumour is as high as its plateau, or as what was felt of it: where a plateau was not reached,
-  /// the readings do not say which, and a hill has none. So each draw takes a height between the
-  /// two, all as likely, and its boundary at the fraction of that.
+  /// tumour has a plateau, and its boundary at the fraction of that; or, as likely, none: then it
+  /// is as high as its readings, or higher up to that plateau, which they do not tell, and its
+  /// boundary at the fraction of that height.
   std::vector<double> wider_m;
+  std::vector<Amendment> amendments;  ///< that are present
 };
 
 class OutlineWalk {
@@ -36,19 +37,21 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 5;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 5, kOfAmendment = 5;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres
     std::vector<double> of_contrasts;
     std::array<double, kOfProfile> of_profile;
+    std::array<double, kOfAmendment> of_amendments;
   };
 
   void sweep();
-  std::vector<double> drawn_widths();
+  OutlineDraw drawn();
   void move_stretch(int middle, int width);
   void move_loop(int loop, int kind);
   void move_profile();
+  void move_amendments();
   void tune(double& length, bool taken, double share, double most) const;
 
   OutlineChain chain_;

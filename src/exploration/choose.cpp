@@ -57,7 +57,7 @@ std::string reason_to_stop(const Conclusion& conclusion, const StopRule& stop) {
   // Without a boundary nothing is known of how wrong it is: a level that no reading crosses is no
   // reason to stop.
   if (!conclusion.evidence.contrast_seen || !certainty || certainty->half_width_m == 0.0) return "";
-  if (certainty->expected.symmetric_difference_m2() <= stop.error_m2 && stop.error_m2 > 0.0)
+  if (certainty->expected_in_all_m2() <= stop.error_m2 && stop.error_m2 > 0.0)
     return "expected error";
   if (certainty->half_width_m <= stop.band_m) return "band";
   return "";

@@ -12,7 +12,7 @@ void sort_unique(std::vector<int>& vertices) {
 
 std::optional<double> expected_error_m2(const Conclusion& conclusion) {
   if (!conclusion.certainty) return std::nullopt;
-  return conclusion.certainty->expected.symmetric_difference_m2();
+  return conclusion.certainty->expected_in_all_m2();
 }
 
 /// As many as the stop rule looks back, the last one now.

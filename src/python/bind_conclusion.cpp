@@ -61,12 +61,14 @@ py::dict summary(const Concluded& here) {
       "transform"_a = all.scale() == ReadingScale::Log ? "log" : "none",
       "tip_hides_all()"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
       "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
-      "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
+      "expected_untouched_m2"_a = py::none(), "band_probability"_a = py::none(),
+      "band_half_width_m"_a = py::none());
   if (all.certainty && !all.tip_hides_all()) {
     const Certainty& certainty = *all.certainty;
     result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();
     result["expected_missed_m2"] = certainty.expected.missed_m2;
     result["expected_extra_m2"] = certainty.expected.extra_m2;
+    result["expected_untouched_m2"] = certainty.hidden_m2;
     result["band_probability"] = certainty.probability;
     result["band_half_width_m"] = certainty.half_width_m;
   }

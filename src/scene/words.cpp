@@ -28,6 +28,14 @@ std::string part_words(const TumourPart& part) {
   return words + "\n";
 }
 
+/// What may be hidden where nobody touched, from a tenth of a square millimetre on.
+std::string untouched_words(const Certainty& certainty) {
+  const double hidden_mm2 = certainty.hidden_m2 * 1e6;
+  return hidden_mm2 < 0.1
+             ? std::string()
+             : "; and " + fixed(hidden_mm2, 1) + " mm2 of tumour where nothing was touched";
+}
+
 /// What a surgeon asks: how far off the line may be, and where to cut.
 std::string band_words(const Certainty& certainty, const Surface& surface, double cut_risk) {
   const double inner = superlevel_area(surface, certainty.score, certainty.band_score) * 1e6;
@@ -40,9 +48,9 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
          fixed(outer, 1) + " mm2 within its outer curve.\nExpected error: " +
          fixed(certainty.expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
          fixed(certainty.expected.missed_m2 * 1e6, 1) + " missed and " +
-         fixed(certainty.expected.extra_m2 * 1e6, 1) + " extra. Cut line: " + fixed(cut, 1) +
-         " mm2; outside of it the risk of tumour is at most " + percent(cut_risk) +
-         " at any place.\n";
+         fixed(certainty.expected.extra_m2 * 1e6, 1) + " extra" + untouched_words(certainty) +
+         ". Cut line: " + fixed(cut, 1) + " mm2; outside of it the risk of tumour is at most " +
+         percent(cut_risk) + " at any place.\n";
 }
 
 bool has_least_contrast(const Episode& episode) {

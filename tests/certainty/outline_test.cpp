@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "certainty/outline_chain.h"
@@ -82,7 +83,8 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   const OutlinePrior prior = prior_of(start);
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
-  const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile());
+  const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile(),
+                           chain.chain().amendments());
   // Some 20,000 steps were taken: each adds and removes the same numbers.
   EXPECT_NEAR(chain.chain().log_density(), fresh.log_density(), 1e-9);
 }
@@ -169,6 +171,62 @@ TEST(OutlineWalk, WithoutReadingsTheSlopeIsDrawnFromItsPrior) {
   // Three tries a sweep: draws are correlated over three or so, a standard error of .04.
   EXPECT_NEAR(mean, 0.0, 0.15);
   EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0, 0.12);
+}
+
+// Readings that tell nothing: amendments come and go as their prior has them, by whatever steps.
+TEST(OutlineWalk, AmendmentsAreDrawnFromTheirPriorWhereReadingsTellNothing) {
+  Random random(12);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  OutlineReadings readings = felt_around(outline, 40, random);
+  for (double& variance : readings.variance) variance = 1e12;
+  OutlinePrior prior = prior_of(outline);
+  prior.noise_log_sd = 0.01;  // else all that noise is doubted
+  OutlineWalk walk(readings, prior, outline, prior.median, 13);
+  walk.settle(200);
+  double present = 0.0, adding = 0.0, log_radius = 0.0, square = 0.0, length_m = 0.0;
+  constexpr int kDraws = 3000;
+  for (const OutlineDraw& draw : walk.draws(kDraws, kDraws)) {
+    for (const Amendment& amendment : draw.amendments) {
+      const double z = (amendment.log_radius - std::log(0.0035)) / 0.4;
+      present += 1.0;
+      adding += amendment.adds ? 1.0 : 0.0;
+      log_radius += z;
+      square += z * z;
+      length_m += amendment.half_length_m;
+      EXPECT_LE(amendment.offset.norm(), 1.0);
+    }
+  }
+  // Nine thousand switches for two amendments: a standard error of .01.
+  EXPECT_NEAR(present / (2 * kDraws), 0.5, 0.05);
+  EXPECT_NEAR(adding / present, 0.5, 0.06);
+  EXPECT_NEAR(log_radius / present, 0.0, 0.12);
+  EXPECT_NEAR(std::sqrt(square / present), 1.0, 0.08);
+  EXPECT_NEAR(length_m / present, 0.002, 0.0002);
+}
+
+TEST(OutlineWalk, FindsAHoleThatItsStartDoesNotKnow) {
+  Random random(14);
+  const OutlineNodes outline = rectangle(16 * kMm, 16 * kMm, 64);
+  OutlineReadings readings;
+  for (int i = 0; i < 150; ++i) {
+    const Vec2 place = kMm * Vec2(-3.0 + 22.0 * random.uniform(), -3.0 + 22.0 * random.uniform());
+    const double depth =
+        std::min(depth_in(outline, place), (place - kMm * Vec2(8, 8)).norm() - 4 * kMm);
+    readings.places.push_back(place);
+    readings.reading.push_back(7.0 + 2.0 / (1.0 + std::exp(-1200.0 * depth)) +
+                               0.2 * random.normal());
+    readings.variance.push_back(0.04);
+  }
+  const OutlinePrior prior = prior_of(outline);
+  OutlineWalk walk(readings, prior, outline, prior.median, 15);
+  walk.settle(300);
+  int with_hole = 0;
+  for (const OutlineDraw& draw : walk.draws(300, 100)) {
+    with_hole += std::ranges::any_of(draw.amendments, [](const Amendment& amendment) {
+      return !amendment.adds && amendment.depth_at(kMm * Vec2(8, 8)) > 1.5 * kMm;
+    });
+  }
+  EXPECT_GE(with_hole, 95);
 }
 
 TEST(OutlineWalk, TheSameSeedDrawsTheSame) {
