@@ -64,6 +64,18 @@ Eigen::VectorXd by_contact(const Loading& loading, const ContactOptions& options
   return -(coefficients[own] * inside + 2.0 * coefficients[own + 1] * u);
 }
 
+/// By all unknowns; the contact depth's column is the last.
+Eigen::MatrixXd derivatives_at(const Loading& loading, const ContactOptions& options,
+                               const Unknowns& unknowns, double contact_depth_m,
+                               const LinearFit& fit) {
+  Eigen::MatrixXd derivatives = basis_at(loading, options, unknowns, contact_depth_m);
+  if (!unknowns.contact) return derivatives;
+  derivatives.conservativeResize(Eigen::NoChange, derivatives.cols() + 1);
+  derivatives.rightCols(1) =
+      by_contact(loading, options, unknowns, contact_depth_m, fit.coefficients);
+  return derivatives;
+}
+
 /// Columns of one length each, so that metres beside one do not pass for indistinct.
 Eigen::VectorXd lengths_of(const Eigen::MatrixXd& columns) {
   Eigen::VectorXd lengths = columns.colwise().norm();
@@ -119,12 +131,7 @@ double best_contact(const Loading& loading, const ContactOptions& options, const
 
 Value value_of(const Loading& loading, const ContactOptions& options, const Unknowns& unknowns,
                double contact_depth_m, const LinearFit& fit) {
-  Eigen::MatrixXd derivatives = basis_at(loading, options, unknowns, contact_depth_m);
-  if (unknowns.contact) {
-    derivatives.conservativeResize(Eigen::NoChange, derivatives.cols() + 1);
-    derivatives.rightCols(1) =
-        by_contact(loading, options, unknowns, contact_depth_m, fit.coefficients);
-  }
+  Eigen::MatrixXd derivatives = derivatives_at(loading, options, unknowns, contact_depth_m, fit);
   // The value is a sum of the model's own coefficients: one, or the force at a depth; the zero of a
   // sensor that cannot be told from the first force belongs to that.
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(derivatives.cols());
@@ -150,6 +157,18 @@ Value value_of(const Loading& loading, const ContactOptions& options, const Unkn
                             .template triangularView<Eigen::Upper>();
   value.unit_variance = triangle.transpose().solve(scaled).squaredNorm();
   return value;
+}
+
+Eigen::VectorXd leverages_of(const Loading& loading, const ContactOptions& options,
+                             const Unknowns& unknowns, double contact_depth_m,
+                             const LinearFit& fit) {
+  Eigen::MatrixXd derivatives = derivatives_at(loading, options, unknowns, contact_depth_m, fit);
+  derivatives = derivatives * lengths_of(derivatives).cwiseInverse().asDiagonal();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(derivatives);
+  solver.setThreshold(kIndistinct);
+  const Eigen::MatrixXd orthonormal =
+      solver.householderQ() * Eigen::MatrixXd::Identity(derivatives.rows(), solver.rank());
+  return orthonormal.rowwise().squaredNorm();
 }
 
 }  // namespace palpation

@@ -12,6 +12,9 @@ struct Loading {
   Eigen::VectorXd depth_m, force, time_s;
 };
 
+/// F statistic by which a bend explains more than none: by chance, one in a thousand.
+inline constexpr double kBend = 12.0;
+
 /// Which unknowns a fit has besides the model's own: the sensor's zero, its drift, the contact
 /// depth.
 struct Unknowns {
@@ -46,6 +49,11 @@ struct Value {
 };
 Value value_of(const Loading& loading, const ContactOptions& options, const Unknowns& unknowns,
                double contact_depth_m, const LinearFit& fit);
+
+/// By which part of its own force each sample's fit moves, the contact depth moving, too.
+Eigen::VectorXd leverages_of(const Loading& loading, const ContactOptions& options,
+                             const Unknowns& unknowns, double contact_depth_m,
+                             const LinearFit& fit);
 
 int unknown_count(const ContactOptions& options, const Unknowns& unknowns);
 

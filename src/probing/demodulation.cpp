@@ -29,24 +29,31 @@ Demodulated demodulate(const Eigen::HouseholderQR<Eigen::MatrixXd>& solver,
   return parts;
 }
 
-double error_beside(const Eigen::VectorXd& time_s, const Eigen::VectorXd& force_left,
-                    const Eigen::VectorXd& position_left, Complex ratio, double frequency_hz,
-                    int periods) {
-  double sum = 0.0;
-  int count = 0;
-  for (int m = -periods / 2; m <= periods / 2; ++m) {
+Beside::Beside(const Eigen::VectorXd& time_s, const Eigen::HouseholderQR<Eigen::MatrixXd>& solver,
+               const Eigen::MatrixXd& basis, double frequency_hz, int periods)
+    : waves_(time_s.size(), 2 * (periods / 2)), left_(waves_.cols()) {
+  const auto n = static_cast<double>(time_s.size());
+  Eigen::Index column = 0;
+  for (int m = -(periods / 2); m <= periods / 2; ++m) {
     if (m == 0) continue;
-    const double beside_hz = frequency_hz * (1.0 + double(m) / periods);
-    Complex force = 0.0, position = 0.0;
-    for (Eigen::Index i = 0; i < time_s.size(); ++i) {
-      const Complex wave = std::polar(1.0, -2.0 * std::numbers::pi * beside_hz * time_s[i]);
-      force += wave * force_left[i];
-      position += wave * position_left[i];
-    }
-    sum += std::norm(2.0 / double(time_s.size()) * (force - ratio * position));
-    ++count;
+    const double beside = -2.0 * std::numbers::pi * frequency_hz * (1.0 + double(m) / periods);
+    for (Eigen::Index i = 0; i < time_s.size(); ++i)
+      waves_(i, column) = std::polar(1.0, beside * time_s[i]);
+    Eigen::MatrixXd parts(time_s.size(), 2);
+    parts << waves_.col(column).real(), waves_.col(column).imag();
+    left_[column++] = (parts - basis * solver.solve(parts)).squaredNorm() / n;
   }
-  return sum / count;
+  const Eigen::Index count = basis.cols();
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(count, count).middleCols(kDrift, 2);
+  const auto triangle = solver.matrixQR().topRows(count).template triangularView<Eigen::Upper>();
+  own_ = triangle.transpose().solve(unit).squaredNorm() * n / 4.0;
+}
+
+double Beside::error(const Eigen::VectorXd& force_left, const Eigen::VectorXd& position_left,
+                     Complex ratio) const {
+  const Eigen::VectorXcd left = force_left.cast<Complex>() - ratio * position_left.cast<Complex>();
+  const Eigen::VectorXcd amplitudes = 2.0 / double(left.size()) * (waves_.transpose() * left);
+  return own_ * amplitudes.cwiseAbs2().cwiseQuotient(left_).mean();
 }
 
 }  // namespace palpation

@@ -8,6 +8,7 @@
 
 #include "palpation/base/error.h"
 #include "palpation/probing/probings.h"
+#include "probing/log_samples.h"
 #include "probing/robust.h"
 
 namespace palpation {
@@ -19,7 +20,9 @@ constexpr int kRounds = 8;  // of fitting the sensor's zero: it settles in three
 constexpr Eigen::Index kLeastEpisode = 3;
 constexpr Eigen::Index kSwappedRows = 5;  // of other probings in between
 constexpr std::size_t kLeastVisit = 3;
-constexpr double kAirBefore = 2.0;  // samples in the air for each in contact, at most
+constexpr double kAirBefore = 2.0;     // samples in the air for each in contact, at most
+constexpr double kSilentSteps = 10.5;  // of time: not recorded in between
+constexpr double kJump = 5.0;          // of the longest step in contact: from another place
 
 /// Samples of one name and session make one probing, rows that were swapped with others' too; but
 /// where a few or more lie to both sides of others', the robot came back.
@@ -115,6 +118,24 @@ std::vector<std::vector<Eigen::Index>> contacts_in(const Eigen::VectorXd& over, 
   return runs;
 }
 
+/// The first row of an approach that hangs together up to contact: in time, and in space.
+Eigen::Index begin_of_approach(const RobotLog& log, double usual_s, Eigen::Index start,
+                               Eigen::Index first, Eigen::Index last) {
+  if (log.position_m.rows() == 0) return start;
+  const auto step_m = [&](Eigen::Index i) {
+    return (log.position_m.row(i) - log.position_m.row(i - 1)).norm();
+  };
+  double longest_m = 0.0;
+  for (Eigen::Index i = first + 1; i <= last; ++i)
+    if (step_m(i) > longest_m) longest_m = step_m(i);
+  for (Eigen::Index i = first; i > start; --i) {
+    if (step_m(i) > kJump * longest_m) return i;
+    if (log.time_s.size() > 0 && log.time_s[i] - log.time_s[i - 1] > kSilentSteps * usual_s)
+      return i;
+  }
+  return start;
+}
+
 std::vector<std::vector<Eigen::Index>> by_contact(const RobotLog& log) {
   const Eigen::VectorXd force = one_force(log);
   if (!(force.array() == force.array()).any()) return {};
@@ -127,12 +148,14 @@ std::vector<std::vector<Eigen::Index>> by_contact(const RobotLog& log) {
   const double peak = sorted[static_cast<std::size_t>(0.98 * double(sorted.size() - 1))];
   std::vector<std::vector<Eigen::Index>> groups =
       contacts_in(over, std::max(kNoises * noise, kShareOfPeak * peak));
+  const double usual_s = log.time_s.size() > 0 ? usual_step_s(log) : 0.0;
   Eigen::Index free_from = 0;
   for (std::vector<Eigen::Index>& group : groups) {
     const Eigen::Index first = group.front(), last = group.back();
     const auto most = static_cast<Eigen::Index>(kAirBefore * double(group.size())) + 5;
     const Eigen::Index halfway = free_from == 0 ? 0 : free_from + (first - free_from) / 2;
-    const Eigen::Index start = std::max(halfway, first - most);
+    const Eigen::Index start =
+        begin_of_approach(log, usual_s, std::max(halfway, first - most), first, last);
     group.clear();
     for (Eigen::Index i = start; i <= last; ++i) group.push_back(i);
     free_from = last + 1;

@@ -18,7 +18,6 @@ constexpr Eigen::Index kLeastInAir = 5;
 constexpr Eigen::Index kTellsContact = 5;  // samples: three degrees of freedom
 constexpr double kFlat = 0.05;             // of the slope of all: in the air
 constexpr double kDrifting = 0.3;          // the same, where stamps tell the drift apart
-constexpr double kBend = 12.0;             // F statistic: a bend by chance is one in a thousand
 constexpr double kInAirAtSight = 1.0 / 3.0;
 constexpr int kMostSamples = 400;      // for looking where contact is; fits take all
 constexpr double kReach = 1.0 + 1e-9;  // a depth written in decimals may be a rounding less
@@ -172,6 +171,17 @@ ContactFit fit_contact(const Indentation& indentation, const ContactOptions& opt
     prepared.loading = *clean;
     best = attempt(prepared.loading, options);
   }
+  const auto most_left_out = std::max<Eigen::Index>(1, prepared.loading.depth_m.size() / 10);
+  for (Eigen::Index i = 0; i < most_left_out; ++i) {
+    const auto clean = without_misfit(
+        prepared.loading, best.fit.residuals,
+        leverages_of(prepared.loading, options, best.unknowns, best.contact_m, best.fit),
+        unknown_count(options, best.unknowns));
+    if (!clean) break;
+    ++prepared.left_out;
+    prepared.loading = *clean;
+    best = attempt(prepared.loading, options);
+  }
   if (const auto fault = fault_of(prepared.loading, options, best, prepared.left_out))
     return *fault;
 
@@ -182,6 +192,7 @@ ContactFit fit_contact(const Indentation& indentation, const ContactOptions& opt
   fit.approach_seen = best.unknowns.contact && best.unknowns.zero;
   fit.samples = static_cast<int>(prepared.loading.depth_m.size());
   fit.left_out = prepared.left_out;
+  fit.held = prepared.held;
   const int degrees = fit.samples - unknown_count(options, best.unknowns);
   if (degrees >= 1) fit.residual_sd = std::sqrt(best.fit.squares / degrees);
   fit.variance = best.value.unit_variance * student_variance(best.fit.squares, degrees);

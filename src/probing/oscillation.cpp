@@ -105,7 +105,8 @@ class Slide {
     const Along along = along_axis(log_, window, demodulate(solver, basis, window.force),
                                    demodulate(solver, basis, window.position_m), reference_);
     reference_ = along.axis;
-    return judge(probed, window, along);
+    return judge(probed, along,
+                 Beside(window.time_s, solver, basis, frequency_hz_, options_.window_periods));
   }
 
   std::vector<Window> windows() const {
@@ -154,15 +155,12 @@ class Slide {
     return probed;
   }
 
-  Probed judge(Probed probed, const Window& window, const Along& along) const {
+  Probed judge(Probed probed, const Along& along, const Beside& beside) const {
     const Complex f = along.force[0], x = along.position_m[0];
     const Complex ratio = std::norm(x) > 0.0 ? f / x : Complex(0.0);
-    const auto beside = [&](Complex of) {
-      return error_beside(window.time_s, along.force_left, along.position_left, of, frequency_hz_,
-                          options_.window_periods);
-    };
-    const double error = beside(ratio);
-    if (!(std::norm(x) > 0.0) || !(std::norm(f) > kClear * kClear * beside(Complex(0.0))))
+    const double error = beside.error(along.force_left, along.position_left, ratio);
+    const double of_force = beside.error(along.force_left, along.position_left, Complex(0.0));
+    if (!(std::norm(x) > 0.0) || !(std::norm(f) > kClear * kClear * of_force))
       return failed(probed, "no oscillation of the force stands out of its noise: no contact?");
     const Eigen::VectorXcd bent = along.force - ratio * along.position_m;  // no spring's harmonics
     if (bent.tail(kHarmonics - 1).norm() > kLostContact * std::abs(f))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "palpation/base/error.h"
 #include "probing/probing_axis.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kDeepest_m = 0.2;    // approach and all
 constexpr double kFarAway_m = 2.0;    // tissue is at most that across
+constexpr double kSameForce = 1e-9;   // of itself: axes differ in their last digits
 constexpr double kOtherUnit = 300.0;  // times the usual depth, or a part of it: mm for m
 
 struct Scale {
@@ -110,17 +112,8 @@ class Reader {
 
   ProbedLog read() {
     std::vector<ContactFit> fits = fit_all(options_);
-    if (options_.approach == Approach::Find) {
-      const auto seen = std::count_if(fits.begin(), fits.end(),
-                                      [](const ContactFit& fit) { return fit.approach_seen; });
-      const auto fitted = std::count_if(fits.begin(), fits.end(), [](const ContactFit& fit) {
-        return fit.outcome == ContactOutcome::Fitted;
-      });
-      ContactOptions decided = options_;
-      decided.approach = 2 * seen > fitted ? Approach::Recorded : Approach::NotRecorded;
-      if (seen != fitted && (seen > 0 || decided.approach == Approach::Recorded))
-        fits = fit_all(decided);
-    }
+    if (leave_out_limit(fits)) fits = fit_all(options_);
+    if (options_.approach == Approach::Find) take_common_approach(fits);
     std::vector<double> values;
     for (const ContactFit& fit : fits)
       if (fit.outcome == ContactOutcome::Fitted) values.push_back(fit.value);
@@ -134,6 +127,43 @@ class Reader {
   }
 
  private:
+  /// Probings of one log are recorded alike: from the air, or in contact.
+  void take_common_approach(std::vector<ContactFit>& fits) const {
+    ContactOptions decided = options_;
+    decided.approach = Approach::Recorded;
+    if (log_.probing.empty()) {  // told apart by contact: each has its approach, if a short one
+      fits = fit_all(decided);
+      return;
+    }
+    const auto seen = std::ranges::count(fits, true, &ContactFit::approach_seen);
+    const auto fitted = std::ranges::count(fits, ContactOutcome::Fitted, &ContactFit::outcome);
+    if (2 * seen <= fitted) decided.approach = Approach::NotRecorded;
+    if (seen != fitted && (seen > 0 || decided.approach == Approach::Recorded))
+      fits = fit_all(decided);
+  }
+
+  /// A force at which two probings or more stay, and which none exceeds, is the sensor's limit:
+  /// others that come so far have samples there, too, if too few to be told in one probing.
+  bool leave_out_limit(const std::vector<ContactFit>& fits) {
+    std::vector<double> held;
+    for (const ContactFit& fit : fits)
+      if (std::isfinite(fit.held)) held.push_back(fit.held);
+    if (held.size() < 2) return false;
+    std::nth_element(held.begin(), held.begin() + 1, held.end(), std::greater<>());
+    const double limit = held[1];  // of the second, so that there are two
+    const double more = limit + kSameForce * std::abs(limit), less = 2.0 * limit - more;
+    const auto any = [&](const auto& is) {
+      return std::any_of(axial_.probings.begin(), axial_.probings.end(), [&](const auto& probing) {
+        return std::any_of(probing.indentation.force.begin(), probing.indentation.force.end(), is);
+      });
+    };
+    if (any([&](double force) { return force > more; })) return false;
+    for (AxialProbing& probing : axial_.probings)
+      for (double& force : probing.indentation.force)
+        if (force >= less) force = std::nan("");
+    return true;
+  }
+
   std::vector<ContactFit> fit_all(const ContactOptions& options) const {
     std::vector<ContactFit> fits;
     for (const AxialProbing& probing : axial_.probings)

@@ -150,6 +150,57 @@ TEST(FitContact, LeavesOutSpikesHolesAndSaturation) {
   EXPECT_NEAR(fit.value, 400.0, 3.0 * std::sqrt(fit.variance));
 }
 
+// As a press from the air meets the sensor's limit: no line through air and tissue tells that.
+TEST(FitContact, LeavesOutTheSensorsLimitFromTheAir) {
+  Random random(3);
+  Indentation made = pressed({.air_mm = 1.5, .deep_mm = 1.5, .noise_n = 0.002}, spring, random);
+  made.force = made.force.cwiseMin(0.35);  // reached .875 mm deep
+  const ContactFit fit = fit_contact(made);
+  EXPECT_EQ(fit.held, 0.35);
+  EXPECT_EQ(fit.left_out, 7);
+  EXPECT_NEAR(fit.value, 400.0, 3.0 * std::sqrt(fit.variance));
+}
+
+// A spike at the deepest sample draws the line to itself: its residual is no larger than others'.
+TEST(FitContact, LeavesOutASpikeAtAnEnd) {
+  for (const double air_mm : {0.0, 1.5}) {
+    for (const int from_end : {1, 2}) {
+      Random random(2);
+      Indentation made =
+          pressed({.air_mm = air_mm, .deep_mm = 1.5, .noise_n = 0.002}, spring, random);
+      made.force[made.force.size() - from_end] += 3.0;
+      const ContactFit fit = fit_contact(made);
+      EXPECT_EQ(fit.left_out, 1) << air_mm << from_end;
+      EXPECT_NEAR(fit.value, 400.0, 3.0 * std::sqrt(fit.variance));
+      EXPECT_LT(std::sqrt(fit.variance), 8.0);
+    }
+  }
+}
+
+// What no spike is stays: of 1,000 presses with Gaussian noise, short and long ones, from the air
+// or not, a robust standard deviation and the largest step err in four at most. Ten are 3 sd above.
+TEST(FitContact, LeavesNoSampleOfPlainNoiseOut) {
+  for (const double air_mm : {0.0, 1.0}) {
+    for (const double deep_mm : {1.0, 3.0}) {
+      int left_out = 0;
+      for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        Random random(seed);
+        left_out += fit_contact(pressed({.air_mm = air_mm, .deep_mm = deep_mm, .noise_n = 0.01},
+                                        spring, random))
+                        .left_out;
+      }
+      EXPECT_LE(left_out, 10) << air_mm << " mm of air, " << deep_mm << " mm deep";
+    }
+  }
+}
+
+// A force that bends, Hertz's, is no line; but its end is no spike.
+TEST(FitContact, TakesNoBendForASpike) {
+  Random random(4);
+  const Indentation made = pressed({.deep_mm = 3.0, .noise_n = 0.0005}, hertz, random);
+  EXPECT_EQ(fit_contact(made).left_out, 0);
+}
+
 TEST(FitContact, SaysWhyThereIsNone) {
   Random random(5);
   const auto nothing = [](double) { return 0.0; };

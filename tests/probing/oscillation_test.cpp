@@ -86,7 +86,7 @@ TEST(SlideReadings, StatesItsErrorHonestly) {
         ++all;
       }
     }
-    EXPECT_GE(double(inside) / all, 0.90);
+    EXPECT_GE(double(inside) / all, 0.93);  // of 600: one in a hundred is .009 from .957
     EXPECT_LE(double(inside) / all, 0.985);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "palpation/base/error.h"
@@ -52,6 +53,54 @@ TEST(ProbingReadings, FindsPressesByContact) {
   expect_presses(result, 5, 0.02);
   EXPECT_EQ(result.unit, "N/mm");
   EXPECT_EQ(result.probed[0].contact, "from the air");
+}
+
+// Three samples before contact tell no approach by themselves; what was found by contact has one.
+TEST(ProbingReadings, FindsPressesByContactFromLittleAir) {
+  RobotLog log = presses(5, 3, 0.002);
+  for (Eigen::Index i = 0; i < log.size(); ++i)
+    log.time_s[i] += 3.0 * double(i / 30);  // not logged
+  expect_presses(probing_readings(log), 5, 0.03);
+}
+
+// The way from one place to the next, 10 mm in one step, is no approach.
+TEST(ProbingReadings, BeginsAnApproachWhereTheProbeCameFrom) {
+  const ProbedLog result = probing_readings(presses(5, 8, 0.002));
+  expect_presses(result, 5, 0.03);
+  for (const Probed& probed : result.probed) EXPECT_EQ((probed.line - 2) % 40, 0) << probed.line;
+}
+
+// The sensor ends at .93 N, which the last two samples of the softer press reach: alone, they could
+// be anything; others that stay there say what they are.
+TEST(ProbingReadings, LearnsTheSensorsLimitFromAllPresses) {
+  RobotLog log = presses(4, 15, 0.002);
+  log.names = {"a", "b", "c", "d"};
+  for (Eigen::Index i = 0; i < log.size(); ++i) {
+    log.probing.push_back(static_cast<int>(i / 54));
+    const double force_n = log.force.row(i).dot(kOutward) * (i / 54 == 3 ? 1.0 : 2.0);
+    log.force.row(i) = std::min(force_n, 0.93) * kOutward;
+  }
+  const ProbedLog result = probing_readings(log);
+  EXPECT_NEAR(result.probed[0].reading, 1.0, 0.02);
+  EXPECT_NEAR(result.probed[3].reading, 0.5, 0.01);
+}
+
+// Two presses that stay at one force tell no limit where a third goes beyond it.
+TEST(ProbingReadings, TakesNoForceForALimitThatAnotherPressExceeds) {
+  RobotLog log = presses(4, 15, 0.002);
+  log.names = {"a", "b", "c", "d"};
+  for (Eigen::Index i = 0; i < log.size(); ++i) {
+    log.probing.push_back(static_cast<int>(i / 54));
+    const double force_n = log.force.row(i).dot(kOutward) * 2.0;
+    log.force.row(i) = (i / 54 < 2 ? std::min(force_n, 0.93) : force_n) * kOutward;
+  }
+  const ProbedLog result = probing_readings(log);
+  for (const Probed& probed : result.probed) EXPECT_NEAR(probed.reading, 1.0, 0.02);
+  const auto told = std::ranges::find_if(result.remarks, [](const std::string& remark) {
+    return remark.find("samples were left out") != std::string::npos;
+  });
+  ASSERT_NE(told, result.remarks.end());
+  EXPECT_EQ(*told, "14 samples were left out: not finite, far off their fit, or saturated.");
 }
 
 TEST(ProbingReadings, CountsEitherWay) {

@@ -17,10 +17,16 @@
 /// The variance is that of the fit: the residuals' own, s^2 (J'J)^-1 with J the derivative by all
 /// unknowns, d0 too, times n / (n - 2) for n degrees of freedom: the variance of Student's t, so
 /// that two standard deviations hold about 95 % whatever n. Fewer than three degrees say nothing:
-/// NaN. It knows nothing of a model that is wrong beyond what that adds to the residuals.
+/// NaN. It knows nothing of a model that is wrong beyond what that adds to the residuals, nor,
+/// where all samples are in contact, of a sensor that drifts during one press: that looks like
+/// stiffness.
 ///
-/// Samples whose force or depth is not finite are left out, as are single ones more than 6 robust
-/// standard deviations off the fit (a tenth at most), and a force that stays the same to the last
+/// Samples whose force or depth is not finite are left out, as are single ones (a tenth at most)
+/// that are spikes: more than 6 robust standard deviations off the fit, or, as one at an end draws
+/// the fit to itself, off what the others foretell by what is as rare as 5 standard deviations of a
+/// normal (a sample in two million: Student's t of a residual over the standard deviation without
+/// it). Also left out: one whose step from its neighbours is 4 times any other, for a fit that
+/// looks for the contact could take it for the tissue; and a force that stays the same to the last
 /// digit while the probe goes deeper and the fit leaves it (saturated, or the sensor hung).
 #pragma once
 
@@ -70,6 +76,7 @@ struct ContactFit {
   double residual_sd = std::numeric_limits<double>::quiet_NaN();
   int samples = 0;   ///< that the fit rests on, those in the air included
   int left_out = 0;  ///< not finite, spikes, saturated
+  double held = std::numeric_limits<double>::quiet_NaN();  ///< force of those saturated or stuck
 };
 
 /// Throws InvalidInput where the vectors differ in length or an option is out of its range.

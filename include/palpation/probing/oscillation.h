@@ -9,10 +9,11 @@
 ///
 /// Noise: with K = f / x, what is left of force less K times what is left of position, at the
 /// neighbouring frequencies m / window beside the oscillation: the spectral density there, of
-/// whatever colour the noise is, and of stiffness that changes within the window. Its mean over
-/// 4 M degrees of freedom (M neighbours to either side, as many as half the periods) gives the
-/// variance by Student's t, as in fit_contact. Windows that overlap share noise: their variances
-/// are larger by the overlap, so that all together are worth what the samples are.
+/// whatever colour the noise is, and of stiffness that changes within the window, with what the
+/// least squares take of it put back. Its mean over 4 M degrees of freedom (M neighbours to either
+/// side, as many as half the periods) gives the variance by Student's t, as in fit_contact. Windows
+/// that overlap share noise: their variances are larger by the overlap, so that all together are
+/// worth what the samples are.
 ///
 /// No reading comes of a window with a gap or too few samples, without an oscillation that stands
 /// out of the noise, with a force that is stuck, or with contact lost in part of the cycle (the
