@@ -86,6 +86,8 @@ class LineCutter {
   std::int64_t number_;
 };
 
+constexpr const char* kComment = "begins with #, but a table has no lines of comment: take it away";
+
 bool is_number(const std::string& word) {
   return parse_number(word).status != NumberStatus::NotANumber;
 }
@@ -94,6 +96,9 @@ void check_columns(const std::vector<std::string>& columns, const std::string& n
                    std::int64_t line) {
   if (columns.size() == 1) {
     const std::string_view header = columns.front();
+    if (header.starts_with('#'))
+      fail_at_line(name, line,
+                   kComment + std::string(": the line that names the columns is first"));
     for (const auto& [mark, word] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")}) {
       if (header.find(mark) != std::string_view::npos)
         fail_at_line(name, line,
@@ -106,18 +111,26 @@ void check_columns(const std::vector<std::string>& columns, const std::string& n
                  "the header line, which names the columns, is missing: this one holds numbers");
   std::vector<std::string> sorted = columns;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted.front().empty()) fail_at_line(name, line, "a column has no name");
+  if (sorted.front().empty())
+    fail_at_line(name, line,
+                 std::string("a column has no name") +
+                     (columns.back().empty() ? ": take the comma at the line's end away" : ""));
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end())
     fail_at_line(name, line, "column " + in_quotes(*twice) + " appears twice");
 }
 
 /// What is wrong with how many cells a row has; empty if nothing is.
-std::string row_fault(std::size_t cells, std::size_t columns) {
-  if (cells == columns) return {};
-  return std::to_string(cells) + (cells == 1 ? " cell" : " cells") + ", but the header names " +
-         std::to_string(columns) +
-         (cells > columns ? " columns (decimals take a point, not a comma)" : " columns");
+std::string row_fault(const std::vector<std::string>& cells, std::size_t columns) {
+  if (cells.size() == columns) return {};
+  if (cells.front().starts_with('#')) return kComment;
+  std::string hint;
+  if (cells.size() == columns + 1 && cells.back().empty())
+    hint = " (a comma at the line's end is one too many)";
+  else if (cells.size() > columns)
+    hint = " (decimals take a point, not a comma)";
+  return std::to_string(cells.size()) + (cells.size() == 1 ? " cell" : " cells") +
+         ", but the header names " + std::to_string(columns) + " columns" + hint;
 }
 
 /// Half a number is a number too: 806.0 that was cut to 8 would be believed.
@@ -183,7 +196,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name,
       table.header_line_ = number;
       continue;
     }
-    if (const std::string fault = row_fault(cells.size(), table.columns_.size()); !fault.empty()) {
+    if (const std::string fault = row_fault(cells, table.columns_.size()); !fault.empty()) {
       if (!torn_rows) fail_at_line(name, number, fault);
       torn_rows->push_back("line " + std::to_string(number) + ": " + fault);
       continue;

@@ -155,6 +155,13 @@ void check(const LogRules& rules) {
   }
 }
 
+/// What the first line may be instead of one that names the columns.
+std::string hint_at(const CsvTable& table) {
+  return table.columns().front().starts_with('#')
+             ? "; or is the line that begins with # a comment? Take it away"
+             : "";
+}
+
 }  // namespace
 
 std::map<std::string, LogColumn> log_columns(const CsvTable& table, const LogRules& rules) {
@@ -165,7 +172,7 @@ std::map<std::string, LogColumn> log_columns(const CsvTable& table, const LogRul
     std::string names;
     for (const std::string& column : table.columns()) names += (names.empty() ? "" : ", ") + column;
     fail_at_header(table, "no column for " + hint + " among " + in_quotes(names) +
-                              ": name it with --column " + role + "=NAME");
+                              ": name it with --column " + role + "=NAME" + hint_at(table));
   };
   need("x", "the position x");
   need("y", "the position y");

@@ -65,7 +65,9 @@ class Reader {
     }
     if (rows_.empty())
       throw IoError(table_.name() + ": no row is left that could be read" +
-                    (first_fault_.empty() ? "" : ": " + first_fault_));
+                    (!first_fault_.empty() ? ": " + first_fault_
+                     : !torn_rows.empty()  ? ": " + torn_rows.front()
+                                           : ""));
     LogFile file;
     fill(file.log);
     file.names_probings = has("probe");

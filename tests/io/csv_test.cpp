@@ -55,6 +55,10 @@ TEST(ParseCsv, RefusesWhatCouldBeMisread) {
   EXPECT_TRUE(contains(error_of("a,b"), "t.csv:1: the last line has no line end"));
   EXPECT_TRUE(contains(error_of("a,a\n"), "\"a\" appears twice"));
   EXPECT_TRUE(contains(error_of("a,,b\n"), "no name"));
+  EXPECT_TRUE(contains(error_of("a,b,\n1,2,\n"), "t.csv:1: a column has no name: take the comma"));
+  EXPECT_TRUE(contains(error_of("a,b\n1,2,\n"), "a comma at the line's end is one too many"));
+  EXPECT_TRUE(contains(error_of("# arm 7\na,b\n1,2\n"), "t.csv:1: begins with #"));
+  EXPECT_TRUE(contains(error_of("a,b\n1,2\n# a pause\n"), "t.csv:3: begins with #"));
   EXPECT_TRUE(contains(error_of("a\n\"open\n"), "t.csv:2: a quoted cell does not end"));
   EXPECT_TRUE(contains(error_of("a\nx\"y\n"), "a quote inside"));
   EXPECT_TRUE(contains(error_of(std::string("a\n1\0\n", 5)), "byte 3: a NUL"));
