@@ -32,7 +32,7 @@ struct MeshArguments {
   double jitter = 0.0;
   std::filesystem::path around;  ///< span this recording instead
   double margin_mm = 0.0;
-  double edge_mm = 0.5;  ///< with `around`, and of all phantoms but the plane
+  std::optional<double> edge_mm{};  ///< of a plane instead of `vertices`; else half a millimetre
   // Of the curved phantoms; what is left out is as in make_phantom.h.
   std::optional<double> radius_mm, reach_mm, amplitude_mm, wavelength_mm, gap_mm, flank_mm;
   std::uint64_t seed = 1;

@@ -24,12 +24,15 @@ namespace {
 }
 
 constexpr double kMostVertices = 16e6;
-constexpr int kVertices = 200;  // of a plane along each side, where they are not given
+constexpr double kRounding = 1e-9;  // of a count of cells: 0.3 / 0.1 is a little over 3
+constexpr int kVertices = 200;      // of a plane along each side, where they are not given
 
 Vec2 size_mm_of(const MeshArguments& arguments) {
   const std::vector<double>& given = arguments.size_mm;
   return given.empty() ? Vec2(25.0, 50.0) : Vec2(given[0], given[1]);
 }
+
+double edge_mm_of(const MeshArguments& arguments) { return arguments.edge_mm.value_or(0.5); }
 
 constexpr double kLeastCells = 4.0;  // across a shape, or it would not be that shape
 constexpr double kSteepest =
@@ -37,9 +40,18 @@ constexpr double kSteepest =
 
 void check_count(double vertices, const MeshArguments& arguments) {
   if (vertices > kMostVertices)
-    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " would take " +
+    refuse(arguments, "--edge-mm " + text_of(edge_mm_of(arguments)) + " would take " +
                           text_of(std::round(vertices * 1e-6)) +
                           " million vertices, but at most 16 million are made: take longer edges");
+}
+
+/// As few cells as are no longer than asked for, but for rounding.
+void take_cells(PlaneOptions& options, const MeshArguments& arguments) {
+  const Vec2 cells =
+      (options.size_m * 1000.0 / edge_mm_of(arguments) * (1.0 - kRounding)).array().ceil();
+  check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
+  options.columns = static_cast<int>(cells.x()) + 1;
+  options.rows = static_cast<int>(cells.y()) + 1;
 }
 
 TriangleMesh plane_of(const MeshArguments& arguments) {
@@ -48,16 +60,14 @@ TriangleMesh plane_of(const MeshArguments& arguments) {
     options.size_m = size_mm_of(arguments) / 1000.0;
     options.columns = arguments.vertices.empty() ? kVertices : arguments.vertices[0];
     options.rows = arguments.vertices.empty() ? kVertices : arguments.vertices[1];
+    if (arguments.edge_mm) take_cells(options, arguments);
   } else {
     const RecordedReadings recording = read_recording(arguments.around);
     const Vec2 margin = Vec2::Constant(arguments.margin_mm / 1000.0);
     options.corner_m = recording.positions.leftCols<2>().colwise().minCoeff().transpose() - margin;
     options.size_m = recording.positions.leftCols<2>().colwise().maxCoeff().transpose() + margin -
                      options.corner_m;
-    const Vec2 cells = (options.size_m * 1000.0 / arguments.edge_mm).array().ceil();
-    check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
-    options.columns = static_cast<int>(cells.x()) + 1;
-    options.rows = static_cast<int>(cells.y()) + 1;
+    take_cells(options, arguments);
   }
   Random random(arguments.seed);
   return make_plane(options, random);
@@ -149,11 +159,11 @@ void check_sizes(const MeshArguments& arguments) {
 TriangleMesh curved_of(const MeshArguments& arguments) {
   check_sizes(arguments);
   const Sheet sheet = sheet_of(arguments);
-  const double edge_m = arguments.edge_mm / 1000.0;
+  const double edge_m = edge_mm_of(arguments) / 1000.0;
   const Vec2 cells = sheet.size_m / edge_m;
   check_count((cells.x() + 1.0) * (cells.y() + 1.0), arguments);
   if (cells.minCoeff() < kLeastCells)
-    refuse(arguments, "--edge-mm " + text_of(arguments.edge_mm) + " is too long for what is " +
+    refuse(arguments, "--edge-mm " + text_of(edge_mm_of(arguments)) + " is too long for what is " +
                           text_of(sheet.size_m.minCoeff() * 1000.0) +
                           " mm wide: take at most a quarter of that");
   Random random(arguments.seed);

@@ -8,6 +8,25 @@
 #include "tool/surface_command.h"
 
 namespace palpation::tool {
+namespace {
+
+/// Of the curved phantoms.
+void add_shape_options(CLI::App& making, MeshArguments& mesh) {
+  const auto shape = [&](const char* name, std::optional<double>& length_mm, const char* meaning) {
+    making.add_option(name, length_mm, meaning)->check(number(1e-3, 1e6));
+  };
+  shape("--radius-mm", mesh.radius_mm,
+        "of a cylinder (15), a dome's sphere (25), or a saddle's curvature in its middle (25)");
+  shape("--reach-mm", mesh.reach_mm,
+        "of a dome, from its top to its border along the surface (20.5)");
+  shape("--amplitude-mm", mesh.amplitude_mm, "of a wave (2)");
+  shape("--wavelength-mm", mesh.wavelength_mm, "of a wave, along y (20)");
+  shape("--gap-mm", mesh.gap_mm, "between the flanks of a folded sheet (1.5)");
+  shape("--flank-mm", mesh.flank_mm,
+        "how long each of its flanks is (20); --size-mm's second number is how wide (25)");
+}
+
+}  // namespace
 
 void add_mesh_command(CLI::App& app) {
   const auto arguments = std::make_shared<MeshArguments>();
@@ -32,28 +51,19 @@ void add_mesh_command(CLI::App& app) {
   making
       ->add_option("--jitter", mesh.jitter, "move inner vertices by up to this fraction of a cell")
       ->check(number(0.0, 0.45));
-  making
-      ->add_option("--around", mesh.around,
-                   "a plane that spans this recording instead of --size-mm")
-      ->excludes(size, vertices);
+  CLI::Option* around = making
+                            ->add_option("--around", mesh.around,
+                                         "a plane that spans this recording instead of --size-mm")
+                            ->excludes(size, vertices);
   making->add_option("--margin-mm", mesh.margin_mm, "around the recording")
+      ->needs(around)
       ->check(number(0.0, 1e6));
   making
       ->add_option("--edge-mm", mesh.edge_mm,
-                   "length of the cells, unless a plane is given by --vertices")
+                   "length of the cells (0.5), of a plane instead of --vertices")
+      ->excludes(vertices)
       ->check(number(1e-3, 1e6));
-  const auto shape = [&](const char* name, std::optional<double>& length_mm, const char* meaning) {
-    making->add_option(name, length_mm, meaning)->check(number(1e-3, 1e6));
-  };
-  shape("--radius-mm", mesh.radius_mm,
-        "of a cylinder (15), a dome's sphere (25), or a saddle's curvature in its middle (25)");
-  shape("--reach-mm", mesh.reach_mm,
-        "of a dome, from its top to its border along the surface (20.5)");
-  shape("--amplitude-mm", mesh.amplitude_mm, "of a wave (2)");
-  shape("--wavelength-mm", mesh.wavelength_mm, "of a wave, along y (20)");
-  shape("--gap-mm", mesh.gap_mm, "between the flanks of a folded sheet (1.5)");
-  shape("--flank-mm", mesh.flank_mm,
-        "how long each of its flanks is (20); --size-mm's second number is how wide (25)");
+  add_shape_options(*making, mesh);
   making->add_option("--seed", mesh.seed, "of the jitter")->check(whole(0, kMostSeed));
   making->add_option("--unit", mesh.unit, "of the file: mm, cm or m")
       ->check(CLI::IsMember({"mm", "cm", "m"}));

@@ -334,6 +334,15 @@ class Tool(InFolder):
         self.assertIn("Flat", words)
         self.assertIn("12.500 cm2", words)
 
+    def test_a_plane_takes_the_length_of_its_cells(self):
+        plane = self.folder / "plane.ply"
+        made = self.done("mesh", "plane", "--size-mm", 20, 30, "--edge-mm", 0.1, plane)
+        self.assertIn("60501 vertices", made)  # 201 x 301: 20 / 0.1 is 200 cells, whatever its last bit
+        self.assertIn("364 vertices", self.done("mesh", "plane", "--edge-mm", 2, "--overwrite", plane))  # 25 x 50 mm: 13 by 25 cells, as 2 does not divide 25
+        self.assertIn("edge-mm", self.refused(2, "mesh", "plane", "--edge-mm", 2, "--vertices", 5, 5, self.folder / "x.ply"))
+        self.assertIn("--around", self.refused(2, "mesh", "plane", "--margin-mm", 2, self.folder / "x.ply"))
+        self.assertIn("--edge-mm 0.001", self.refused(2, "mesh", "plane", "--edge-mm", 0.001, self.folder / "x.ply"))
+
     def test_mesh_makes_curved_phantoms_too(self):
         for kind, area in (("cylinder", 12.5), ("dome", 12.48), ("saddle", 14.8), ("wave", 13.7), ("folded", 16.2)):
             made = self.folder / f"{kind}.ply"
