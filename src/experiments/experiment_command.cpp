@@ -100,7 +100,13 @@ std::vector<std::string> experiment_names() {
 
 void list_experiments(const ExperimentArguments& arguments) {
   if (!arguments.name.empty()) {
-    const Study study = experiment_called(arguments.name).study(arguments);
+    if (arguments.name == "merge")
+      throw WrongUsage(
+          "experiment merge: has no cells: --list those of the experiment whose shards they are");
+    const Experiment& experiment = experiment_called(arguments.name);
+    check(arguments, experiment);
+    const Study study = experiment.study(arguments);
+    refuse_no_cell(study.cells.size(), arguments);
     for (const Cell& cell : study.printed.empty() ? study.cells : study.printed)
       std::printf("%s\n", cell.name.c_str());
     return;

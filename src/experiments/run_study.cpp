@@ -4,6 +4,7 @@
 #include <mutex>
 #include <set>
 
+#include "experiments/in_cell.h"
 #include "experiments/row_files.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
@@ -40,8 +41,9 @@ class Notebook {
 
 std::vector<Row> rows_of(const Study& study, const RowKey& trial) {
   std::vector<Row> rows;
-  for (Figures& figures : study.run(trial.cell, trial.seed)) {
-    for (const auto& [name, text] : study.cells[trial.cell].labels.texts()) figures.set(name, text);
+  const Cell& cell = study.cells[trial.cell];
+  for (Figures& figures : in_cell(cell.name, [&] { return study.run(trial.cell, trial.seed); })) {
+    for (const auto& [name, text] : cell.labels.texts()) figures.set(name, text);
     for (const auto& [name, text] : figures.texts())
       require(std::ranges::find(study.columns, name) != study.columns.end(), "experiment", name,
               "is no column of it");
@@ -75,7 +77,8 @@ Manifest manifest_of(const Study& study, const ExperimentArguments& arguments) {
                     .first_seed = arguments.first_seed};
   for (std::size_t i = 0; i < study.cells.size(); ++i) {
     const Cell& cell = study.cells[i];
-    manifest.cells.push_back({cell.name, json_digest(cell.scene.complete()), study.mesh_digest(i),
+    manifest.cells.push_back({cell.name, json_digest(cell.scene.complete()),
+                              in_cell(cell.name, [&] { return study.mesh_digest(i); }),
                               cell.trials > 0 ? cell.trials : arguments.trials});
   }
   return manifest;

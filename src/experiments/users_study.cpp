@@ -3,9 +3,11 @@
 #include <cstdio>
 
 #include "experiments/experiment.h"
+#include "experiments/in_cell.h"
 #include "experiments/lazy_tissue.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
+#include "palpation/io/csv.h"
 #include "scene/digest.h"
 #include "scene/words.h"
 #include "scene/worlds.h"
@@ -76,8 +78,8 @@ std::vector<Cell> varied(const std::vector<Cell>& cells, const std::string& key,
   for (const Cell& cell : cells) {
     for (const auto& [text, value] : values) {
       Cell one = cell;
-      one.scene = cell.scene.with(key, value);
       one.name += (cell.name.empty() ? "" : ", ") + key + " " + text;
+      one.scene = in_cell(one.name, [&] { return cell.scene.with(key, value); });
       one.labels.set(key, text);
       all.push_back(std::move(one));
     }
@@ -101,6 +103,13 @@ std::vector<Cell> cells_of(const fs::path& path, const json& told, const Scene& 
   }
   if (cells.size() == 1 && cells.front().name.empty()) cells.front().name = "the scene";
   return cells;
+}
+
+/// Names are made of values: words with commas, lists, objects with quotes.
+std::string csv_cell(const std::string& text) {
+  std::string line = csv_line(std::vector{text});
+  line.pop_back();
+  return line;
 }
 
 /// All that a run tells against its phantom.
@@ -172,7 +181,7 @@ void report_users_study(const Results& results, const ReportFolder& folder) {
     const std::string& name = results.manifest.cells[i].name;
     std::printf("%22s%22s%22s%4d of %-3d  %s\n", in_words(error).c_str(),
                 in_words(expected).c_str(), in_words(dice).c_str(), found, count, name.c_str());
-    csv += "\"" + name + "\"," + std::to_string(count) + "," + csv_of(error) + "," +
+    csv += csv_cell(name) + "," + std::to_string(count) + "," + csv_of(error) + "," +
            text_of(expected.mean) + "," + text_of(dice.mean) + "," + std::to_string(found) + "," +
            text_of(interval.low) + "," + text_of(interval.high) + "\n";
   }

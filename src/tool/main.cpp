@@ -147,6 +147,14 @@ void add_info_command(CLI::App& app) {
 /// What stands behind an experiment's name: a scene, a study, or the folders of shards.
 using Inputs = std::vector<std::filesystem::path>;
 
+ExperimentArguments with_scene(ExperimentArguments asked, const Inputs& inputs) {
+  if (inputs.size() > 1)
+    throw WrongUsage("experiment " + asked.name + ": takes one scene, not " +
+                     std::to_string(inputs.size()));
+  if (!inputs.empty()) asked.scene = inputs.front();
+  return asked;
+}
+
 void experiment_or_merge(ExperimentArguments asked, const Inputs& inputs, Existing results) {
   if (asked.name.empty())
     throw WrongUsage("experiment: NAME is required: palpate experiment --list lists them");
@@ -155,11 +163,7 @@ void experiment_or_merge(ExperimentArguments asked, const Inputs& inputs, Existi
       throw WrongUsage("experiment merge: needs the folders that hold the shards");
     return merge_experiment(inputs, asked.out, results);
   }
-  if (inputs.size() > 1)
-    throw WrongUsage("experiment " + asked.name + ": takes one scene, not " +
-                     std::to_string(inputs.size()));
-  if (!inputs.empty()) asked.scene = inputs.front();
-  experiment(asked, results);
+  experiment(with_scene(std::move(asked), inputs), results);
 }
 
 void add_experiment_command(CLI::App& app) {
@@ -190,7 +194,7 @@ void add_experiment_command(CLI::App& app) {
   command
       ->add_option(
           "--only", arguments->only,
-          "for table1, table2 and curved: run only the cells with this text in their names")
+          "for table1, table2, curved and study: run only the cells with this text in their names")
       ->allow_extra_args(false);
   command->add_option("--world", arguments->material.world,
                       "for experiment coverage: worlds of the catalogue, a family, a kind, or all");
@@ -207,7 +211,7 @@ void add_experiment_command(CLI::App& app) {
   add_threads(*command, "trials run at once; the results do not depend on it");
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->callback([arguments, inputs, overwrite, list] {
-    if (list->count() > 0) return list_experiments(*arguments);
+    if (list->count() > 0) return list_experiments(with_scene(*arguments, *inputs));
     experiment_or_merge(*arguments, *inputs, *overwrite ? Existing::Replaced : Existing::Kept);
   });
 }

@@ -81,6 +81,7 @@ class Newcomer(InFolder):
         self.assertTrue({"coverage", "study", "merge"} <= set(names) and all(len(line.split()) > 2 for line in lines))
         cells = self.done("experiment", "table1", "--list").stdout.splitlines()
         self.assertEqual(cells, [cell["cell"] for cell in json.loads(self.done("experiment", "table1", "--print-scene").stdout)])
+        self.assertIn("shards", self.ends(2, "experiment", "merge", "--list"))
         refused = palpate("experiment")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("experiment --list", refused.stderr)

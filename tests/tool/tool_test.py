@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The tool as a person meets it: exit codes, messages, files. Usage: tool_test.py PALPATE PROJECT_ROOT [Tool.test_...] (Python 3, standard library only)."""
 
+import csv
 import json
 import math
 import os
@@ -197,12 +198,34 @@ class Tool(InFolder):
         self.write("meshed.json", json.dumps(scene))
         study = self.write("study.json", json.dumps({"scene": "meshed.json", "meshes": "meshes", "vary": {"plan.batch": [5, 10], "plan.batches": [1]}, "trials": 2}))
         self.done("experiment", "study", study, "--quiet", "--out", self.folder / "out")
+        cells = [f"surface.mesh {mesh}, plan.batch {batch}, plan.batches 1" for mesh in ("a.ply", "b.ply") for batch in (5, 10)]
+        self.assertEqual(self.done("experiment", "study", study, "--list").splitlines(), cells)
+        self.assertEqual(self.done("experiment", "study", study, "--list", "--only", "b.ply").splitlines(), cells[2:])
         _, *rows = (self.folder / "out" / "study.csv").read_text().splitlines()
-        self.assertEqual([row.split('"')[1] for row in rows], [f"surface.mesh {mesh}, plan.batch {batch}, plan.batches 1" for mesh in ("a.ply", "b.ply") for batch in (5, 10)])
+        self.assertEqual([row.split('"')[1] for row in rows], cells)
         self.assertTrue(all(row.split('"')[2].startswith(",2,") for row in rows))
         self.assertIn("no key of a study", self.refused(3, "experiment", "study", self.write("bad.json", '{"scene": "meshed.json", "varry": {}}')))
         self.assertIn("must be a list", self.refused(3, "experiment", "study", self.write("bad.json", '{"scene": "meshed.json", "vary": {"seed": 1}}')))
         self.assertIn("needs a study", self.refused(3, "experiment", "study"))
+
+    def test_a_study_names_the_cell_that_is_at_fault(self):
+        (self.folder / "meshes").mkdir()
+        self.done("mesh", "plane", "--vertices", 13, 25, self.folder / "meshes" / "a.ply")
+        (self.folder / "meshes" / "b.ply").write_text("ply\n")
+        self.write("meshed.json", json.dumps(dict(SCENE, surface={"mesh": "none.ply", "unit": "mm"})))
+        study = lambda vary, **more: self.write("study.json", json.dumps({"scene": "meshed.json", "vary": vary, "trials": 1, **more}))
+        self.assertIn("cell 'plan.batch 5, plan.batches -1': ", self.refused(3, "experiment", "study", study({"plan.batch": [5], "plan.batches": [1, -1]})))
+        words = self.refused(3, "experiment", "study", study({"plan.batch": [5]}, meshes="meshes"), "--quiet")
+        self.assertIn("cell 'surface.mesh b.ply, plan.batch 5': ", words)
+
+    def test_the_values_of_a_study_are_cells_of_its_table(self):
+        disks = [[{"shape": "disk", "centre_mm": [x, 25, 0], "radius_mm": 6}] for x in (10, 15)]
+        self.write("scene.json", json.dumps(SCENE))
+        study = self.write("study.json", json.dumps({"scene": "scene.json", "vary": {"probe.tumours": disks}, "trials": 1}))
+        self.done("experiment", "study", study, "--quiet", "--set", "plan.batches=1", "--out", self.folder / "out")
+        rows = list(csv.DictReader((self.folder / "out" / "study.csv").open()))
+        self.assertEqual([json.loads(row["cell"].removeprefix("probe.tumours ")) for row in rows], disks)
+        self.assertEqual([row["trials"] for row in rows], ["1", "1"])
 
     def test_shards_are_asked_for_in_words_that_make_sense(self):
         self.assertIn("--shard needs --out", self.refused(2, "experiment", "coverage", "--shard", "1/2"))
