@@ -97,6 +97,16 @@ class Readme(unittest.TestCase):
             for name in ("rehearsal/report.html", "found/report.html", "found/slicer/palpation.mrml", "tissue/report.html"):
                 self.assertTrue((clone / "out/tutorial" / name).exists(), name)
 
+    def test_the_simulated_robots_tumour_can_be_put_on_tissue_of_ones_own(self):
+        with tempfile.TemporaryDirectory() as holder:
+            stops = pathlib.Path(holder) / "waypoints.csv"
+            stops.write_text("index,x,y,z\n0,0.004,0.003,0\n1,-0.017,0.029,0.027\n")
+            for place, hard in (((), 0), (("-17", "29", "27"), 1)):
+                robot = [ROOT / "examples" / "simulated_robot", stops, "2", *place]
+                rows = [line.split(",") for line in subprocess.run(robot, capture_output=True, text=True, check=True).stdout.splitlines()]
+                self.assertEqual([[row[:3], row[4]] for row in rows], [[["0.004", "0.003", "0"], "2"], [["-0.017", "0.029", "0.027"], "2"]])
+                self.assertEqual([float(row[3]) > 8.0 for row in rows], [hard == 0, hard == 1])
+
     def test_its_install_commands_are_there_and_can_be_run(self):
         shown = [line.split("#")[0].strip() for line in indented(README)]
         self.assertEqual(shown, INSTALL_COMMANDS)
