@@ -20,6 +20,7 @@
 #include "draw/searched.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
+#include "results/run.h"
 
 namespace palpation::draw {
 namespace {
@@ -189,25 +190,31 @@ std::optional<Eigen::Matrix4d> from_tissue_in(const Json& summary) {
   return from_tissue;
 }
 
+std::string reading_unit_in(const Json& summary) {
+  const Json& unit = within(summary, {"options", "reading_unit"});
+  return unit.is_string() ? unit.get<std::string>() : std::string();
+}
+
 Summary read_summary(const fs::path& path) {
-  if (!fs::exists(path)) return {};
+  if (!fs::exists(path)) {
+    Summary summary;
+    summary.reading_unit = reading_unit_in(results::begun_in(path.parent_path()));
+    return summary;
+  }
   const Json json = Json::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) fail(path, "not a JSON object");
-  Summary summary{.band = band_in(json),
-                  .cut_risk = cut_risk_in(json),
-                  .truth_line = truth_line_in(json),
-                  .ruled_out = ruled_out_in(json),
-                  .level = number_in(json, "level"),
-                  .area_mm2 = number_in(json, "area_mm2"),
-                  .expected_error_mm2 = number_in(json, "expected_error_mm2"),
-                  .measurements = number_in(json, "measurements"),
-                  .noise_sd = number_within(json, {"learned", "noise_sd"}),
-                  .error = error_in(json),
-                  .reading_unit = "",
-                  .from_tissue = from_tissue_in(json)};
-  if (const Json& unit = within(json, {"options", "reading_unit"}); unit.is_string())
-    summary.reading_unit = unit.get<std::string>();
-  return summary;
+  return {.band = band_in(json),
+          .cut_risk = cut_risk_in(json),
+          .truth_line = truth_line_in(json),
+          .ruled_out = ruled_out_in(json),
+          .level = number_in(json, "level"),
+          .area_mm2 = number_in(json, "area_mm2"),
+          .expected_error_mm2 = number_in(json, "expected_error_mm2"),
+          .measurements = number_in(json, "measurements"),
+          .noise_sd = number_within(json, {"learned", "noise_sd"}),
+          .error = error_in(json),
+          .reading_unit = reading_unit_in(json),
+          .from_tissue = from_tissue_in(json)};
 }
 
 /// Waypoints are in the robot's frame.
@@ -278,7 +285,8 @@ std::optional<double> Outcome::level_along(const std::string& kind, const std::s
 }
 
 Outcome read_outcome(const fs::path& folder) {
-  Outcome outcome{.surface = read_surface(folder / "surface.vtp"),
+  const fs::path surface = results::tissue_in(folder).value_or(folder / "surface.vtp");
+  Outcome outcome{.surface = read_surface(surface),
                   .curves = read_curves(folder / "boundary.vtp"),
                   .touches = read_touches(readings_in(folder)),
                   .trace = read_trace(folder / "trace.csv"),

@@ -80,8 +80,9 @@ struct Outcome {
   std::optional<double> level_along(const std::string& kind, const std::string& field) const;
 };
 
-/// Reads surface.vtp, and boundary.vtp, measurements.csv, trace.csv and summary.json where they
-/// exist, and a plan's waypoints.csv. Throws IoError with path and reason.
+/// Reads surface.vtp, or the last step of a run that did not end, and boundary.vtp,
+/// measurements.csv, trace.csv and summary.json where they exist, and a plan's waypoints.csv.
+/// Throws IoError with path and reason.
 Outcome read_outcome(const std::filesystem::path& folder);
 
 }  // namespace palpation::draw

@@ -81,7 +81,7 @@ Vec3 place_at(const CsvTable& table, std::size_t row) {
 
 const json& Run::told(std::initializer_list<const char*> keys) const {
   static const json nothing;
-  const json* here = &summary;
+  const json* here = summary.is_null() ? &begun : &summary;
   for (const char* key : keys) {
     if (!here->is_object()) return nothing;
     const auto found = here->find(key);
@@ -113,6 +113,23 @@ Vec3 Run::in_mesh(const Vec3& p_R) const {
   return (from_tissue(*this).inverse() * p_R.homogeneous()).head<3>();
 }
 
+std::optional<fs::path> tissue_in(const fs::path& folder) {
+  const fs::path surface = folder / "surface.vtp";
+  if (fs::exists(surface)) return surface;
+  const std::vector<fs::path> steps = steps_in(folder);
+  return steps.empty() ? std::nullopt : std::optional(steps.back());
+}
+
+json begun_in(const fs::path& folder) {
+  const fs::path path = folder / "run.json";
+  if (!fs::is_regular_file(path)) return nullptr;
+  const json record = json::parse(read_file(path, kMostSummary_bytes), nullptr,
+                                  /*allow_exceptions=*/false);
+  if (!record.is_object() || record.value("program", json()) != "palpate") return nullptr;
+  json begun = record.value("begun", json());
+  return begun.is_object() ? begun : json();
+}
+
 fs::path touches_in(const fs::path& folder) {
   const fs::path used = folder / "readings_used.csv";
   return fs::exists(used) ? used : folder / "measurements.csv";
@@ -142,13 +159,14 @@ Run read_run(const fs::path& folder) {
   Run run;
   run.folder = folder;
   run.steps = steps_in(folder);
-  const fs::path surface = folder / "surface.vtp";
-  if (!fs::exists(surface) && run.steps.empty())
+  const std::optional<fs::path> tissue = tissue_in(folder);
+  if (!tissue)
     throw IoError(folder.string() +
                   ": holds no run of palpate, neither surface.vtp nor steps: give the folder that "
                   "--out named");
   run.summary = read_summary(folder / "summary.json");
-  run.tissue = read_tissue(fs::exists(surface) ? surface : run.steps.back());
+  if (run.summary.is_null()) run.begun = begun_in(folder);
+  run.tissue = read_tissue(*tissue);
   if (fs::exists(folder / "boundary.vtp")) run.curves = read_curves(folder / "boundary.vtp");
   run.knows_touches = fs::exists(touches_in(folder));
   run.touches = read_touches(touches_in(folder));

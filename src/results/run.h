@@ -56,9 +56,10 @@ struct Run {
   bool knows_touches = false;    ///< whether there is a table of them, if only an empty one
   std::vector<Vec3> next_stops;  ///< of a plan
   nlohmann::json summary;        ///< null of a run that did not end
+  nlohmann::json begun;          ///< of such a one: what was known of it when it began
   std::vector<std::filesystem::path> steps;
 
-  /// What lies under nested keys of the summary, or null.
+  /// What lies under nested keys of the summary, or of what was known before; or null.
   const nlohmann::json& told(std::initializer_list<const char*> keys) const;
   std::optional<double> number(std::initializer_list<const char*> keys) const;
   /// Empty where nobody says.
@@ -74,6 +75,10 @@ struct Run {
 /// neither surface nor step, or a file is malformed.
 Run read_run(const std::filesystem::path& folder);
 
+/// surface.vtp, or the last of the steps where that does not exist; nothing where there is neither.
+std::optional<std::filesystem::path> tissue_in(const std::filesystem::path& folder);
+/// What run.json says of a run that did not end, by the summary's keys; null where it says nothing.
+nlohmann::json begun_in(const std::filesystem::path& folder);
 /// Of a surface.vtp, or a step.
 Tissue read_tissue(const std::filesystem::path& path);
 std::vector<Curve> read_curves(const std::filesystem::path& path);

@@ -35,12 +35,13 @@ std::string document(const json& object) {
 
 /// The command, the scene's values, and which files were read beside it: their content may have
 /// grown since.
-RunRequest request_of(const Destination& destination, const Scene& scene) {
+RunRequest request_of(const Destination& destination, const Scene& scene, json begun) {
   std::string question = destination.command + "\n" + document(scene.complete());
   for (const fs::path& path : files_read())
     if (path.string() != scene.name()) question += fs::weakly_canonical(path).string() + "\n";
   return {.command = destination.command,
           .question = std::move(question),
+          .begun = std::move(begun),
           .overwrite = destination.overwrite,
           .measures = destination.command == "simulate" || destination.command == "replay"};
 }
@@ -52,6 +53,15 @@ json inputs_read() {
     inputs.push_back(
         {{"file", path.string()}, {"sha256", results::sha256_digits(read_file(path))}});
   return inputs;
+}
+
+/// Of a run that does not end there is no summary.
+json begun_of(const Scene& scene, const json& inputs, const std::vector<std::string>& warnings) {
+  return {{"scene", scene.name()},
+          {"seed", scene.seed()},
+          {"options", scene.complete()},
+          {"inputs", inputs},
+          {"warnings", warnings}};
 }
 
 NamedFields fields_of(const Episode& episode, const World* world) {
@@ -66,13 +76,15 @@ NamedFields fields_of(const Episode& episode, const World* world) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const Destination& destination, const Scene& scene, const Tissue& tissue)
-    : run_(destination.folder, request_of(destination, scene)),
+OutputFolder::OutputFolder(const Destination& destination, const Scene& scene, const Tissue& tissue,
+                           std::vector<std::string> warnings)
+    : inputs_(inputs_read()),
+      warnings_(std::move(warnings)),
+      run_(destination.folder, request_of(destination, scene, begun_of(scene, inputs_, warnings_))),
       scene_(scene),
       surface_(tissue.surface),
       frame_(tissue.frame),
-      command_(destination.command),
-      inputs_(inputs_read()) {}
+      command_(destination.command) {}
 
 void OutputFolder::write_step(const Episode& episode, const World* world) {
   std::string number = std::to_string(episode.exploration.batch() - 1);
@@ -83,6 +95,9 @@ void OutputFolder::write_step(const Episode& episode, const World* world) {
   });
   steps_.push_back("steps/" + name);
   run_.add_growing(kStepsListName, [&](const fs::path& path) { write_pvd(path, steps_); });
+  run_.add_growing(kMeasurementsName, [&](const fs::path& path) {
+    write_atomically(path, measurements_csv(surface_, episode.exploration.readings()));
+  });
 }
 
 void OutputFolder::write_boundary(const Episode& episode, const World* world) {

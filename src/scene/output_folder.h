@@ -24,12 +24,14 @@ struct Destination {
 class OutputFolder {
  public:
   /// Once all is read that the command was given: the run's question is made of that. Throws as
-  /// RunFolder does.
-  OutputFolder(const Destination& destination, const Scene& scene, const Tissue& tissue);
+  /// RunFolder does. Warnings are those of before the start.
+  OutputFolder(const Destination& destination, const Scene& scene, const Tissue& tissue,
+               std::vector<std::string> warnings = {});
 
   void warn(const std::string& words) { warnings_.push_back(words); }
 
-  /// steps/step_NNN.vtp for the state after a batch, and steps.pvd, which lists those so far.
+  /// steps/step_NNN.vtp for the state after a batch; steps.pvd, which lists those so far, and
+  /// measurements.csv.
   void write_step(const Episode& episode, const World* world);
 
   /// waypoints.csv and path.csv: the stops, and the places between them. Before write().
@@ -53,13 +55,13 @@ class OutputFolder {
   void write_boundary(const Episode& episode, const World* world);
   void write_report(const std::filesystem::path& folder) const;
 
+  nlohmann::json inputs_;
+  std::vector<std::string> warnings_;
   RunFolder run_;
   const Scene& scene_;
   Surface surface_;
   Frame frame_;
   std::string command_;
-  nlohmann::json inputs_;
-  std::vector<std::string> warnings_;
   std::vector<std::string> steps_;
 };
 

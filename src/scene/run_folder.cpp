@@ -30,6 +30,11 @@ bool is_in_steps(const std::string& name) { return name.starts_with("steps/"); }
 /// What lands before the run is whole.
 bool lands_early(const std::string& name) { return is_in_steps(name) || name == kStepsListName; }
 
+/// Of a run that ended, what was measured is kept until the next one is whole.
+bool did_not_end(const std::optional<RunRecord>& record) {
+  return record && record->state != "complete" && record->state != "landing";
+}
+
 /// Not through a link.
 std::optional<struct ::stat> status_of(const fs::path& path) {
   struct ::stat status {};
@@ -61,7 +66,10 @@ RunFolder::RunFolder(fs::path folder, RunRequest request)
     : folder_(made(std::move(folder))),
       request_(std::move(request)),
       lock_(folder_, request_.command),
-      record_{request_.command, fingerprint_of_text(request_.question), ""} {
+      record_{.command = request_.command,
+              .question = fingerprint_of_text(request_.question),
+              .state = "",
+              .begun = std::move(request_.begun)} {
   look_around();
   staging_.emplace(folder_);
   // The lock is not given back: what runs on must not write over these words.
@@ -109,7 +117,9 @@ void RunFolder::look_around() {
     throw IoError(folder_.string() + ": holds a run of palpate " + earlier->command + " (" +
                   earlier->state +
                   ") of another question: replace it by --overwrite, or give another folder");
-  alone_ = std::ranges::all_of(earlier_, [](const auto& file) { return lands_early(file.first); });
+  alone_ = std::ranges::all_of(earlier_, [&](const auto& file) {
+    return lands_early(file.first) || (file.first == kMeasurementsName && did_not_end(earlier));
+  });
 }
 
 /// What an earlier run wrote, and nobody changed.
@@ -191,9 +201,6 @@ void RunFolder::add_growing(const std::string& name, const Write& write) {
   stage(name, write);
   const std::unique_lock lock(guard_);
   refuse_what_is_not_ours(name);
-  // Whoever is killed before it is renamed leaves the one before.
-  if (const auto before = record_.files.find(name); before != record_.files.end())
-    record_.replaces[name] = before->second;
   enter(name);
   record(record_.state);
   move_in(name);
@@ -204,10 +211,13 @@ fs::path RunFolder::place_of(const std::string& name) const {
   return fs::exists(*staging_ / name) ? *staging_ / name : folder_ / name;
 }
 
+/// Whoever is killed before it is renamed leaves the one before.
 void RunFolder::enter(const std::string& name) {
   const std::optional<std::string> fingerprint = fingerprint_of_file(*staging_ / name);
   if (!fingerprint)
     throw WriteError((*staging_ / name).string() + ": cannot be read again: was it taken away?");
+  if (const auto before = record_.files.find(name); before != record_.files.end())
+    record_.replaces[name] = before->second;
   record_.files[name] = *fingerprint;
 }
 
@@ -267,6 +277,7 @@ void RunFolder::land() {
   record_.replaces.clear();
   if (earlier_.contains(kMeasurementsName) && !lands(kMeasurementsName))
     record_.files[kMeasurementsName] = earlier_[kMeasurementsName];
+  record_.begun = nullptr;
   record("complete");
 }
 

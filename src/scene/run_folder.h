@@ -2,16 +2,18 @@
 ///
 /// A run's files are written aside and land together by renaming, summary.json as the last; until
 /// then the files of an earlier run stay as they were. Only where there are none do steps land one
-/// by one, for who watches. run.json says all along whose the files are (run_record.h). Laws: (1) a
-/// file that was read in this process, that run.json does not list with these very bytes, or that
-/// is a link, is neither replaced nor removed; (2) where summary.json lies, all other files but
-/// measurements.csv are of its run; (3) one process writes at a time; (4) after a run that died,
-/// the next one leaves what it would have left without.
+/// by one, and what was measured with them, for who watches. run.json says all along whose the
+/// files are (run_record.h). Laws: (1) a file that was read in this process, that run.json does not
+/// list with these very bytes, or that is a link, is neither replaced nor removed; (2) where
+/// summary.json lies, all other files but measurements.csv are of its run; (3) one process writes
+/// at a time; (4) after a run that died, the next one leaves what it would have left without, and
+/// perhaps measurements.csv.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +29,7 @@ namespace palpation::tool {
 struct RunRequest {
   std::string command;
   std::string question;    ///< in any words: equal for the same run again
+  nlohmann::json begun{};  ///< for the record, until there is a summary
   bool overwrite = false;  ///< the run of another question
   /// Whether measurements.csv is of what is written, or left alone wherever it comes from.
   bool measures = false;

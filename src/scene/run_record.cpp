@@ -82,8 +82,12 @@ std::optional<RunRecord> read_run_record(const std::filesystem::path& folder) {
     return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
   };
   if (!object.is_object() || word("program") != kProgram) return std::nullopt;
-  return RunRecord{word("command"), word("question"), word("state"),
-                   fingerprints_in(object, "files"), fingerprints_in(object, "replaces")};
+  return RunRecord{word("command"),
+                   word("question"),
+                   word("state"),
+                   fingerprints_in(object, "files"),
+                   fingerprints_in(object, "replaces"),
+                   object.value("begun", json())};
 }
 
 std::string document(const RunRecord& record) {
@@ -92,6 +96,7 @@ std::string document(const RunRecord& record) {
                  {"question", record.question}, {"files", json::object()}};
   for (const auto& [name, fingerprint] : record.files) object["files"][name] = fingerprint;
   for (const auto& [name, fingerprint] : record.replaces) object["replaces"][name] = fingerprint;
+  if (!record.begun.is_null()) object["begun"] = record.begun;
   return object.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

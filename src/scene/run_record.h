@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,7 @@ struct RunRecord {
   std::string state;     ///< in progress, landing, complete, interrupted, failed
   Fingerprints files{};
   Fingerprints replaces{};  ///< of an earlier run, as long as they may still be there
+  nlohmann::json begun{};   ///< what the summary will say and was known before; null once it does
 
   bool owns(const std::string& name, const std::string& fingerprint) const;
 };

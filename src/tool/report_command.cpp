@@ -5,6 +5,7 @@
 
 #include "results/report.h"
 #include "scene/add_to_run.h"
+#include "scene/draw_program.h"
 #include "scene/run_files.h"
 #include "scene/run_record.h"
 #include "scene/single_file.h"
@@ -16,8 +17,13 @@ namespace fs = std::filesystem;
 void report_run(const ReportArguments& arguments) {
   const RunRecord record = read_run_record(arguments.run)
                                .value_or(RunRecord{.command = "", .question = "", .state = ""});
-  const std::string page = results::report_html(results::read_run(arguments.run),
-                                                {PALPATION_VERSION, record.command, record.state});
+  const results::Run run = results::read_run(arguments.run);
+  // It did not come so far.
+  const bool drew_none = run.summary.is_null() && !fs::exists(arguments.run / "picture.png");
+  if (const auto reason = drew_none ? run_draw({arguments.run.string()}) : std::nullopt)
+    std::fprintf(stderr, "palpate: no picture: %s\n", reason->c_str());
+  const std::string page =
+      results::report_html(run, {PALPATION_VERSION, record.command, record.state});
   const Existing existing = arguments.overwrite ? Existing::Replaced : Existing::Kept;
   const fs::path path = arguments.out.empty() ? arguments.run / kReportName : arguments.out;
   if (arguments.out.empty()) {

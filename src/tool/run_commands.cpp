@@ -57,10 +57,8 @@ std::unique_ptr<OutputFolder> output_of(const SceneArguments& arguments, const s
                                         const Scene& scene, const Tissue& tissue,
                                         const std::vector<std::string>& warnings) {
   if (arguments.out.empty()) return nullptr;
-  auto output = std::make_unique<OutputFolder>(
-      Destination{arguments.out, command, arguments.overwrite}, scene, tissue);
-  for (const std::string& warning : warnings) output->warn(warning);
-  return output;
+  return std::make_unique<OutputFolder>(Destination{arguments.out, command, arguments.overwrite},
+                                        scene, tissue, warnings);
 }
 
 /// What was found, and what is odd about it; that there is nothing is a finding.

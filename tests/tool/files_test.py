@@ -14,7 +14,7 @@ import signal
 import subprocess
 import time
 
-from support import main_without_pictures, PALPATE, PATIENCE_S, SMALL, WithSmallScene
+from support import main_without_pictures, PALPATE, PATIENCE_S, rows_of, SMALL, WithSmallScene
 
 LONG = ("--set", "surface.plane.vertices=[60,60]", "--set", "plan.batches=10000", "--set", "plan.acquisition=random")
 SIMULATED = {"run.json", "summary.json", "report.html", "timings.json", "trace.csv", "measurements.csv", "waypoints.csv", "path.csv", "boundary.wkt", "boundary.vtp",
@@ -306,6 +306,33 @@ class Files(WithSmallScene):
         self.ends(4, "simulate", self.scene, "--out", self.out, says=("thesis.txt", "is none of palpate's"))
         self.assertEqual((self.out / ".palpate-partial" / "thesis.txt").read_text(), MINE)
 
+    def test_what_was_measured_lands_with_each_step_and_is_replaced_by_the_next_run(self):
+        for _ in range(2):  # the second one over what the first one left: its steps land one by one as well
+            run = self.started("simulate", self.scene, "--out", self.out, "--overwrite", *LONG)
+            steps = len(list((self.out / "steps").iterdir()))
+            batches = {row["batch"] for row in rows_of(self.out / "measurements.csv")}
+            run.kill()
+            run.wait()
+            self.assertGreaterEqual(steps, 3)
+            self.assertGreaterEqual(len(batches), 2, batches)
+            record = json.loads((self.out / "run.json").read_text())
+            self.assertEqual(record["begun"]["scene"], str(self.scene))
+            self.assertEqual(record["begun"]["options"]["plan"]["batches"], 10000)
+        self.ends(0, "simulate", self.scene, "--out", self.out, "--overwrite")
+        self.assertEqual(names_in(self.out), SIMULATED)
+        self.assertNotIn("begun", json.loads((self.out / "run.json").read_text()))  # the summary says it
+
+    def test_what_a_run_that_ended_measured_is_kept_until_the_next_one_is_whole(self):
+        self.ends(0, "simulate", self.scene, "--out", self.out)
+        for path in list(self.out.iterdir()):
+            if path.name not in ("run.json", "measurements.csv"):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        felt = (self.out / "measurements.csv").read_bytes()
+        run = self.started("simulate", self.scene, "--out", self.out, "--overwrite", *LONG, until=".palpate-partial/steps/step_001.vtp")
+        run.kill()
+        run.wait()
+        self.assertEqual((self.out / "measurements.csv").read_bytes(), felt)
+
     def test_what_is_refused_or_fails_before_there_is_anything_leaves_an_empty_folder(self):
         self.ends(3, "simulate", self.scene, "--out", self.out, "--set", "plan.explore_mm=3", "--set", "plan.batch=500")
         self.assertEqual(names_in(self.out), set())
@@ -322,14 +349,16 @@ class Files(WithSmallScene):
             self.assertEqual(run.returncode, 130, words)
             self.assertIn(f"palpate: interrupted by {name}", words)
             self.assertEqual(state_of(self.out), "interrupted")
-            self.assertEqual({name for name in names_in(self.out) if "step" not in name}, {"run.json"})
+            self.assertEqual({name for name in names_in(self.out) if "step" not in name}, {"run.json", "measurements.csv"})
             for path in (self.out / "steps").iterdir():
                 self.assertRegex(path.name, r"^step_\d{3}\.vtp$")
             listed = re.findall(r'file="steps/(.*?)"', (self.out / "steps.pvd").read_text())
             there = sorted(path.name for path in (self.out / "steps").iterdir())
             self.assertIn(listed, (there, there[:-1]), "the list grows as the run goes")
-            self.ends(0, *self.plan(), "--overwrite")  # what an interrupted run left is replaced
-            self.assertEqual(names_in(self.out), PLANNED)
+            felt = (self.out / "measurements.csv").read_bytes()
+            self.ends(0, *self.plan(), "--overwrite")  # what an interrupted run left is replaced, but what was measured
+            self.assertEqual(names_in(self.out), PLANNED | {"measurements.csv"})
+            self.assertEqual((self.out / "measurements.csv").read_bytes(), felt)
             shutil.rmtree(self.out)
 
     def test_long_arithmetic_is_ended_too(self):

@@ -172,6 +172,31 @@ class Page(unittest.TestCase):
         for warning in summary["warnings"]:
             self.assertIn(warning, Text(page_of(Runs.found())).words)
 
+    def test_a_run_that_did_not_end_says_what_was_known_before_its_end(self):
+        run = Runs.interrupted()
+        page = Text(page_of(run))
+        felt = rows_of(run / "measurements.csv")
+        listed = [attributes for attributes in page.named("tr") if attributes.get("id", "").startswith("reading-")]
+        self.assertEqual([attributes["id"] for attributes in listed], [f"reading-{i + 1}" for i in range(len(felt))])
+        self.assertGreaterEqual(len({row["batch"] for row in felt}), len(list((run / "steps").iterdir())) - 1)
+        words = re.sub(r"\s+", " ", page.words)
+        self.assertIn("All of the tissue was searched", words)
+        self.assertIn("Palpation of long.json", words)
+        self.assertIn(f"scene{Runs.folder}/long.json seed1 made by", words)
+        self.assertIn('"batches": 10000', words)
+        digest = hashlib.sha256((Runs.folder / "long.json").read_bytes()).hexdigest()
+        self.assertIn(f"read: {Runs.folder}/long.json{digest} (SHA-256)", words)
+        if (PALPATE.parent / "palpate-draw").exists():
+            self.assertEqual([attributes["src"][:22] for attributes in page.named("img")], ["data:image/png;base64,"])
+            self.assertNotIn("has no pictures", words)
+
+    def test_a_picture_that_a_person_put_into_a_run_that_did_not_end_stays(self):
+        run = pathlib.Path(shutil.copytree(Runs.interrupted(), Runs.folder / "with picture"))
+        (run / "picture.png").write_bytes(b"a person's")
+        result = palpate("report", run, "--overwrite")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((run / "picture.png").read_bytes(), b"a person's")
+
     def test_it_says_whether_the_border_is_reached_and_what_was_not_searched(self):
         self.assertIn("its border is not reached", page_of(Runs.found()))
         self.assertIn("One of them reaches the border", page_of(Runs.two()))
