@@ -28,14 +28,14 @@ struct OutlineChain::Step {
 };
 
 OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior,
-                           OutlineNodes start, OutlineProfile profile, const Amendments& amendments)
+                           OutlineNodes start, OutlineProfile profile, const Cuts& cuts)
     : readings_(&readings),
       prior_(&prior),
       outline_(std::move(start)),
       pieces_(outline_),
       profile_(std::move(profile)),
       law_(law_of(profile_, prior)),
-      amendments_(amendments),
+      cuts_(cuts),
       felt_(readings.places.size()),
       moves_(outline_.place.size(), false) {
   for (std::size_t i = 0; i < felt_.size(); ++i) {
@@ -57,36 +57,23 @@ int OutlineChain::part_of(const Felt& felt) const {
 double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
   const double distance = std::sqrt(felt.nearest.square);
   double depth = felt.inside ? distance : -distance;
-  for (const Amendment& amendment : amendments_) {
-    if (amendment.is_present && !amendment.adds)
-      depth = std::min(depth, -amendment.depth_at(readings_->places[reading]));
+  for (const OutlineCut& cut : cuts_) {
+    if (cut.is_present) depth = std::min(depth, -cut.depth_at(readings_->places[reading]));
   }
   return depth;
 }
 
 double OutlineChain::likelihood_of(std::size_t reading, const Felt& felt,
                                    const ReadingLaw& law) const {
-  double rise = law.contrast[part_of(felt)] * share_at(law, depth_of(reading, felt));
-  for (const Amendment& amendment : amendments_) {
-    if (amendment.is_present && amendment.adds)
-      rise = std::max(rise, law.range * std::exp(amendment.log_contrast) *
-                                share_at(law, amendment.depth_at(readings_->places[reading])));
-  }
+  const double rise = law.contrast[part_of(felt)] * share_at(law, depth_of(reading, felt));
   return log_likelihood(law, readings_->reading[reading], readings_->variance[reading], rise);
 }
 
 std::vector<double> OutlineChain::deepest_readings() const {
-  const std::size_t parts = profile_.log_contrast.size();
-  std::vector<double> deepest(parts + kAmendments, 0.0);
+  std::vector<double> deepest(profile_.log_contrast.size(), 0.0);
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     double& of_part = deepest[part_of(felt_[i])];
     of_part = std::max(of_part, depth_of(i, felt_[i]));
-    for (std::size_t which = 0; which < kAmendments; ++which) {
-      const Amendment& amendment = amendments_[which];
-      double& of_this = deepest[parts + which];
-      if (amendment.is_present && amendment.adds)
-        of_this = std::max(of_this, amendment.depth_at(readings_->places[i]));
-    }
   }
   return deepest;
 }
@@ -94,8 +81,7 @@ std::vector<double> OutlineChain::deepest_readings() const {
 double OutlineChain::log_density() const {
   double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
   for (const Felt& felt : felt_) sum += felt.log_likelihood;
-  for (const Amendment& amendment : amendments_)
-    sum += amendment.is_present ? log_amendment_density(amendment) : 0.0;
+  for (const OutlineCut& cut : cuts_) sum += cut.is_present ? log_cut_density(cut) : 0.0;
   return sum;
 }
 
@@ -241,16 +227,15 @@ bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape,
 }
 
 /// Of the readings' part of the density; the rest has changed by `change`.
-bool OutlineChain::try_amendment(int which, const Amendment& amendment, double change,
-                                 Random& random) {
-  const Amendment before = std::exchange(amendments_[which], amendment);
+bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Random& random) {
+  const OutlineCut before = std::exchange(cuts_[which], cut);
   std::vector<double> likelihoods;
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     likelihoods.push_back(likelihood_of(i, felt_[i], law_));
     change += likelihoods.back() - felt_[i].log_likelihood;
   }
   if (!(std::log(random.uniform()) < change)) {
-    amendments_[which] = before;
+    cuts_[which] = before;
     return false;
   }
   for (std::size_t i = 0; i < likelihoods.size(); ++i) felt_[i].log_likelihood = likelihoods[i];
@@ -258,41 +243,39 @@ bool OutlineChain::try_amendment(int which, const Amendment& amendment, double c
 }
 
 /// Fresh ones come from their prior but for the anchor: the rest of the density cancels.
-bool OutlineChain::switch_amendment(int which, Random& random) {
+bool OutlineChain::switch_cut(int which, Random& random) {
   if (felt_.empty()) return false;
   const auto anchor_ratio = [&](std::size_t anchor) {
     const double share = anchors_[anchor] - (anchor > 0 ? anchors_[anchor - 1] : 0.0);
     return -std::log(static_cast<double>(felt_.size()) * share);
   };
-  const Amendment& now = amendments_[which];
-  if (now.is_present) return try_amendment(which, {}, -anchor_ratio(now.anchor), random);
+  const OutlineCut& now = cuts_[which];
+  if (now.is_present) return try_cut(which, {}, -anchor_ratio(now.anchor), random);
   const auto found = std::ranges::upper_bound(anchors_, random.uniform());
   const auto anchor = std::min<std::size_t>(found - anchors_.begin(), felt_.size() - 1);
-  return try_amendment(which,
-                       drawn_amendment(static_cast<int>(anchor), readings_->places[anchor], random),
-                       anchor_ratio(anchor), random);
+  return try_cut(which, drawn_cut(static_cast<int>(anchor), readings_->places[anchor], random),
+                 anchor_ratio(anchor), random);
 }
 
-bool OutlineChain::move_amendment(int which, const Amendment& amendment, Random& random) {
-  const double density = log_amendment_density(amendment);
+bool OutlineChain::move_cut(int which, const OutlineCut& cut, Random& random) {
+  const double density = log_cut_density(cut);
   return std::isfinite(density) &&
-         try_amendment(which, amendment, density - log_amendment_density(amendments_[which]),
-                       random);
+         try_cut(which, cut, density - log_cut_density(cuts_[which]), random);
 }
 
 void OutlineChain::anchor_anew(int which, Random& random) {
-  Amendment& amendment = amendments_[which];
-  const double radius = std::exp(amendment.log_radius);
-  const Vec2 middle = amendment.anchor_place + radius * amendment.offset;
+  OutlineCut& cut = cuts_[which];
+  const double radius = std::exp(cut.log_radius);
+  const Vec2 middle = cut.anchor_place + radius * cut.offset;
   std::vector<int> within;
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     if ((readings_->places[i] - middle).squaredNorm() <= radius * radius)
       within.push_back(static_cast<int>(i));
   }
   if (within.empty()) return;
-  amendment.anchor = within[random.below(static_cast<int>(within.size()))];
-  amendment.anchor_place = readings_->places[amendment.anchor];
-  amendment.offset = (middle - amendment.anchor_place) / radius;
+  cut.anchor = within[random.below(static_cast<int>(within.size()))];
+  cut.anchor_place = readings_->places[cut.anchor];
+  cut.offset = (middle - cut.anchor_place) / radius;
 }
 
 }  // namespace palpation

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "certainty/outline_amendment.h"
+#include "certainty/outline_cut.h"
 #include "certainty/outline_model.h"
 #include "certainty/outline_pieces.h"
 #include "palpation/base/random.h"
@@ -18,12 +18,12 @@ namespace palpation {
 
 class OutlineChain {
  public:
-  static constexpr int kAmendments = 2;
-  using Amendments = std::array<Amendment, kAmendments>;
+  static constexpr int kCuts = 2;
+  using Cuts = std::array<OutlineCut, kCuts>;
 
   /// The readings and the prior must outlive it. The start's lines must not cross.
   OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
-               OutlineProfile profile, const Amendments& amendments = {});
+               OutlineProfile profile, const Cuts& cuts = {});
 
   /// Proposes that consecutive nodes of a loop, from `first` on, move to these places; at most all
   /// of them. `log_volume`: of the proposal's Jacobian. Never lets lines cross. Returns whether it
@@ -34,18 +34,18 @@ class OutlineChain {
   /// else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
 
-  /// Proposes that an amendment which is present is not, or that a fresh one is.
-  bool switch_amendment(int which, Random& random);
-  /// Proposes that a present amendment has another form, as likely as back; its anchor may differ.
-  bool move_amendment(int which, const Amendment& amendment, Random& random);
+  /// Proposes that a cut which is present is not, or that a fresh one is.
+  bool switch_cut(int which, Random& random);
+  /// Proposes that a present cut has another form, as likely as back; its anchor may differ.
+  bool move_cut(int which, const OutlineCut& cut, Random& random);
   /// Makes any of the readings within its radius of its middle its anchor.
   void anchor_anew(int which, Random& random);
 
   const OutlineNodes& outline() const { return outline_; }
-  const Amendments& amendments() const { return amendments_; }
+  const Cuts& cuts() const { return cuts_; }
   const OutlineProfile& profile() const { return profile_; }
   const ReadingLaw& law() const { return law_; }
-  /// Of each part, then of each amendment, the depth of its deepest reading; 0 where none is
+  /// Of each part, the depth of its deepest reading; 0 where none is
   /// inside.
   std::vector<double> deepest_readings() const;
   /// Of the posterior, without what depends on nothing that moves; as it was added up step by step.
@@ -61,10 +61,10 @@ class OutlineChain {
   struct Step;
 
   int part_of(const Felt& felt) const;
-  /// Of a reading in the loops, less what amendments take.
+  /// Of a reading in the loops, less what cuts take.
   double depth_of(std::size_t reading, const Felt& felt) const;
   double likelihood_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
-  bool try_amendment(int which, const Amendment& amendment, double change, Random& random);
+  bool try_cut(int which, const OutlineCut& cut, double change, Random& random);
   Step step_from(int first, int moved) const;
   double shape_about(const Step& step) const;
   bool feel(Step& step, Random& random);
@@ -78,9 +78,8 @@ class OutlineChain {
   OutlinePieces pieces_;  // of the outline
   OutlineProfile profile_;
   ReadingLaw law_;  // of the profile
-  Amendments amendments_;
-  std::vector<double>
-      anchors_;  // how often fresh amendments have these or earlier ones, rising to 1
+  Cuts cuts_;
+  std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
   std::vector<Felt> felt_;
   std::vector<bool> moves_;                          // of each piece, in the step at hand
   std::vector<std::pair<std::size_t, Felt>> fresh_;  // of the step at hand

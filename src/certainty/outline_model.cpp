@@ -8,11 +8,12 @@
 namespace palpation {
 namespace {
 
-constexpr double kWild = 0.01;         ///< part of the readings that tell nothing
-constexpr double kWildReach = 12.0;    ///< of these, in plateau_sd: three times the range
-constexpr double kTurnLogSd = 1.0;     ///< of the turns' half width
-constexpr double kPieceLogSd = 0.25;   ///< of pieces in a loop
-constexpr double kSpacingLogSd = 0.3;  ///< of a loop's pieces
+constexpr double kWild = 0.01;          ///< part of the readings that tell nothing
+constexpr double kWildReach = 12.0;     ///< of these, in plateau_sd: three times the range
+constexpr double kTurnLogSd = 1.0;      ///< of the turns' half width
+constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
+constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
+constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 
 double half_square(double z) { return 0.5 * z * z; }
 
@@ -20,14 +21,13 @@ double half_square(double z) { return 0.5 * z * z; }
 
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
   ReadingLaw law{.low = profile.low,
-                 .range = profile.high - profile.low,
                  .slope_per_m = std::exp(profile.log_slope),
                  .logit_fraction = std::log(prior.fraction / (1.0 - prior.fraction)),
                  .contrast = {},
                  .noise_square = std::exp(2.0 * profile.log_noise),
                  .wild_density = kWild / (kWildReach * prior.plateau_sd)};
   for (const double log_contrast : profile.log_contrast)
-    law.contrast.push_back(law.range * std::exp(log_contrast));
+    law.contrast.push_back((profile.high - profile.low) * std::exp(log_contrast));
   return law;
 }
 

@@ -9,8 +9,7 @@
 ///     low + contrast (high - low) / (1 + exp(-(slope depth + logit fraction))) + noise
 ///
 /// (equation 4 of Garg et al. 2016, zero where the boundary is), the noise normal but for a reading
-/// in a hundred, which tells nothing. What amendments add (outline_amendment.h) reads as a part of
-/// its own, and a place reads as the highest of what it lies in.
+/// in a hundred, which tells nothing. Cuts take from the inside (outline_cut.h).
 #pragma once
 
 #include <vector>
@@ -46,12 +45,9 @@ struct OutlinePrior {
   double fraction = 0.5;  ///< of the way from low to high, where the boundary is
 };
 
-inline constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
-
 /// How readings come from depths, by a profile.
 struct ReadingLaw {
-  double low, range;
-  double slope_per_m, logit_fraction;
+  double low, slope_per_m, logit_fraction;
   std::vector<double> contrast;  ///< of each part
   double noise_square;           ///< what variances are multiplied by
   double wild_density;           ///< of a reading that tells nothing, times how many there are

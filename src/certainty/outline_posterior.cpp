@@ -77,14 +77,8 @@ double depth_of(const OutlineDraw& draw, const OutlinePieces& pieces, const Vec2
   const OutlineNodes& outline = draw.outline;
   const auto [square, piece] = pieces.nearest(place);
   double depth = pieces.encloses(place) ? std::sqrt(square) : -std::sqrt(square);
-  for (const Amendment& amendment : draw.amendments) {
-    if (!amendment.adds) depth = std::min(depth, -amendment.depth_at(place));
-  }
-  depth += draw.wider_m[outline.loops[outline.loop_of[piece]].part];
-  for (const Amendment& amendment : draw.amendments) {
-    if (amendment.adds) depth = std::max(depth, amendment.depth_at(place) + amendment.wider_m);
-  }
-  return depth;
+  for (const OutlineCut& cut : draw.cuts) depth = std::min(depth, -cut.depth_at(place));
+  return depth + draw.wider_m[outline.loops[outline.loop_of[piece]].part];
 }
 
 /// The draws' depths: rows are draws, columns vertices.

@@ -18,7 +18,7 @@ constexpr double kOfNodes = 0.3, kOfNumbers = 0.4;
 constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
 constexpr int kProfileRounds = 2;
-constexpr int kSwitches = 3;  ///< of each amendment, a sweep
+constexpr int kSwitches = 3;  ///< of each cut, a sweep
 
 double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform(); }
 
@@ -40,7 +40,7 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   lengths_.of_contrasts.assign(chain_.profile().log_contrast.size(), 0.1);
   const double plateau = 0.2 * prior.plateau_sd;
   lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1};
-  lengths_.of_amendments = {0.3, 0.2, 0.001, 0.5, 0.2};
+  lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
 }
 
 void OutlineWalk::settle(int sweeps) {
@@ -62,7 +62,7 @@ std::vector<OutlineDraw> OutlineWalk::draws(int sweeps, int count) {
 
 OutlineDraw OutlineWalk::drawn() {
   OutlineDraw draw{
-      .outline = chain_.outline(), .profile = chain_.profile(), .wider_m = {}, .amendments = {}};
+      .outline = chain_.outline(), .profile = chain_.profile(), .wider_m = {}, .cuts = {}};
   const ReadingLaw& law = chain_.law();
   const bool has_plateau = random_.below(2) == 0;
   const double fraction = sigmoid(law.logit_fraction),
@@ -72,13 +72,9 @@ OutlineDraw OutlineWalk::drawn() {
     draw.wider_m.push_back((law.logit_fraction - std::log(level / (1.0 - level))) /
                            law.slope_per_m);
   }
-  const std::size_t parts = draw.profile.log_contrast.size();
-  for (std::size_t i = 0; i < OutlineChain::kAmendments; ++i) {
-    if (!chain_.amendments()[i].is_present) continue;
-    draw.amendments.push_back(chain_.amendments()[i]);
-    draw.amendments.back().wider_m = draw.wider_m[parts + i];
+  for (const OutlineCut& cut : chain_.cuts()) {
+    if (cut.is_present) draw.cuts.push_back(cut);
   }
-  draw.wider_m.resize(parts);
   return draw;
 }
 
@@ -99,7 +95,7 @@ void OutlineWalk::sweep() {
     for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
   }
   for (int round = 0; round < kProfileRounds; ++round) move_profile();
-  move_amendments();
+  move_cuts();
 }
 
 /// All in one direction, the middle the farthest: as likely there as back.
@@ -175,19 +171,18 @@ void OutlineWalk::move_profile() {
   }
 }
 
-void OutlineWalk::move_amendments() {
-  for (int which = 0; which < OutlineChain::kAmendments; ++which) {
-    for (int i = 0; i < kSwitches; ++i) chain_.switch_amendment(which, random_);
-    for (int i = 0; i < kOfAmendment && chain_.amendments()[which].is_present; ++i) {
-      Amendment next = chain_.amendments()[which];
-      double& length = lengths_.of_amendments[i];
+void OutlineWalk::move_cuts() {
+  for (int which = 0; which < OutlineChain::kCuts; ++which) {
+    for (int i = 0; i < kSwitches; ++i) chain_.switch_cut(which, random_);
+    for (int i = 0; i < kOfCut && chain_.cuts()[which].is_present; ++i) {
+      OutlineCut next = chain_.cuts()[which];
+      double& length = lengths_.of_cuts[i];
       const double step = length * random_.normal();
       if (i == 0) next.offset += step * direction_of(random_);
       if (i == 1) next.log_radius += step;
       if (i == 2) next.half_length_m += step;
       if (i == 3) next.angle += step;
-      if (i == 4) next.log_contrast += step;
-      tune(length, chain_.move_amendment(which, next, random_), kOfNumbers, 10.0);
+      tune(length, chain_.move_cut(which, next, random_), kOfNumbers, 10.0);
       chain_.anchor_anew(which, random_);
     }
   }

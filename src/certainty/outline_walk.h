@@ -1,7 +1,7 @@
 /// One chain through the outlines' posterior: what is proposed, and how far.
 ///
 /// A sweep tries each node, stretches of nodes of several widths, and each loop as a whole (moved,
-/// grown, turned, bent), the profile, and amendments. Steps find their own lengths while the walk
+/// grown, turned, bent), the profile, and cuts. Steps find their own lengths while the walk
 /// settles, and keep them from then on, so that what is kept is of the posterior.
 #pragma once
 
@@ -20,7 +20,7 @@ struct OutlineDraw {
   /// is as high as its readings, or higher up to that plateau, which they do not tell, and its
   /// boundary at the fraction of that height.
   std::vector<double> wider_m;
-  std::vector<Amendment> amendments;  ///< that are present
+  std::vector<OutlineCut> cuts;  ///< that are present
 };
 
 class OutlineWalk {
@@ -37,13 +37,13 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 5, kOfAmendment = 5;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 5, kOfCut = 4;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres
     std::vector<double> of_contrasts;
     std::array<double, kOfProfile> of_profile;
-    std::array<double, kOfAmendment> of_amendments;
+    std::array<double, kOfCut> of_cuts;
   };
 
   void sweep();
@@ -51,7 +51,7 @@ class OutlineWalk {
   void move_stretch(int middle, int width);
   void move_loop(int loop, int kind);
   void move_profile();
-  void move_amendments();
+  void move_cuts();
   void tune(double& length, bool taken, double share, double most) const;
 
   OutlineChain chain_;

@@ -84,7 +84,7 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
   const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile(),
-                           chain.chain().amendments());
+                           chain.chain().cuts());
   // Some 20,000 steps were taken: each adds and removes the same numbers.
   EXPECT_NEAR(chain.chain().log_density(), fresh.log_density(), 1e-9);
 }
@@ -173,8 +173,8 @@ TEST(OutlineWalk, WithoutReadingsTheSlopeIsDrawnFromItsPrior) {
   EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0, 0.12);
 }
 
-// Readings that tell nothing: amendments come and go as their prior has them, by whatever steps.
-TEST(OutlineWalk, AmendmentsAreDrawnFromTheirPriorWhereReadingsTellNothing) {
+// Readings that tell nothing: cuts come and go as their prior has them, by whatever steps.
+TEST(OutlineWalk, CutsAreDrawnFromTheirPriorWhereReadingsTellNothing) {
   Random random(12);
   const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
   OutlineReadings readings = felt_around(outline, 40, random);
@@ -183,22 +183,20 @@ TEST(OutlineWalk, AmendmentsAreDrawnFromTheirPriorWhereReadingsTellNothing) {
   prior.noise_log_sd = 0.01;  // else all that noise is doubted
   OutlineWalk walk(readings, prior, outline, prior.median, 13);
   walk.settle(200);
-  double present = 0.0, adding = 0.0, log_radius = 0.0, square = 0.0, length_m = 0.0;
+  double present = 0.0, log_radius = 0.0, square = 0.0, length_m = 0.0;
   constexpr int kDraws = 3000;
   for (const OutlineDraw& draw : walk.draws(kDraws, kDraws)) {
-    for (const Amendment& amendment : draw.amendments) {
-      const double z = (amendment.log_radius - std::log(0.0035)) / 0.4;
+    for (const OutlineCut& cut : draw.cuts) {
+      const double z = (cut.log_radius - std::log(0.0035)) / 0.4;
       present += 1.0;
-      adding += amendment.adds ? 1.0 : 0.0;
       log_radius += z;
       square += z * z;
-      length_m += amendment.half_length_m;
-      EXPECT_LE(amendment.offset.norm(), 1.0);
+      length_m += cut.half_length_m;
+      EXPECT_LE(cut.offset.norm(), 1.0);
     }
   }
-  // Nine thousand switches for two amendments: a standard error of .01.
+  // Nine thousand switches for two cuts: a standard error of .01.
   EXPECT_NEAR(present / (2 * kDraws), 0.5, 0.05);
-  EXPECT_NEAR(adding / present, 0.5, 0.06);
   EXPECT_NEAR(log_radius / present, 0.0, 0.12);
   EXPECT_NEAR(std::sqrt(square / present), 1.0, 0.08);
   EXPECT_NEAR(length_m / present, 0.002, 0.0002);
@@ -222,8 +220,8 @@ TEST(OutlineWalk, FindsAHoleThatItsStartDoesNotKnow) {
   walk.settle(300);
   int with_hole = 0;
   for (const OutlineDraw& draw : walk.draws(300, 100)) {
-    with_hole += std::ranges::any_of(draw.amendments, [](const Amendment& amendment) {
-      return !amendment.adds && amendment.depth_at(kMm * Vec2(8, 8)) > 1.5 * kMm;
+    with_hole += std::ranges::any_of(draw.cuts, [](const OutlineCut& cut) {
+      return cut.depth_at(kMm * Vec2(8, 8)) > 1.5 * kMm;
     });
   }
   EXPECT_GE(with_hole, 95);

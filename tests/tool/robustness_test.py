@@ -167,6 +167,9 @@ class Robustness(WithSmallScene):
                 if path.name == "steps.pvd":  # as far as the run came
                     listed = re.findall(r'file="(.*?)"', path.read_text())
                     self.assertTrue(listed and all((out / step).exists() for step in listed), listed)
+                elif path.name == "measurements.csv":  # as far as the run came, in whole lines
+                    measured, all_of_it = path.read_text(), (good / path.name).read_text()
+                    self.assertTrue(measured.endswith("\n") and all_of_it.startswith(measured), measured)
                 elif path.is_file() and path.name != "run.json":
                     self.assertEqual(path.read_bytes(), (good / path.relative_to(out)).read_bytes(), path)
 
