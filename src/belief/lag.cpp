@@ -18,10 +18,7 @@ constexpr double kGridStep_m =
     0.00025;  // a field's likelihood has one peak within a fraction of its length
 constexpr double kPrecision_m = 1e-5;
 constexpr double kOneLine = 0.95;  // cosine: within 18 degrees
-/// What the curvature says, times this: an edge is no stationary field. Over phantoms lags
-/// scatter 2.0 to 2.8 times as far as it says where touches are made anywhere, and 2.2 to 2.4 times
-/// where they are chosen (24 seeds).
-constexpr double kScatter = 2.5;
+constexpr int kBlocks = 10;
 constexpr double kEdgeStep_m = 0.001;
 constexpr double kEdgeShare = 0.5;
 constexpr double kEdgeNoise = 0.1;  // of the signal: so that drift is no edge
@@ -130,6 +127,64 @@ double peak_between(double least, double most, const Function& function) {
   return 0.5 * (least + most);
 }
 
+/// A lag's log posterior, but for a constant.
+class LagPosterior {
+ public:
+  LagPosterior(const Prior& field, const Hyperparameters& at, const LagPrior& prior)
+      : field_(field), at_(at), prior_(prior) {}
+
+  double operator()(const std::vector<Palpation>& readings, double lag_m) const {
+    const double z = (lag_m - prior_.mean_m) / prior_.sd_m;
+    const std::vector<Palpation> moved = displaced(field_.surface(), readings, lag_m);
+    try {
+      return log_likelihood(field_, gather_sites(field_, moved), at_) - 0.5 * z * z;
+    } catch (const NumericalError&) {
+      return -std::numeric_limits<double>::infinity();  // this lag brings places together that the
+                                                        // noise does not part
+    }
+  }
+
+ private:
+  const Prior& field_;
+  const Hyperparameters& at_;
+  const LagPrior& prior_;
+};
+
+/// The parabola through the posterior around a lag: where its peak is, from there, and its standard
+/// deviation. Nothing where it has none.
+struct Peak {
+  double off_m, stddev_m;
+};
+std::optional<Peak> peak_around(const LagPosterior& posterior,
+                                const std::vector<Palpation>& readings, double lag_m) {
+  const double step = 0.5 * kGridStep_m;
+  const double before = posterior(readings, lag_m - step), here = posterior(readings, lag_m),
+               after = posterior(readings, lag_m + step), fall = 2.0 * here - before - after;
+  if (!(fall > 0.0) || !std::isfinite(fall)) return std::nullopt;
+  return Peak{0.5 * step * (after - before) / fall, step / std::sqrt(fall)};
+}
+
+/// What the lag scatters by, as the readings themselves tell: it is found again without each tenth
+/// of them in turn (the jackknife for a stationary series, Kuensch 1989, here of blocks that do not
+/// overlap; so few give the variance of Student's t). An edge is no stationary field, and the
+/// curvature does not know that.
+std::optional<double> scatter_m(const LagPosterior& posterior,
+                                const std::vector<Palpation>& readings, double lag_m) {
+  const auto count = static_cast<std::ptrdiff_t>(readings.size());
+  double sum = 0.0, squares = 0.0;
+  for (std::ptrdiff_t block = 0; block < kBlocks; ++block) {
+    std::vector<Palpation> rest(readings.begin(), readings.begin() + block * count / kBlocks);
+    rest.insert(rest.end(), readings.begin() + (block + 1) * count / kBlocks, readings.end());
+    const std::optional<Peak> peak = peak_around(posterior, rest, lag_m);
+    if (!peak) return std::nullopt;
+    sum += peak->off_m;
+    squares += peak->off_m * peak->off_m;
+  }
+  constexpr double kFreedom = kBlocks - 1.0;
+  const double variance = kFreedom / kBlocks * (squares - sum * sum / kBlocks);
+  return std::sqrt(std::max(variance, 0.0) * kFreedom / (kFreedom - 2.0));
+}
+
 }  // namespace
 
 std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpation> palpations,
@@ -157,22 +212,13 @@ std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palp
   // A base that drifts along a raster's rows looks like a lag, but for the edges; touches from
   // everywhere average it out.
   if (run_along_a_line(readings)) readings = at_edges(prior, readings, at);
-  const auto log_posterior = [&](double lag_m) {
-    const double z = (lag_m - lag_prior.mean_m) / lag_prior.sd_m;
-    try {
-      return log_likelihood(prior, gather_sites(prior, displaced(surface, readings, lag_m)), at) -
-             0.5 * z * z;
-    } catch (const NumericalError&) {
-      return -std::numeric_limits<double>::infinity();  // this lag brings places together that the
-                                                        // noise does not part
-    }
-  };
+  const LagPosterior posterior(prior, at, lag_prior);
   double best = lag_prior.mean_m, best_value = -std::numeric_limits<double>::infinity();
   const int steps =
       static_cast<int>(std::lround((lag_prior.most_m - lag_prior.least_m) / kGridStep_m));
   for (int i = 0; i <= steps; ++i) {
     const double lag_m = lag_prior.least_m + i * kGridStep_m;
-    const double value = log_posterior(lag_m);
+    const double value = posterior(readings, lag_m);
     if (value > best_value) {
       best = lag_m;
       best_value = value;
@@ -180,14 +226,14 @@ std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palp
   }
   const double least = std::max(lag_prior.least_m, best - kGridStep_m),
                most = std::min(lag_prior.most_m, best + kGridStep_m);
-  Lag lag{.value_m = peak_between(least, most, log_posterior), .stddev_m = lag_prior.sd_m};
+  Lag lag{.value_m =
+              peak_between(least, most, [&](double lag_m) { return posterior(readings, lag_m); }),
+          .stddev_m = lag_prior.sd_m};
   lag.at_bound = std::min(lag.value_m - lag_prior.least_m, lag_prior.most_m - lag.value_m) <
                  2.0 * kPrecision_m;
-  const double step = 0.5 * kGridStep_m;
-  const double fall = 2.0 * log_posterior(lag.value_m) - log_posterior(lag.value_m - step) -
-                      log_posterior(lag.value_m + step);
-  if (fall > 0.0 && std::isfinite(fall))
-    lag.stddev_m = std::min(lag.stddev_m, kScatter * step / std::sqrt(fall));
+  const std::optional<Peak> peak = peak_around(posterior, readings, lag.value_m);
+  const std::optional<double> scatter = scatter_m(posterior, readings, lag.value_m);
+  if (peak && scatter) lag.stddev_m = std::min(lag.stddev_m, std::max(peak->stddev_m, *scatter));
   return lag;
 }
 

@@ -34,8 +34,8 @@ std::vector<Palpation> displaced(const Surface& surface, std::span<const Palpati
 
 struct Lag {
   double value_m = 0.0;
-  double stddev_m = 0.0;  ///< from the curvature at the most probable value, widened as phantoms
-                          ///< ask for; the prior's at most
+  double stddev_m = 0.0;  ///< the larger of what the curvature at the most probable value says, and
+                          ///< of what it moves without a tenth of the readings; the prior's at most
   bool at_bound = false;  ///< the most probable value is the least or the most that was looked at:
                           ///< the readings do not tell the lag
 };
