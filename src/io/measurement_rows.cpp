@@ -49,12 +49,11 @@ std::vector<bool> rows_off_tissue(const CsvTable& table, const Surface& surface,
   if (count == 0) return is_off;
   if (count == table.row_count())
     fail_at_row(table, first, first_fault + "; no reading lies on the tissue");
-  warnings.push_back(table.name() + ": " + std::to_string(count) + " of " +
-                     std::to_string(table.row_count()) +
-                     (count == 1 ? " readings lies" : " readings lie") + " off the tissue and " +
-                     (count == 1 ? "was" : "were") + " left out, the farthest by " +
-                     text_of(std::round(farthest_m * 1e6) / 1e6) + " m in line " +
-                     std::to_string(table.line(farthest)) + ".");
+  warnings.push_back(
+      table.name() + ": " + std::to_string(count) + " of " + std::to_string(table.row_count()) +
+      (count == 1 ? " readings lies" : " readings lie") + " off the tissue and " +
+      (count == 1 ? "was" : "were") + " left out, the farthest by " + length_text(farthest_m) +
+      " m in line " + std::to_string(table.line(farthest)) + ".");
   return is_off;
 }
 

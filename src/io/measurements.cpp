@@ -165,8 +165,8 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
     file.warnings.push_back(
         table.name() + ": " + std::to_string(landing.moved()) + " of " +
         std::to_string(table.row_count()) + " positions lay off the surface, by up to " +
-        text_of(landing.farthest_m()) + " m in line " + std::to_string(table.line(farthest_row)) +
-        ", and were taken to its closest points.");
+        length_text(landing.farthest_m()) + " m in line " +
+        std::to_string(table.line(farthest_row)) + ", and were taken to its closest points.");
   }
   repeats.tell(table.name(), file.warnings);
   tell_outliers(table, file.palpations, file.warnings);

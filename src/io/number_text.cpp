@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "palpation/base/error.h"
+
 namespace palpation {
 namespace {
 
@@ -68,6 +70,11 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || status != std::errc{}) return std::nullopt;
   return value;
+}
+
+std::string length_text(double length_m) {
+  const double rounded = std::round(length_m * 1e6) / 1e6;
+  return text_of(rounded != 0.0 ? rounded : length_m);
 }
 
 std::string in_quotes(std::string_view word) {

@@ -22,6 +22,9 @@ ParsedNumber parse_number(std::string_view word);
 /// The whole word as an integer; nothing if it is none, or none that fits.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
+/// A length in metres for a message: to the micrometre, unless that leaves nothing of it.
+std::string length_text(double length_m);
+
 /// A word for a message: in quotes, control characters replaced, cut after 40 characters.
 std::string in_quotes(std::string_view word);
 

@@ -9,6 +9,7 @@
 #include "io/landing.h"
 #include "io/length_scale.h"
 #include "io/mesh_source.h"
+#include "io/number_text.h"
 #include "io/vtp_file.h"
 #include "io/vtp_told.h"
 #include "palpation/base/error.h"
@@ -103,7 +104,7 @@ BoundaryFile read_boundary_vtp(const std::filesystem::path& path, const Surface&
     boundary.warnings.push_back(
         path.string() + ": " + std::to_string(landing.moved()) + " of " +
         std::to_string(points_read) + " points of the boundary lay off the surface, by up to " +
-        text_of(landing.farthest_m()) + " m, and were taken to its closest points.");
+        length_text(landing.farthest_m()) + " m, and were taken to its closest points.");
   }
   return boundary;
 }
