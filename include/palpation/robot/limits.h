@@ -1,6 +1,7 @@
 /// What a motion may be at most. Metres, newtons, seconds, radians, in the robot's base frame.
 #pragma once
 
+#include <numbers>
 #include <string>
 
 #include "palpation/base/types.h"
@@ -28,11 +29,10 @@ struct MotionLimits {
 
 /// The tip is so near to the normal through its stop, and its axis to the normal.
 struct ApproachCone {
-  double foot_m = 0.001;   ///< radius at the tissue and below
-  double wall_rad = 0.26;  ///< 15 degrees: the cone opens above
-  double axis_rad =
-      0.3490658503988659;         ///< 20 degrees, between the probe's axis and the inward normal
-  double axis_in_air_rad = 1.05;  ///< 60 degrees, on the way there
+  double foot_m = 0.001;                     ///< radius at the tissue and below
+  double wall_rad = 0.26;                    ///< 15 degrees: the cone opens above
+  double axis_rad = std::numbers::pi / 9.0;  ///< 20 degrees, of the probe from the inward normal
+  double axis_in_air_rad = 1.05;             ///< 60 degrees, on the way there
 };
 
 struct GateLimits {
