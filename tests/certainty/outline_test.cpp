@@ -64,6 +64,25 @@ TEST(OutlineNodes, AHoleIsOutside) {
   EXPECT_NEAR(depth_in(ring, kMm * Vec2(4, 2)), 1 * kMm, 1e-15);
 }
 
+// A hundred pieces: more than are measured at once.
+TEST(OutlinePieces, AgreeWithWhatIsAskedPieceByPiece) {
+  Random random(2);
+  OutlineNodes ring = rectangle(8 * kMm, 8 * kMm, 90);
+  for (Vec2& place : ring.place) place += 0.2 * kMm * Vec2(random.normal(), random.normal());
+  ring.add({kMm * Vec2(3, 3), kMm * Vec2(3, 5), kMm * Vec2(5, 5), kMm * Vec2(5, 3)}, 0);
+  OutlinePieces pieces(ring);
+  for (int i = 0; i < 2000; ++i) {
+    const int moved = random.below(ring.count());
+    ring.place[moved] += 0.05 * kMm * Vec2(random.normal(), random.normal());
+    for (const int piece : {moved, ring.before(moved)})
+      pieces.set(piece, ring.place[piece], ring.place[ring.next(piece)]);
+    const Vec2 place = kMm * Vec2(-4.0 + 16.0 * random.uniform(), -4.0 + 16.0 * random.uniform());
+    const NearestPiece nearest = nearest_piece(ring, place);
+    ASSERT_NEAR(pieces.nearest(place).square, nearest.square, 1e-18);
+    ASSERT_EQ(pieces.encloses(place), is_inside(ring, place));
+  }
+}
+
 TEST(OutlineNodes, NodesAreEvenlySpacedFarFromTheOrigin) {
   const Vec2 away(3.0, -2.0);
   const std::vector<Vec2> line = {away, away + Vec2(0.01, 0), away + Vec2(0.01, 0.02)};
