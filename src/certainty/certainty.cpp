@@ -135,9 +135,8 @@ Certainty doubted_where_untouched(Certainty certainty, const Belief& belief,
     const bool inside = certainty.score[vertex] >= 0.0;
     certainty.score[vertex] = inside ? sureness : -sureness;
     const double here = surface.vertex_areas()[vertex];
-    (inside ? certainty.expected.extra_m2 : certainty.hidden_m2) +=
-        here * normal_probability(-sureness);
     certainty.untouched_m2 += here;
+    certainty.untouched_error_m2 += here * normal_probability(-sureness);
   }
   return certainty;
 }

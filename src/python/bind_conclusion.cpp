@@ -68,7 +68,7 @@ py::dict summary(const Concluded& here) {
     result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();
     result["expected_missed_m2"] = certainty.expected.missed_m2;
     result["expected_extra_m2"] = certainty.expected.extra_m2;
-    result["expected_untouched_m2"] = certainty.hidden_m2;
+    result["expected_untouched_m2"] = certainty.untouched_error_m2;
     result["band_probability"] = certainty.probability;
     result["band_half_width_m"] = certainty.half_width_m;
   }

@@ -131,8 +131,7 @@ std::string figures_html(const Run& run) {
   figures.add("in all", {"expected_error_mm2"}, 3, kMm2);
   figures.add("missed", {"expected_missed_mm2"}, 3, kMm2);
   figures.add("extra", {"expected_extra_mm2"}, 3, kMm2);
-  figures.add("tumour in tissue that was not touched, besides", {"expected_untouched_mm2"}, 3,
-              kMm2);
+  figures.add("besides, where nothing was touched", {"expected_untouched_mm2"}, 3, kMm2);
   if (run.told({"error"}).is_object()) {
     const json& truth = run.told({"truth_is"});
     figures.add_heading("Truly wrong, against " +

@@ -71,7 +71,7 @@ void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
   summary["expected_extra_mm2"] = certainty->expected.extra_m2 * kMm2;
-  summary["expected_untouched_mm2"] = certainty->hidden_m2 * kMm2;
+  summary["expected_untouched_mm2"] = certainty->untouched_error_m2 * kMm2;
   summary["band"] = {{"probability", certainty->probability},
                      {"score", q},
                      {"half_width_mm", certainty->half_width_m * kMm},

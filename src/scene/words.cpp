@@ -28,12 +28,11 @@ std::string part_words(const TumourPart& part) {
   return words + "\n";
 }
 
-/// What may be hidden where nobody touched, from a tenth of a square millimetre on.
+/// From a tenth of a square millimetre on.
 std::string untouched_words(const Certainty& certainty) {
-  const double hidden_mm2 = certainty.hidden_m2 * 1e6;
-  return hidden_mm2 < 0.1
-             ? std::string()
-             : "; and " + fixed(hidden_mm2, 1) + " mm2 of tumour where nothing was touched";
+  const double wrong_mm2 = certainty.untouched_error_m2 * 1e6;
+  return wrong_mm2 < 0.1 ? std::string()
+                         : "; and " + fixed(wrong_mm2, 1) + " mm2 where nothing was touched";
 }
 
 /// What a surgeon asks: how far off the line may be, and where to cut.

@@ -62,5 +62,28 @@ TEST(DoubtedAsAWhole, ABandWidensByHowFarAllReadingsMayLieOff) {
   EXPECT_NEAR((same.score - certainty.score).cwiseAbs().maxCoeff(), 0.0, 1e-12);
 }
 
+TEST(DoubtedWhereUntouched, APlaceFarFromAllReadingsIsNoSurerThanTheField) {
+  const Surface sheet = plane(51, 3);  // 25 mm along x; touched along its left edge alone
+  const Belief belief = Belief(Prior(sheet, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1})
+                            .condition_on(std::vector{touch(sheet, 0, 9.0), touch(sheet, 51, 9.0),
+                                                      touch(sheet, 102, 9.0)});
+  const int count = sheet.vertex_count();
+  const Marginals marginals{.mean = Field::Constant(count, 7.0),
+                            .variance = Field::Constant(count, 3.0)};
+  const Certainty sure{.score = Field::Constant(count, -9.0), .expected = {}};
+  const Certainty told =
+      doubted_where_untouched(sure, belief, marginals, {.value = 11.0, .stddev = 1.0});
+  double untouched_m2 = 0.0;
+  for (int vertex = 0; vertex < count; ++vertex) {
+    const bool is_far = sheet.vertex(vertex).x() >= 0.008;
+    EXPECT_DOUBLE_EQ(told.score[vertex], is_far ? -2.0 : -9.0) << vertex;  // 4 over sqrt(3 + 1)
+    if (is_far) untouched_m2 += sheet.vertex_areas()[vertex];
+  }
+  EXPECT_NEAR(told.untouched_m2, untouched_m2, 1e-15);
+  EXPECT_NEAR(told.untouched_error_m2, 0.02275013194817921 * untouched_m2, 1e-15);  // Phi(-2)
+  EXPECT_DOUBLE_EQ(told.expected_in_all_m2() - told.expected.symmetric_difference_m2(),
+                   told.untouched_error_m2);
+}
+
 }  // namespace
 }  // namespace palpation

@@ -25,12 +25,14 @@ struct Certainty {
                               ///< band_score }, the outer { score = -band_score }
   double half_width_m =
       0.0;  ///< of the band along the surface, the mean over the boundary; 0 where there is none
-  ExpectedError expected;     ///< wrong area of the region { score >= 0 } where it was touched
+  ExpectedError expected;     ///< wrong area of the region { score >= 0 }, by its boundary
   double untouched_m2 = 0.0;  ///< area too far from any reading for the boundary's depth to tell
-  double hidden_m2 = 0.0;     ///< tumour that is expected there, outside of the region
+  double untouched_error_m2 = 0.0;  ///< of that, what the field expects to be wrong, besides
 
   /// Wrong area of the region, wherever it is: what a stop rule promises.
-  double expected_in_all_m2() const { return expected.symmetric_difference_m2() + hidden_m2; }
+  double expected_in_all_m2() const {
+    return expected.symmetric_difference_m2() + untouched_error_m2;
+  }
   /// Phi(score).
   Field probability_inside() const;
   /// The score of the cut line: outside { score >= cut_score(r) } a place is tumour with
@@ -77,8 +79,8 @@ Certainty without_part(Certainty certainty, const Surface& surface, std::span<co
                        double score);
 
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than
-/// the field is of it, and may hide tumour. Far is twice the radius of the smallest tumour of
-/// 0.5 cm2, 8 mm.
+/// the field is of it, and what it expects to be wrong there is told apart. Far is twice the radius
+/// of the smallest tumour of 0.5 cm2, 8 mm.
 Certainty doubted_where_untouched(Certainty certainty, const Belief& belief,
                                   const Marginals& marginals, const Level& level);
 
