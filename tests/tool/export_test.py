@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-from support import palpate, rows_of
+from support import main_without_pictures, palpate, rows_of
 
 try:
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -325,4 +325,4 @@ class Export(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    main_without_pictures()

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import unittest
 
-from support import InFolder, PALPATE, palpate, rows_of
+from support import PALPATE, InFolder, main_without_pictures, palpate, rows_of
 
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 PLANE = {"surface": {"plane": {"size_mm": [20, 30], "vertices": [41, 61]}}}
@@ -158,4 +158,4 @@ class Newcomer(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    main_without_pictures(own_arguments=2)

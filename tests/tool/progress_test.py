@@ -12,7 +12,7 @@ import subprocess
 import sys
 import unittest
 
-from support import InFolder, PALPATE, PATIENCE_S
+from support import PALPATE, PATIENCE_S, InFolder, main_without_pictures
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [150, 150]}},
@@ -67,4 +67,4 @@ class Progress(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    main_without_pictures()

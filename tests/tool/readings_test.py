@@ -10,7 +10,7 @@ import random
 import sys
 import unittest
 
-from support import InFolder, palpate, rows_of
+from support import BRIEFLY, InFolder, main_without_pictures, palpate, rows_of
 
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 REAL = ROOT.parent.parent / "shared" / "data" / "vu-arma"
@@ -284,7 +284,7 @@ class Readings(InFolder):
         try:
             import numpy
         except ImportError:
-            self.skipTest("numpy is not installed")
+            self.skip("numpy is not installed")
         path = REAL / name
         if not path.exists():
             self.skip(f"{path} is absent")
@@ -320,7 +320,7 @@ class Readings(InFolder):
                 told = self.done("mesh", "surface", "--points", readings, "--gap", 8, mesh, "--overwrite")
                 self.assertIn("No holes", told)
                 self.assertIn("of these readings", told)
-                self.done("boundary", scene, "--measurements", readings, "--out", self.folder / name)
+                self.done("boundary", scene, "--measurements", readings, "--out", self.folder / name, *BRIEFLY)
                 summary = json.loads((self.folder / name / "summary.json").read_text())
                 # The ridge is 59 x 15 mm and both ways of touching it find it; the ball of 5 mm and the liver are only to be answered.
                 if "ridge" in name:
@@ -354,4 +354,4 @@ class Readings(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    main_without_pictures(own_arguments=2)

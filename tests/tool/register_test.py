@@ -11,7 +11,7 @@ import subprocess
 import sys
 import unittest
 
-from support import InFolder, PALPATE
+from support import PALPATE, InFolder, main_without_pictures
 
 TURN = math.radians(30)
 SHIFT = (0.10, -0.05, 0.20)
@@ -107,4 +107,4 @@ class Register(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    main_without_pictures()

@@ -303,6 +303,7 @@ class Page(unittest.TestCase):
     def test_pictures_are_in_the_page_for_those_who_cannot_draw(self):
         page = Text(page_of(Runs.found()))
         if not (Runs.found() / "picture.png").exists():
+            print("skipped: palpate-draw is not built", file=sys.stderr)
             self.skipTest("palpate-draw is not built")
         inside = [base64.b64decode(image["src"].split(",", 1)[1]) for image in page.named("img")]
         self.assertEqual(inside, [(Runs.found() / name).read_bytes() for name in ("picture.png", "convergence.png")])

@@ -11,7 +11,7 @@ import sys
 import time
 import unittest
 
-from support import InFolder, PALPATE, PATIENCE_S
+from support import PALPATE, PATIENCE_S, InFolder, main_without_pictures
 
 SCENE = {"certainty": "laplace", "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}}, "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2}}
 
@@ -102,4 +102,4 @@ class Serve(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    main_without_pictures()

@@ -12,7 +12,7 @@ import sys
 import time
 import unittest
 
-from support import InFolder, PALPATE, PATIENCE_S, palpate, rows_of
+from support import PALPATE, PATIENCE_S, InFolder, main_without_pictures, palpate, rows_of
 
 SCENE = {
     "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}},
@@ -173,4 +173,4 @@ class Session(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    main_without_pictures()

@@ -13,7 +13,9 @@ import tempfile
 import unittest
 
 PALPATE = pathlib.Path(sys.argv[1]).resolve()
-PATIENCE_S = 300
+SANITIZED = b"__asan_init" in PALPATE.read_bytes()  # what takes minutes under the sanitizers asks less of them
+PATIENCE_S = 1200 if SANITIZED else 300
+BRIEFLY = ["--set", "certainty=laplace"] if SANITIZED else []  # drawing outlines takes minutes there, and has tests of its own
 
 
 def palpate(*arguments, program=None, **options):
@@ -75,11 +77,14 @@ class WithSmallScene(InFolder):
         self.square = self.write("square.wkt", "POLYGON ((0.005 0.005, 0.015 0.005, 0.015 0.015, 0.005 0.015, 0.005 0.005))")
 
 
-def main_without_pictures():
-    """Runs the tests of the file that was started, on a copy of the program away from palpate-draw: pictures take their time, and are tested elsewhere."""
+def main_without_pictures(own_arguments=1):
+    """Runs the tests of the file that was started, on a copy of the program away from palpate-draw: pictures take their time, and are tested elsewhere.
+
+    own_arguments: how many words of the command line are the file's, the program among them; what follows is unittest's.
+    """
     global PALPATE
     with tempfile.TemporaryDirectory() as alone:
         PALPATE = pathlib.Path(shutil.copy(PALPATE, alone))
         sys.modules["__main__"].PALPATE = PALPATE
-        tests = unittest.main(argv=sys.argv[:1] + sys.argv[2:], exit=False)
+        tests = unittest.main(argv=sys.argv[:1] + sys.argv[1 + own_arguments:], exit=False)
     sys.exit(0 if tests.result.wasSuccessful() else 1)

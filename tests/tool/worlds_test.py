@@ -9,7 +9,7 @@ import math
 import sys
 import unittest
 
-from support import InFolder, palpate, rows_of
+from support import InFolder, main_without_pictures, palpate, rows_of
 
 TISSUE = {"surface": {"plane": {"size_mm": [25, 50], "vertices": [26, 51]}}}
 
@@ -105,4 +105,4 @@ class Worlds(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
+    main_without_pictures()
