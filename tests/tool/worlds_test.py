@@ -9,7 +9,7 @@ import math
 import sys
 import unittest
 
-from support import InFolder, main_without_pictures, palpate, rows_of
+from support import BRIEFLY, InFolder, main_without_pictures, palpate, rows_of
 
 TISSUE = {"surface": {"plane": {"size_mm": [25, 50], "vertices": [26, 51]}}}
 
@@ -21,7 +21,7 @@ class Worlds(InFolder):
         return path
 
     def summary(self, command, scene, *arguments):
-        run = palpate(command, scene, "--out", self.folder / "out", "--overwrite", "--quiet", *arguments)
+        run = palpate(command, scene, "--out", self.folder / "out", "--overwrite", "--quiet", *BRIEFLY, *arguments)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         return json.loads((self.folder / "out" / "summary.json").read_text())
 
@@ -45,7 +45,7 @@ class Worlds(InFolder):
 
     def test_coverage_runs_over_worlds(self):
         out = self.folder / "coverage"
-        coarse = ("--trials", 2, "--set", "plan.batches=2", "--quiet", "--out", out)
+        coarse = ("--trials", 2, "--set", "plan.batches=2", "--quiet", *BRIEFLY, "--out", out)
         run = palpate("experiment", "coverage", self.scene(probe={"noise": 0.05}), "--world", "profile", *coarse)
         self.assertEqual(run.returncode, 0, run.stderr)
         for family in ("dome", "cone", "gauss", "hill", "unequal-slopes", "all of profile"):
