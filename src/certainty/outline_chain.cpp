@@ -38,10 +38,10 @@ OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& 
       cuts_(cuts),
       felt_(readings.places.size()),
       moves_(outline_.place.size(), false) {
+  for (int which = 0; which < kCuts; ++which) stadiums_[which] = cuts_[which].stadium();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     const Vec2& place = readings_->places[i];
-    felt_[i] = {pieces_.nearest(place), pieces_.encloses(place)};
-    felt_[i].log_likelihood = likelihood_of(i, felt_[i], law_);
+    felt_[i] = felt_at(i, pieces_.nearest(place), pieces_.encloses(place));
     // The worse a reading fits, the likelier something is missing there.
     const double best = log_likelihood(law_, law_.low, readings_->variance[i], 0.0),
                  lacking = best - felt_[i].log_likelihood;
@@ -57,23 +57,42 @@ int OutlineChain::part_of(const Felt& felt) const {
 double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
   const double distance = std::sqrt(felt.nearest.square);
   double depth = felt.inside ? distance : -distance;
-  for (const OutlineCut& cut : cuts_) {
-    if (cut.is_present) depth = std::min(depth, -cut.depth_at(readings_->places[reading]));
+  for (int which = 0; which < kCuts; ++which) {
+    if (cuts_[which].is_present)
+      depth = std::min(depth, -stadiums_[which].depth_at(readings_->places[reading]));
   }
   return depth;
 }
 
 double OutlineChain::likelihood_of(std::size_t reading, const Felt& felt,
                                    const ReadingLaw& law) const {
-  const double rise = law.contrast[part_of(felt)] * share_at(law, depth_of(reading, felt));
+  const double rise = law.contrast[part_of(felt)] * felt.share;
   return log_likelihood(law, readings_->reading[reading], readings_->variance[reading], rise);
+}
+
+OutlineChain::Felt OutlineChain::felt_at(std::size_t reading, NearestPiece nearest,
+                                         bool inside) const {
+  Felt felt{.nearest = nearest, .inside = inside};
+  felt.depth_m = depth_of(reading, felt);
+  felt.share = share_at(law_, felt.depth_m);
+  felt.log_likelihood = likelihood_of(reading, felt, law_);
+  return felt;
+}
+
+double OutlineChain::consider(std::size_t reading, const Felt& felt) {
+  fresh_.emplace_back(reading, felt);
+  return felt.log_likelihood - felt_[reading].log_likelihood;
+}
+
+void OutlineChain::keep_fresh() {
+  for (const auto& [reading, felt] : fresh_) felt_[reading] = felt;
 }
 
 std::vector<double> OutlineChain::deepest_readings() const {
   std::vector<double> deepest(profile_.log_contrast.size(), 0.0);
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     double& of_part = deepest[part_of(felt_[i])];
-    of_part = std::max(of_part, depth_of(i, felt_[i]));
+    of_part = std::max(of_part, felt_[i].depth_m);
   }
   return deepest;
 }
@@ -122,28 +141,24 @@ bool OutlineChain::is_untouched(const Step& step, std::size_t reading) const {
 
 OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t reading) const {
   const Vec2& place = readings_->places[reading];
-  Felt felt = felt_[reading];
-  if (step.pieces.size() > kFew) {
-    felt = {pieces_.nearest(place), pieces_.encloses(place)};
-    felt.log_likelihood = likelihood_of(reading, felt, law_);
-    return felt;
-  }
+  if (step.pieces.size() > kFew)
+    return felt_at(reading, pieces_.nearest(place), pieces_.encloses(place));
+  auto [nearest, inside] = std::pair(felt_[reading].nearest, felt_[reading].inside);
   const bool may_flip = step.ever.contains(place);
   NearestPiece moved{.square = 1e300};
   for (const MovedPiece& piece : step.pieces) {
     const Vec2 &from = outline_.place[piece.node], &to = outline_.place[outline_.next(piece.node)];
     if (may_flip)
-      felt.inside ^= crosses_ray(place, piece.from, piece.to) != crosses_ray(place, from, to);
+      inside ^= crosses_ray(place, piece.from, piece.to) != crosses_ray(place, from, to);
     const double square = squared_distance(place, from, to);
     if (square < moved.square) moved = {square, piece.node};
   }
-  if (moved.square <= felt.nearest.square) {
-    felt.nearest = moved;
-  } else if (moves_[felt.nearest.piece]) {
-    felt.nearest = pieces_.nearest(place);
+  if (moved.square <= nearest.square) {
+    nearest = moved;
+  } else if (moves_[nearest.piece]) {
+    nearest = pieces_.nearest(place);
   }
-  felt.log_likelihood = likelihood_of(reading, felt, law_);
-  return felt;
+  return felt_at(reading, nearest, inside);
 }
 
 OutlineChain::Step OutlineChain::step_from(int first, int moved) const {
@@ -191,9 +206,7 @@ bool OutlineChain::feel(Step& step, Random& random) {
   if (taken) {
     fresh_.clear();
     for (std::size_t i = 0; i < felt_.size(); ++i) {
-      if (is_untouched(step, i)) continue;
-      fresh_.emplace_back(i, felt_after(step, i));
-      change += fresh_.back().second.log_likelihood - felt_[i].log_likelihood;
+      if (!is_untouched(step, i)) change += consider(i, felt_after(step, i));
     }
     taken = std::log(random.uniform()) < change;
   }
@@ -201,45 +214,50 @@ bool OutlineChain::feel(Step& step, Random& random) {
     moves_[piece.node] = false;
     if (!taken) pieces_.set(piece.node, piece.from, piece.to);
   }
-  if (taken) {
-    for (const auto& [reading, felt] : fresh_) felt_[reading] = felt;
-  }
+  if (taken) keep_fresh();
   return taken;
 }
 
 bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random) {
   double change = log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
   const ReadingLaw law = law_of(profile, *prior_);
-  std::vector<double> likelihoods;
+  fresh_.clear();
   if (is_of_shape) {
     change += log_shape_density(outline_, profile) - log_shape_density(outline_, profile_);
   } else {
+    const bool keeps_shares = law.slope_per_m == law_.slope_per_m;
     for (std::size_t i = 0; i < felt_.size(); ++i) {
-      likelihoods.push_back(likelihood_of(i, felt_[i], law));
-      change += likelihoods.back() - felt_[i].log_likelihood;
+      Felt felt = felt_[i];
+      if (!keeps_shares) felt.share = share_at(law, felt.depth_m);
+      felt.log_likelihood = likelihood_of(i, felt, law);
+      change += consider(i, felt);
     }
   }
   if (!(std::log(random.uniform()) < change)) return false;
   profile_ = profile;
   law_ = law;
-  for (std::size_t i = 0; i < likelihoods.size(); ++i) felt_[i].log_likelihood = likelihoods[i];
+  keep_fresh();
   return true;
 }
 
-/// Of the readings' part of the density; the rest has changed by `change`.
+/// Of the readings' part of the density; the rest has changed by `change`. Few readings lie any
+/// deeper or less deep for a cut.
 bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Random& random) {
   const OutlineCut before = std::exchange(cuts_[which], cut);
-  std::vector<double> likelihoods;
+  const Stadium stadium_before = std::exchange(stadiums_[which], cut.stadium());
+  fresh_.clear();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    likelihoods.push_back(likelihood_of(i, felt_[i], law_));
-    change += likelihoods.back() - felt_[i].log_likelihood;
+    if (depth_of(i, felt_[i]) != felt_[i].depth_m)
+      change += consider(i, felt_at(i, felt_[i].nearest, felt_[i].inside));
   }
-  if (!(std::log(random.uniform()) < change)) {
+  const bool taken = std::log(random.uniform()) < change;
+  if (taken) {
+    keep_fresh();
+  } else {
     cuts_[which] = before;
-    return false;
+    stadiums_[which] = stadium_before;
   }
-  for (std::size_t i = 0; i < likelihoods.size(); ++i) felt_[i].log_likelihood = likelihoods[i];
-  return true;
+  return taken;
 }
 
 /// Fresh ones come from their prior but for the anchor: the rest of the density cancels.

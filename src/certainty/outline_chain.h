@@ -56,14 +56,19 @@ class OutlineChain {
   struct Felt {
     NearestPiece nearest;
     bool inside = false;
+    double depth_m = 0.0;  ///< in the loops, less what cuts take
+    double share = 0.0;    ///< of its contrast
     double log_likelihood = 0.0;
   };
   struct Step;
 
   int part_of(const Felt& felt) const;
-  /// Of a reading in the loops, less what cuts take.
   double depth_of(std::size_t reading, const Felt& felt) const;
   double likelihood_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  Felt felt_at(std::size_t reading, NearestPiece nearest, bool inside) const;
+  /// What the readings' density changes by if this one is felt so; `keep_fresh` makes it so.
+  double consider(std::size_t reading, const Felt& felt);
+  void keep_fresh();
   bool try_cut(int which, const OutlineCut& cut, double change, Random& random);
   Step step_from(int first, int moved) const;
   double shape_about(const Step& step) const;
@@ -79,10 +84,11 @@ class OutlineChain {
   OutlineProfile profile_;
   ReadingLaw law_;  // of the profile
   Cuts cuts_;
+  std::array<Stadium, kCuts> stadiums_;  // of the cuts that are present
   std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
   std::vector<Felt> felt_;
   std::vector<bool> moves_;                          // of each piece, in the step at hand
-  std::vector<std::pair<std::size_t, Felt>> fresh_;  // of the step at hand
+  std::vector<std::pair<std::size_t, Felt>> fresh_;  // what the step at hand changes
 };
 
 }  // namespace palpation

@@ -17,10 +17,14 @@ Vec2 direction_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
 
-double OutlineCut::depth_at(const Vec2& place) const {
+double Stadium::depth_at(const Vec2& place) const {
+  return radius_m - std::sqrt(squared_distance(place, from, to));
+}
+
+Stadium OutlineCut::stadium() const {
   const double radius = std::exp(log_radius);
   const Vec2 middle = anchor_place + radius * offset, half = half_length_m * direction_at(angle);
-  return radius - std::sqrt(squared_distance(place, middle - half, middle + half));
+  return {radius, middle - half, middle + half};
 }
 
 double log_cut_density(const OutlineCut& cut) {

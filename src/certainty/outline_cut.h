@@ -12,6 +12,14 @@
 
 namespace palpation {
 
+struct Stadium {
+  double radius_m = 0.0;
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< of its segment
+
+  /// Distance from its border, positive inside.
+  double depth_at(const Vec2& place) const;
+};
+
 struct OutlineCut {
   bool is_present = false;
   int anchor = 0;  ///< of the readings; any of them, all as likely
@@ -21,8 +29,7 @@ struct OutlineCut {
   double half_length_m = 0.0;
   double angle = 0.0;
 
-  /// Distance from its border, positive inside.
-  double depth_at(const Vec2& place) const;
+  Stadium stadium() const;
 };
 
 /// Of a present one's form; -infinity where it may not be.

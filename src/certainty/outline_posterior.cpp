@@ -77,7 +77,7 @@ double depth_of(const OutlineDraw& draw, const OutlinePieces& pieces, const Vec2
   const OutlineNodes& outline = draw.outline;
   const auto [square, piece] = pieces.nearest(place);
   double depth = pieces.encloses(place) ? std::sqrt(square) : -std::sqrt(square);
-  for (const OutlineCut& cut : draw.cuts) depth = std::min(depth, -cut.depth_at(place));
+  for (const Stadium& cut : draw.cuts) depth = std::min(depth, -cut.depth_at(place));
   return depth + draw.wider_m[outline.loops[outline.loop_of[piece]].part];
 }
 

@@ -73,7 +73,7 @@ OutlineDraw OutlineWalk::drawn() {
                            law.slope_per_m);
   }
   for (const OutlineCut& cut : chain_.cuts()) {
-    if (cut.is_present) draw.cuts.push_back(cut);
+    if (cut.is_present) draw.cuts.push_back(cut.stadium());
   }
   return draw;
 }

@@ -20,7 +20,7 @@ struct OutlineDraw {
   /// is as high as its readings, or higher up to that plateau, which they do not tell, and its
   /// boundary at the fraction of that height.
   std::vector<double> wider_m;
-  std::vector<OutlineCut> cuts;  ///< that are present
+  std::vector<Stadium> cuts;
 };
 
 class OutlineWalk {

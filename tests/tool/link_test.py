@@ -287,8 +287,10 @@ class Link(InFolder):
                 client.close()
             else:
                 rude.append(client)
-            if len(rude) > 8:  # so that with those whose end has not been noticed yet there are fewer than 32
-                rude.pop(0).close()
+            if attempt % 20 == 19:  # so that there are fewer than 32: once a newcomer is served, all ends before it have been noticed
+                while len(rude) > 1:
+                    rude.pop(0).close()
+                self.connect(port).until(is_settled(rows)).close()
         told = self.record(1, count=1)
         other.until(is_settled(rows + told))
         rude[-1].until(is_settled(rows + told))
