@@ -32,7 +32,6 @@ struct Misfit {
   /// Zero: by how much, in readings. Gain: the factor, less one. WeakerPart: its height above the
   /// profile there, in readings.
   double amount = 0.0;
-  Vec3 moved_m = Vec3::Zero();          ///< Moved: the place touched, from the place said
   std::optional<SurfacePoint> where{};  ///< WeakerPart
 };
 
