@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-from support import main_without_pictures, palpate, rows_of
+from support import main_without_pictures, palpate, rows_of, skip
 
 try:
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -110,8 +110,7 @@ class Export(unittest.TestCase):
 
     def need_vtk(self):
         if vtkXMLPolyDataReader is None:
-            print("skipped: python3-vtk9 is not installed", file=sys.stderr)
-            self.skipTest("python3-vtk9 is not installed")
+            skip(self, "python3-vtk9 is not installed")
 
     def nearest(self, points, wanted):
         return min(points, key=lambda point: math.dist(point, wanted))

@@ -13,7 +13,7 @@ import signal
 import subprocess
 import time
 
-from support import main_without_pictures, PALPATE, palpate, PATIENCE_S, SMALL, WithSmallScene
+from support import PALPATE, PATIENCE_S, SANITIZED, SMALL, WithSmallScene, main_without_pictures, palpate
 
 
 class Robustness(WithSmallScene):
@@ -174,7 +174,7 @@ class Robustness(WithSmallScene):
                     self.assertEqual(path.read_bytes(), (good / path.relative_to(out)).read_bytes(), path)
 
     def test_too_little_memory_ends_with_4(self):
-        if "ASAN_OPTIONS" in os.environ:
+        if SANITIZED:
             self.skip("AddressSanitizer itself wants more than there is")
 
         def little():

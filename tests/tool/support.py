@@ -29,7 +29,14 @@ def rows_of(path):
         return list(csv.DictReader(table))
 
 
+def skip(test, reason):
+    print(f"skipped: {reason}", file=sys.stderr)
+    test.skipTest(reason)
+
+
 class InFolder(unittest.TestCase):
+    skip = skip
+
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
         self.addCleanup(holder.cleanup)
@@ -40,10 +47,6 @@ class InFolder(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
         return path
-
-    def skip(self, reason):
-        print(f"skipped: {reason}", file=sys.stderr)
-        self.skipTest(reason)
 
     def ends(self, code, *arguments, says=(), **options):
         """Runs the tool; checks its exit code, and for parts of what it says on standard error. Returns what it says: there unless it is done."""
