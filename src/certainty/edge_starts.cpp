@@ -13,14 +13,14 @@ namespace palpation {
 namespace {
 
 /// What outlines may be like: most of them smooth all along, one in five with corners.
-struct OutlinePrior {
+struct StartPrior {
   KernelFamily family;
   double ShapePrior::*length_m;
   double probability;
 };
 constexpr std::array kOutlines = {
-    OutlinePrior{KernelFamily::Matern52, &ShapePrior::correction_length_m, 0.8},
-    OutlinePrior{KernelFamily::Matern32, &ShapePrior::corner_length_m, 0.2}};
+    StartPrior{KernelFamily::Matern52, &ShapePrior::correction_length_m, 0.8},
+    StartPrior{KernelFamily::Matern32, &ShapePrior::corner_length_m, 0.2}};
 
 /// Prior covariance of the corrections at the readings, 0 where none reaches: else a reading that
 /// something else raised would be explained by a boundary that is nowhere near.

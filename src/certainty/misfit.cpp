@@ -13,7 +13,6 @@
 namespace palpation {
 namespace {
 
-constexpr double kKinds = 3.0;
 /// What a rival may add, standard deviations: of the contrast, and of a gain.
 constexpr double kPart = 0.5;
 /// Radii of parts that are tried; they begin so far outside of the outline.
@@ -135,7 +134,8 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   std::vector<Misfit> found;
   for (const Kind* kind : {&zero, &gain, &weaker}) {
     const std::optional<Misfit> verdict = kind->verdict();
-    if (verdict && verdict->evidence > std::log(kKinds / false_alarms)) found.push_back(*verdict);
+    if (verdict && verdict->evidence > std::log(kMisfitKinds / false_alarms))
+      found.push_back(*verdict);
   }
   if (std::ranges::find(found, MisfitKind::WeakerPart, &Misfit::kind) == found.end())
     found.insert(found.end(), weaker_.begin(), weaker_.end());

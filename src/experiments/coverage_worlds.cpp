@@ -108,10 +108,9 @@ void add_reliability(const Surface& surface, const World& world, const Field& pr
 
 /// What surprised, and by how many nats.
 std::string misfit_text(const Conclusion& conclusion) {
-  constexpr std::array kNames = {"zero", "gain", "weaker"};
+  constexpr std::array kNames = {"zero", "gain", "moved", "weaker"};
   std::string text;
-  if (!conclusion.edge) return text;
-  for (const Misfit& one : conclusion.edge->misfits())
+  for (const Misfit& one : misfits(conclusion))
     text += (text.empty() ? "" : " ") + std::string(kNames[static_cast<std::size_t>(one.kind)]) +
             "=" + fixed(one.evidence, 1);
   return text;

@@ -114,4 +114,15 @@ std::optional<Level> level_in_readings(const Conclusion& conclusion) {
   return level;
 }
 
+std::vector<Misfit> misfits(const Conclusion& conclusion) {
+  std::vector<Misfit> found;
+  if (conclusion.edge) found = conclusion.edge->misfits();
+  if (const auto change = changed_since(conclusion.belief)) found.push_back(*change);
+  std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
+  const auto changed = [](const Misfit& one) { return one.kind != MisfitKind::WeakerPart; };
+  if (const auto strongest = std::ranges::find_if(found, changed); strongest != found.end())
+    found.erase(std::remove_if(strongest + 1, found.end(), changed), found.end());
+  return found;
+}
+
 }  // namespace palpation

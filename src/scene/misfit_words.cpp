@@ -32,6 +32,13 @@ std::string words_of(const Surface& surface, const Misfit& misfit) {
     case MisfitKind::Gain:
       return since_words(misfit) + "what stands out does so " + fixed(1.0 + misfit.amount, 2) +
              " times as much as before: the sensor or the contact has changed.";
+    case MisfitKind::Moved:
+      return "In or before batch " + std::to_string(misfit.from_batch) +
+             " the tissue moved, or its registration did: readings since then fit it " +
+             fixed(misfit.amount * 1e3, 1) + " mm from where it lay, shifted by " +
+             place_words(misfit.moved_m, 1) +
+             ". Register it again and touch anew, or take the readings before or since out: the "
+             "outline is of both.";
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
              (misfit.amount > 0.0 ? "stands out by " : "reads less by ") +
@@ -45,8 +52,7 @@ std::string words_of(const Surface& surface, const Misfit& misfit) {
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   std::vector<std::string> words;
-  if (!conclusion.edge) return words;
-  for (const Misfit& misfit : conclusion.edge->misfits())
+  for (const Misfit& misfit : misfits(conclusion))
     words.push_back(words_of(conclusion.belief.prior().surface(), misfit));
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
     words.push_back(apart_words(conclusion.outlines->disagreement));

@@ -245,18 +245,18 @@ std::vector<Recipe> sensors() {
       {{"sensor-shift", "sensor", "a blob; the zero moves by 25 to 100 % while one looks"},
        [](Draft& d) {
          add_blob(d);
-         d.world.change = {.after_readings = kChangeAfter, .zero = d.between(0.25, 1.0)};
+         d.world.change = {.after_stops = kChangeAfter, .zero = d.between(0.25, 1.0)};
        }},
       {{"gain-shift", "sensor", "a blob; the gain changes by up to a half while one looks"},
        [](Draft& d) {
          add_blob(d);
-         d.world.change = {.after_readings = kChangeAfter, .gain = d.between(0.5, 1.5)};
+         d.world.change = {.after_stops = kChangeAfter, .gain = d.between(0.5, 1.5)};
        }},
       {{"tissue-moves", "sensor", "a blob; the tissue moves by 2 to 5 mm while one looks"},
        [](Draft& d) {
          add_blob(d);
          const double far_m = d.between(0.002, 0.005);
-         d.world.change = {.after_readings = kChangeAfter, .moved_m = far_m * d.direction()};
+         d.world.change = {.after_stops = kChangeAfter, .moved_m = far_m * d.direction()};
        }},
   };
 }

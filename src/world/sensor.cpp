@@ -37,7 +37,7 @@ SurfacePoint FaultySensor::feels_at(const Surface& surface, const SurfacePoint& 
   return surface.project(surface.position(where) + change_.moved_m);
 }
 
-double FaultySensor::reported(double reading, Random& random) {
+double FaultySensor::reported(double reading, Random& random, TouchKind kind) {
   const double lost = random.uniform(), wild = random.uniform(), jammed = random.uniform();
   const double anything = 2.0 * random.uniform() - 1.0;
   double told = reading + faults_.drift * range_ * readings_ / 100.0;
@@ -47,6 +47,7 @@ double FaultySensor::reported(double reading, Random& random) {
   if (lost < faults_.lost) told = 0.0;
   last_ = told;
   ++readings_;
+  if (kind == TouchKind::Stop) ++stops_;
   return told;
 }
 

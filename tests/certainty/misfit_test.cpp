@@ -52,7 +52,11 @@ std::vector<Misfit> misfits_of(const World& world, std::uint64_t seed, int readi
   }
   const Belief belief = Belief(prior, {.noise_sd = kNoise}).condition_on(palpations);
   constexpr double kFirstLevels[] = {8.0};
-  return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value().misfits();
+  std::vector<Misfit> found =
+      EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value().misfits();
+  if (const auto change = changed_since(belief)) found.push_back(*change);
+  std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
+  return found;
 }
 
 /// Of twenty runs, how many are surprised by that before all else.
@@ -99,6 +103,26 @@ TEST(Misfit, IsAGainThatChanged) {
   };
   EXPECT_GE(said_in(weaker, MisfitKind::Gain), 18);
   EXPECT_NEAR(first_of(weaker).amount, -0.4, 0.15);
+}
+
+/// The tissue lies elsewhere from batch 5 on.
+World moved_by(const Vec3& move_m) {
+  return [move_m](const Vec3& place, int batch) {
+    return stiffness(batch >= 5 ? place - move_m : place);
+  };
+}
+
+TEST(Misfit, IsTissueThatMovedByTwoMillimetres) {
+  const Vec3 move_m(0.0012, -0.0016, 0.0);
+  EXPECT_GE(said_in(moved_by(move_m), MisfitKind::Moved), 18);
+  const Misfit first = first_of(moved_by(move_m));
+  EXPECT_LT((first.moved_m - move_m).norm(), 0.001);
+  EXPECT_NEAR(first.from_batch, 5, 1);
+}
+
+TEST(Misfit, IsTissueThatMovedByFiveMillimetres) {
+  const Vec3 move_m(0.004, 0.003, 0.0);
+  EXPECT_GE(said_in(moved_by(move_m), MisfitKind::Moved), 18);
 }
 
 TEST(Misfit, IsOftenAWeakerPartBesideTheTumour) {

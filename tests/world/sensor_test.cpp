@@ -54,16 +54,24 @@ TEST(FaultySensor, DriftsReadingByReading) {
 }
 
 TEST(FaultySensor, ChangesOnceAndForAll) {
-  FaultySensor sensor({}, {.after_readings = 2, .zero = 0.5, .gain = 2.0}, 7.0, 9.0);
+  FaultySensor sensor({}, {.after_stops = 2, .zero = 0.5, .gain = 2.0}, 7.0, 9.0);
   Random random(5);
   EXPECT_EQ(sensor.reported(8.0, random), 8.0);
   EXPECT_EQ(sensor.reported(8.0, random), 8.0);
   EXPECT_EQ(sensor.reported(8.0, random), 7.0 + 2.0 * 1.0 + 0.5 * 2.0);
 }
 
+TEST(FaultySensor, ChangesAfterStopsWhateverIsFeltOnTheWay) {
+  FaultySensor sensor({}, {.after_stops = 1, .zero = 0.5}, 7.0, 9.0);
+  Random random(5);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(sensor.reported(8.0, random, TouchKind::Way), 8.0);
+  EXPECT_EQ(sensor.reported(8.0, random, TouchKind::Stop), 8.0);
+  EXPECT_EQ(sensor.reported(8.0, random, TouchKind::Way), 9.0);
+}
+
 TEST(FaultySensor, FeelsWhereTheTissueWentOnceItMoved) {
   const Surface surface = sheet(0.024, 0.048, 0.001);
-  FaultySensor sensor({}, {.after_readings = 1, .moved_m = Vec3(0.003, 0.0, 0.0)}, 7.0, 9.0);
+  FaultySensor sensor({}, {.after_stops = 1, .moved_m = Vec3(0.003, 0.0, 0.0)}, 7.0, 9.0);
   const SurfacePoint where = surface.at_vertex(surface.nearest_vertex(Vec3(0.012, 0.024, 0.0)));
   EXPECT_EQ(surface.position(sensor.feels_at(surface, where)), surface.position(where));
   Random random(6);

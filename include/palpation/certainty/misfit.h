@@ -8,19 +8,20 @@
 ///
 /// and a kind of misfit by the mean over its rivals: when it began, where it lies, what kind of
 /// outline there is (edge_belief.h). Were the model
-/// true, that mean would exceed 1 / a in a share a of all runs at most (Markov's inequality), so
-/// what counts as surprising needs no constant but the rate of false alarms.
+/// true, that mean would exceed 1 / a in a share a of all runs at most (Markov's
+/// inequality), so what counts as surprising needs no constant but the rate of false alarms.
 #pragma once
 
 #include <optional>
 
-#include "palpation/geometry/surface.h"
+#include "palpation/belief/belief.h"
 
 namespace palpation {
 
 enum class MisfitKind {
   Zero,        ///< readings lie higher or lower from some batch on
   Gain,        ///< from some batch on what stands out does so by more or less
+  Moved,       ///< from some batch on the tissue lies elsewhere, or the registration does
   WeakerPart,  ///< something stands out that the outline does not hold
 };
 
@@ -28,11 +29,23 @@ enum class MisfitKind {
 struct Misfit {
   MisfitKind kind = MisfitKind::Zero;
   double evidence = 0.0;  ///< nats: logarithm of the kind's mean Bayes factor
-  int from_batch = 0;     ///< Zero, Gain: the first batch that differs
-  /// Zero: by how much, in readings. Gain: the factor, less one. WeakerPart: its height above the
-  /// profile there, in readings.
+  int from_batch = 0;     ///< Zero, Gain: the first batch that differs. Moved: when it did
+  /// Zero: by how much, in readings. Gain: the factor, less one. Moved: how far, metres.
+  /// WeakerPart: its height above the profile there, in readings.
   double amount = 0.0;
+  Vec3 moved_m = Vec3::Zero();          ///< Moved: where to
   std::optional<SurfacePoint> where{};  ///< WeakerPart
 };
+
+inline constexpr double kMisfitKinds = 4.0;
+
+/// The change since some moment, of place or zero, that makes the field's readings more probable by
+/// the most: tissue that moved in its own plane, or whose registration did, by up to 6 mm, or a
+/// zero that moved by up to a contrast. Each kind is weighed by the mean, over eleven moments and
+/// over changes on a grid, all equally likely, of the readings' likelihood over that without a
+/// change, by the field that was learned as if there was none. Nothing where a change of gain
+/// explains more: that is for an edge to say, which knows the plateaus. `false_alarms`: as of
+/// EdgeBelief::misfits. Throws InvalidInput unless it lies in (0, 1).
+std::optional<Misfit> changed_since(const Belief& belief, double false_alarms = 0.02);
 
 }  // namespace palpation

@@ -95,6 +95,11 @@ struct Conclusion {
 /// The level in the readings' own unit, its standard deviation to first order.
 std::optional<Level> level_in_readings(const Conclusion& conclusion);
 
+/// What the readings say that the conclusion does not (misfit.h), the strongest first. A change of
+/// zero, gain or place from some batch on can pass for one of the others: only the strongest of the
+/// three is among them. Takes a tenth of a second.
+std::vector<Misfit> misfits(const Conclusion& conclusion);
+
 /// Beliefs that were made on the way to a conclusion, for the next one to grow by its fresh
 /// readings alone. It changes nothing but the time: what is concluded with it is what is concluded
 /// without, to the bit. Copies share.

@@ -19,9 +19,9 @@ struct SensorFaults {
 
 /// Something that changes once and for all, as when a sensor is fastened anew or the tissue slips.
 struct SensorChange {
-  int after_readings = 0;  ///< 0: never
-  double zero = 0.0;       ///< ranges that are added from then on
-  double gain = 1.0;       ///< of what is felt above the low plateau
+  int after_stops = 0;  ///< whatever is felt on the way; 0: never
+  double zero = 0.0;    ///< ranges that are added from then on
+  double gain = 1.0;    ///< of what is felt above the low plateau
   Vec3 moved_m =
       Vec3::Zero();  ///< the tissue: where the probe is said to be, it feels what was here from it
 };
@@ -34,12 +34,10 @@ class FaultySensor {
   /// Where the probe feels, when it is believed to be here.
   SurfacePoint feels_at(const Surface& surface, const SurfacePoint& where) const;
   /// What is reported of a reading. Draws as many numbers whatever strikes.
-  double reported(double reading, Random& random);
+  double reported(double reading, Random& random, TouchKind kind = TouchKind::Stop);
 
  private:
-  bool has_changed() const {
-    return change_.after_readings > 0 && readings_ >= change_.after_readings;
-  }
+  bool has_changed() const { return change_.after_stops > 0 && stops_ >= change_.after_stops; }
 
   SensorFaults faults_;
   SensorChange change_;
@@ -47,6 +45,7 @@ class FaultySensor {
   double range_;
   double last_;
   int readings_ = 0;
+  int stops_ = 0;
 };
 
 }  // namespace palpation

@@ -1,0 +1,210 @@
+// Whether readings fit tissue that moved, or a sensor that changed, while one touched.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "belief/likelihood.h"
+#include "palpation/base/error.h"
+#include "palpation/certainty/misfit.h"
+#include "readings/robust.h"
+
+namespace palpation {
+namespace {
+
+/// How far tissue may have moved, and how finely that is tried: a field's length is 3.5 mm. The
+/// best of these is looked at more closely, to be told.
+constexpr double kMost_m = 0.006, kStep_m = 0.002, kFinest_m = 0.0005;
+/// What a zero may have moved by, of the field's standard deviation: half of a contrast is one.
+constexpr std::array kZeros = {-2.0, -1.5, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 1.5, 2.0};
+/// What a gain may have changed to; and the part of the readings below which healthy ones lie, that
+/// it leaves alone.
+constexpr std::array kGains = {0.5, 0.7, 0.85, 1.2, 1.4, 2.0};
+constexpr double kLow = 0.1;
+/// The likelihood costs the third power of their number.
+constexpr std::size_t kMostReadings = 200;
+/// Moments are tried that part the readings into so many of equal number.
+constexpr std::size_t kSpans = 12;
+
+/// As they were made: a batch after the other.
+std::vector<Palpation> in_time(std::span<const Palpation> palpations) {
+  std::vector<Palpation> used, some;
+  std::ranges::copy_if(palpations, std::back_inserter(used), counts);
+  std::ranges::stable_sort(used, {}, &Palpation::batch);
+  const std::size_t stride = used.size() / kMostReadings + 1;
+  for (std::size_t i = 0; i < used.size(); i += stride) some.push_back(used[i]);
+  return some;
+}
+
+/// How probable the readings are if those since one of them were made otherwise.
+class ChangedField {
+ public:
+  explicit ChangedField(const Belief& belief)
+      : prior_(belief.prior()),
+        at_{prior_.kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())},
+        readings_(in_time(belief.palpations())) {
+    Vec3 normal = Vec3::Zero();
+    std::vector<double> values;
+    for (const Palpation& one : readings_) {
+      normal += prior_.surface().normal(one.where);
+      values.push_back(one.reading);
+    }
+    if (!values.empty()) low_ = quantile(values, kLow);
+    across_ = normal.unitOrthogonal();
+    along_ = normal.normalized().cross(across_);
+  }
+
+  const std::vector<Palpation>& readings() const { return readings_; }
+  double signal_sd() const { return at_.signal_sd; }
+
+  /// In the tissue's plane.
+  Vec3 in_plane(double across_m, double along_m) const {
+    return across_m * across_ + along_m * along_;
+  }
+
+  /// At the places of the tissue at rest, where each was made after it moved.
+  std::vector<Palpation> moved_by(const Vec3& move_m) const {
+    std::vector<Palpation> moved = readings_;
+    for (Palpation& one : moved)
+      one.where = prior_.surface().project(prior_.surface().position(one.where) - move_m);
+    return moved;
+  }
+
+  /// By the zero of before, where it has risen by so much.
+  std::vector<Palpation> lowered_by(double zero) const {
+    std::vector<Palpation> lowered = readings_;
+    for (Palpation& one : lowered) one.reading -= zero;
+    return lowered;
+  }
+
+  /// By the gain of before, where it is so many times as large.
+  std::vector<Palpation> divided_by(double gain) const {
+    std::vector<Palpation> divided = readings_;
+    for (Palpation& one : divided) one.reading = low_ + (one.reading - low_) / gain;
+    return divided;
+  }
+
+  double log_likelihood_unchanged() const {
+    return log_likelihood(prior_, gather_sites(prior_, readings_), at_);
+  }
+
+  /// Those since the first of them are these instead.
+  double log_likelihood_of(std::size_t first, const std::vector<Palpation>& instead) const {
+    const auto since = static_cast<std::ptrdiff_t>(first);
+    std::vector<Palpation> all(readings_.begin(), readings_.begin() + since);
+    all.insert(all.end(), instead.begin() + since, instead.end());
+    try {
+      return log_likelihood(prior_, gather_sites(prior_, all), at_);
+    } catch (const Error&) {
+      return -std::numeric_limits<double>::infinity();  // places brought together that the noise
+                                                        // does not part
+    }
+  }
+
+ private:
+  const Prior& prior_;
+  Hyperparameters at_;
+  std::vector<Palpation> readings_;
+  double low_ = 0.0;
+  Vec3 across_, along_;
+};
+
+/// Changes of one kind, each at every moment.
+class Changes {
+ public:
+  explicit Changes(const ChangedField& field)
+      : field_(field), unchanged_(field.log_likelihood_unchanged()) {}
+
+  /// `log_scale`: log of a reading's density over that of what stands for it.
+  void weigh(const std::vector<Palpation>& instead, Misfit change, double log_scale = 0.0) {
+    for (std::size_t span = 1; span < kSpans; ++span) {
+      const std::size_t first = span * field_.readings().size() / kSpans;
+      change.evidence = field_.log_likelihood_of(first, instead) - unchanged_ +
+                        log_scale * static_cast<double>(instead.size() - first);
+      ++rivals_;
+      if (!(change.evidence > best_.evidence)) {
+        others_ += std::exp(change.evidence - best_.evidence);
+        continue;
+      }
+      others_ = (1.0 + others_) * std::exp(best_.evidence - change.evidence);
+      change.from_batch = field_.readings()[first].batch;
+      best_ = change;
+      first_ = first;
+    }
+  }
+
+  /// The strongest, with the kind's evidence.
+  Misfit verdict() const {
+    Misfit misfit = best_;
+    misfit.evidence += std::log1p(others_) - std::log(rivals_);
+    return misfit;
+  }
+
+  /// Of the strongest.
+  std::size_t first() const { return first_; }
+
+ private:
+  const ChangedField& field_;
+  double unchanged_;
+  double rivals_ = 0.0, others_ = 0.0;  // others: their factors, over the best one's
+  Misfit best_{.evidence = -std::numeric_limits<double>::infinity()};
+  std::size_t first_ = 0;
+};
+
+Changes moves_of(const ChangedField& field) {
+  Changes moved(field);
+  const int steps = static_cast<int>(std::lround(kMost_m / kStep_m));
+  for (int i = -steps; i <= steps; ++i) {
+    for (int j = -steps; j <= steps; ++j) {
+      if (const int square = i * i + j * j; square == 0 || square > steps * steps) continue;
+      const Vec3 move_m = field.in_plane(i * kStep_m, j * kStep_m);
+      moved.weigh(field.moved_by(move_m), {.kind = MisfitKind::Moved, .moved_m = move_m});
+    }
+  }
+  return moved;
+}
+
+/// Uphill by steps that are halved.
+Vec3 closer_look(const ChangedField& field, std::size_t first, Vec3 move_m) {
+  double best = field.log_likelihood_of(first, field.moved_by(move_m));
+  for (double step_m = 0.5 * kStep_m; step_m >= kFinest_m; step_m *= 0.5) {
+    const Vec3 centre = move_m;
+    for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const Vec3 next = centre + field.in_plane(i * step_m, j * step_m);
+      const double there = field.log_likelihood_of(first, field.moved_by(next));
+      if (there > best) best = there, move_m = next;
+    }
+  }
+  return move_m;
+}
+
+}  // namespace
+
+std::optional<Misfit> changed_since(const Belief& belief, double false_alarms) {
+  require(false_alarms > 0.0 && false_alarms < 1.0, "changed_since",
+          "false_alarms = " + text_of(false_alarms), "must lie in (0, 1)");
+  const ChangedField field(belief);
+  if (field.readings().size() < kSpans) return std::nullopt;
+  const Changes moved = moves_of(field);
+  Changes zeros(field);
+  for (const double of_signal : kZeros) {
+    const double zero = of_signal * field.signal_sd();
+    zeros.weigh(field.lowered_by(zero), {.kind = MisfitKind::Zero, .amount = zero});
+  }
+  Changes gains(field);
+  for (const double gain : kGains)
+    gains.weigh(field.divided_by(gain), {.kind = MisfitKind::Gain, .amount = gain - 1.0},
+                -std::log(gain));
+  Misfit found =
+      std::ranges::max({moved.verdict(), zeros.verdict(), gains.verdict()}, {}, &Misfit::evidence);
+  const bool surprises = found.evidence > std::log(kMisfitKinds / false_alarms);
+  if (!surprises || found.kind == MisfitKind::Gain) return std::nullopt;
+  if (found.kind == MisfitKind::Moved) {
+    found.moved_m = closer_look(field, moved.first(), found.moved_m);
+    found.amount = found.moved_m.norm();
+  }
+  return found;
+}
+
+}  // namespace palpation
