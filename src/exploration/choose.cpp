@@ -51,18 +51,6 @@ std::vector<int> in_tour_order(const Surface& surface, const std::vector<int>& s
   return ordered;
 }
 
-/// By how sure the boundary is; the rest of the reasons show when the next batch is planned.
-std::string reason_to_stop(const Conclusion& conclusion, const StopRule& stop) {
-  const std::optional<Certainty>& certainty = conclusion.certainty;
-  // Without a boundary nothing is known of how wrong it is: a level that no reading crosses is no
-  // reason to stop.
-  if (!conclusion.evidence.contrast_seen || !certainty || certainty->half_width_m == 0.0) return "";
-  if (certainty->expected_in_all_m2() <= stop.error_m2 && stop.error_m2 > 0.0)
-    return "expected error";
-  if (certainty->half_width_m <= stop.band_m) return "band";
-  return "";
-}
-
 bool gains_too_little(const Conclusion& conclusion, const Plan& plan, const Progress& progress,
                       std::span<const int> stops) {
   return conclusion.evidence.contrast_seen && conclusion.certainty &&
@@ -86,7 +74,7 @@ Choice choose(const Surface& surface, const Conclusion& conclusion, const Plan& 
     stops = initial_design(surface, plan.initial.design, plan.initial.count, candidates, random);
   } else {
     if (done >= plan.batches) return {.stop_reason = "budget"};
-    if (std::string reason = reason_to_stop(conclusion, plan.stop); !reason.empty())
+    if (std::string reason = enough_known(conclusion, plan.stop); !reason.empty())
       return {.stop_reason = std::move(reason)};
     BatchOptions options = plan.batch;
     options.from = progress.probe;
@@ -98,6 +86,17 @@ Choice choose(const Surface& surface, const Conclusion& conclusion, const Plan& 
   if (!is_first && gains_too_little(conclusion, plan, progress, stops))
     return {.stop_reason = "nothing to gain"};
   return {.stops = std::move(stops)};
+}
+
+std::string enough_known(const Conclusion& conclusion, const StopRule& rule) {
+  const std::optional<Certainty>& certainty = conclusion.certainty;
+  // Without a boundary nothing is known of how wrong it is: a level that no reading crosses is no
+  // reason to rule.
+  if (!conclusion.evidence.contrast_seen || !certainty || certainty->half_width_m == 0.0) return "";
+  if (certainty->expected_in_all_m2() <= rule.error_m2 && rule.error_m2 > 0.0)
+    return "expected error";
+  if (certainty->half_width_m <= rule.band_m) return "band";
+  return "";
 }
 
 Field acquisition_field(const Conclusion& conclusion, const Plan& plan) {

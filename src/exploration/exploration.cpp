@@ -7,11 +7,22 @@
 #include "geometry/settled_point.h"
 
 namespace palpation {
+namespace {
 
-Exploration::Exploration(Surface surface, Model model, Plan plan, Reach reach)
+/// Goes on until something else is reason to stop.
+Plan without_promise(Plan plan) {
+  plan.stop.error_m2 = plan.stop.band_m = 0.0;
+  return plan;
+}
+
+}  // namespace
+
+Exploration::Exploration(Surface surface, Model model, Plan plan, Reach reach,
+                         std::optional<std::uint64_t> outlines_seed)
     : surface_(std::move(surface)),
       plan_(std::move(plan)),
       reach_(std::move(reach)),
+      outlines_seed_(outlines_seed),
       conclusion_(conclude(surface_, model, {}, &cache_)),
       choice_(choose(surface_, conclusion_, plan_, progress_, reach_)) {}
 
@@ -44,16 +55,26 @@ void Exploration::learn_from(std::span<const Palpation> fresh) {
   Progress progress = progress_of(surface_, conclusion, plan_, readings, &progress_);
   // What the acquisition finds best (equation 3), batch by batch, until enough is known.
   Choice choice = choose(surface_, conclusion, plan_, progress, reach_);
+  std::optional<Conclusion> drawn;
+  if (outlines_seed_ && choice.stops.empty() &&
+      choice.stop_reason == enough_known(conclusion, plan_.stop)) {
+    drawn = conclude(surface_, conclusion.model, readings, &cache, outlines_seed_);
+    if (enough_known(*drawn, plan_.stop).empty())
+      choice = choose(surface_, conclusion, without_promise(plan_), progress, reach_);
+  }
   // All of the step, or nothing: from here on nothing throws.
   readings_ = std::move(readings);
   cache_ = std::move(cache);
   conclusion_ = std::move(conclusion);
   progress_ = std::move(progress);
   choice_ = std::move(choice);
+  drawn_ = std::move(drawn);
 }
 
 void Exploration::draw_outlines(std::uint64_t seed) {
-  conclusion_ = conclude(surface_, conclusion_.model, readings_, &cache_, seed);
+  conclusion_ = drawn_ && outlines_seed_ == seed
+                    ? *drawn_
+                    : conclude(surface_, conclusion_.model, readings_, &cache_, seed);
 }
 
 void Exploration::foresee() {

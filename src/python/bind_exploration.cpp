@@ -1,3 +1,5 @@
+#include <pybind11/stl.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,15 +118,17 @@ void take_up(Shared& shared, const Readings& readings) {
 
 std::unique_ptr<Shared> exploration_of(const Surface& surface, const Model& model,
                                        const py::object& plan, const py::object& reach,
-                                       bool touch_once) {
+                                       bool touch_once,
+                                       std::optional<std::uint64_t> outlines_seed) {
   Reach within{.touch_once = touch_once};
   if (!reach.is_none()) {
     within.vertices = indices_of(reach, {kName, "reach"}, surface.vertex_count());
     require(!within.vertices.empty(), kName, "reach", "must name a vertex at least");
   }
   const Plan planned = plan.is_none() ? Plan() : plan.cast<const Planned&>().plan;
-  return std::make_unique<Shared>(
-      long_call([&] { return Explorer{Exploration(surface, model, planned, std::move(within))}; }));
+  return std::make_unique<Shared>(long_call([&] {
+    return Explorer{Exploration(surface, model, planned, std::move(within), outlines_seed)};
+  }));
 }
 
 void bind_stops(py::module_& module) {
@@ -205,10 +209,13 @@ void bind_exploration(py::module_& module) {
                                "\n\n    while stops := exploration.ask():\n"
                                "        exploration.tell(touch(stops.positions))");
   exploration
-      .def(py::init(&exploration_of), "surface"_a, "model"_a = Model(), "plan"_a = py::none(),
-           py::kw_only(), "reach"_a = py::none(), "touch_once"_a = false,
-           "reach: the vertices that may be touched, rising; None: all. touch_once: no vertex "
-           "twice.")
+      .def(
+          py::init(&exploration_of), "surface"_a, "model"_a = Model(), "plan"_a = py::none(),
+          py::kw_only(), "reach"_a = py::none(), "touch_once"_a = false,
+          "outlines_seed"_a = py::none(),
+          "reach: the vertices that may be touched, rising; None: all. touch_once: no vertex "
+          "twice. outlines_seed: the plan's stop_error_m2 and stop_band_m are reasons to stop only "
+          "where outlines that are drawn keep them, too, as the tool has it.")
       .def("ask", &ask,
            "The next stops; none when it is finished (see stop_reason). Changes nothing.")
       .def("tell", &tell, "readings"_a, py::kw_only(), "noise_variance"_a = py::none(),

@@ -64,7 +64,7 @@ Exploration coarse_planner(const Scene& scene, const Surface& surface, const Coa
                                               std::to_string(coarse.vertices.size()) +
                                               " vertices, fewer than are touched at once");
   return Exploration(Surface(coarse.mesh), model_of(scene), plan,
-                     coarse_reach(scene, surface, coarse, reach));
+                     coarse_reach(scene, surface, coarse, reach), outlines_seed_of(scene));
 }
 
 /// Plans on a coarse mesh; when all is felt, concludes on the whole one.
@@ -122,8 +122,9 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
 
 /// When all is felt: as sure as the scene asks to be.
 void conclude_finally(const Scene& scene, Episode& episode) {
-  if (scene.word("certainty") != "sampled" || !episode.conclusion().edge) return;
-  episode.exploration.draw_outlines(scene.seed());
+  const std::optional<std::uint64_t> seed = outlines_seed_of(scene);
+  if (!seed || !episode.conclusion().edge) return;
+  episode.exploration.draw_outlines(*seed);
   episode.trace.pop_back();
   restate(episode);
 }

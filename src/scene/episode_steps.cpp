@@ -35,9 +35,9 @@ Reach within_reach(const Scene& scene, const Surface& surface, Reach reach) {
 
 Episode started(const Scene& scene, const Surface& surface, Plan plan, Reach given_reach) {
   Reach reach = within_reach(scene, surface, std::move(given_reach));
-  return Episode{
-      .exploration = Exploration(surface, model_of(scene), std::move(plan), std::move(reach)),
-      .cut_risk = scene.number("band.cut_risk")};
+  return Episode{.exploration = Exploration(surface, model_of(scene), std::move(plan),
+                                            std::move(reach), outlines_seed_of(scene)),
+                 .cut_risk = scene.number("band.cut_risk")};
 }
 
 Episode started(const Scene& scene, const Surface& surface, const World& world, Plan plan) {

@@ -274,9 +274,12 @@ std::vector<SceneKey> make_scene_keys() {
             "draw no conclusion and explore by variance alone until the readings show contrast "
             "beyond their noise; no effect where field and level are both given"),
       number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, kBound,
-             "stop once the expected wrong area is no larger; 0: when the batches are done"),
+             "stop once the expected wrong area is no larger, with certainty = sampled by drawn "
+             "outlines, "
+             "too; 0: when the batches are done"),
       number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, kBound,
-             "stop once the band's mean half width is no larger; 0: when the batches are done"),
+             "stop once the band's mean half width is no larger, with certainty = sampled by drawn "
+             "outlines, too; 0: when the batches are done"),
       number("plan.stop.least_gain", "", 0.0, 1.0, kBound,
              "stop once three batches reduced the expected wrong area by less than this fraction, "
              "and the next would too; 0: when the batches are done"),

@@ -138,6 +138,11 @@ Plan plan_of(const Scene& scene) {
   return plan;
 }
 
+std::optional<std::uint64_t> outlines_seed_of(const Scene& scene) {
+  if (scene.word("certainty") != "sampled") return std::nullopt;
+  return scene.seed();
+}
+
 Robot robot_of(const Scene& scene) {
   Robot robot = bound(scene, robot_keys());
   if (const auto registration = registration_of(scene))

@@ -19,6 +19,8 @@ namespace palpation::tool {
 FieldModel field_of(const Scene& scene);
 Model model_of(const Scene& scene);
 Plan plan_of(const Scene& scene);
+/// Of the outlines that are drawn; nothing where Laplace's approximation is asked for.
+std::optional<std::uint64_t> outlines_seed_of(const Scene& scene);
 Robot robot_of(const Scene& scene);
 /// What the robot can touch, in the tissue's frame; where to keep out is not its own.
 Access access_of(const Scene& scene);

@@ -132,6 +132,46 @@ TEST(Stopping, ComesWhenTheBandIsNarrowEnough) {
   EXPECT_EQ(reason_of_a_run({.band_m = 0.002}, 0.01), "band");
 }
 
+/// Batches of a run to that error, with drawn outlines asked or not.
+int batches_to(double error_m2, std::optional<std::uint64_t> outlines_seed,
+               const std::function<void(const Exploration&)>& at_the_end) {
+  const Surface tissue = sheet(26, 51);
+  const Phantom phantom(tissue, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.006}},
+                        {.noise = 0.05});
+  Exploration exploration(
+      tissue, {.level = {.estimate = LevelEstimate::Edge}},
+      {.acquisition = straddle(), .batches = 15, .stop = {.error_m2 = error_m2}}, {},
+      outlines_seed);
+  Random random(3);
+  run(exploration, [&](const SurfacePoint& where, const Vec3&) {
+    return std::optional(phantom.touch(where, random));
+  });
+  at_the_end(exploration);
+  return exploration.batch();
+}
+
+TEST(Stopping, WaitsUntilDrawnOutlinesSayTheSame) {
+  constexpr double kError_m2 = 6e-6;
+  const int alone = batches_to(kError_m2, std::nullopt, [](const Exploration&) {});
+  const int confirmed = batches_to(kError_m2, 7, [&](const Exploration& exploration) {
+    ASSERT_EQ(exploration.stop_reason(), "expected error");
+    Exploration drawn = exploration, other = exploration;
+    drawn.draw_outlines(7);
+    EXPECT_LE(drawn.conclusion().certainty->expected_in_all_m2(), kError_m2);
+    // The outlines that were drawn to stop are those that are drawn at the end.
+    Exploration again(exploration.surface(), exploration.conclusion().model, exploration.plan(), {},
+                      7);
+    again.take_up(exploration.readings());
+    again.draw_outlines(7);
+    EXPECT_EQ(again.conclusion().certainty->expected_in_all_m2(),
+              drawn.conclusion().certainty->expected_in_all_m2());
+    other.draw_outlines(8);
+    EXPECT_NE(other.conclusion().certainty->expected_in_all_m2(),
+              drawn.conclusion().certainty->expected_in_all_m2());
+  });
+  EXPECT_GE(confirmed, alone);
+}
+
 TEST(Stopping, ComesWhenNothingIsToBeGained) {
   EXPECT_EQ(reason_of_a_run({.least_gain = 0.9}, 0.05), "nothing to gain");
 }

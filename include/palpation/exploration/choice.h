@@ -39,6 +39,9 @@ struct Choice {
 Choice choose(const Surface& surface, const Conclusion& conclusion, const Plan& plan,
               const Progress& progress, const Reach& reach = {});
 
+/// Whether enough is known: "expected error" or "band", as the rule asks for; else empty.
+std::string enough_known(const Conclusion& conclusion, const StopRule& rule);
+
 /// What the next batch maximizes, at the vertices.
 Field acquisition_field(const Conclusion& conclusion, const Plan& plan);
 

@@ -27,7 +27,11 @@ namespace palpation {
 class Exploration {
  public:
   /// Throws InvalidInput as `conclude` and `choose` say.
-  explicit Exploration(Surface surface, Model model = {}, Plan plan = {}, Reach reach = {});
+  /// With `outlines_seed` the plan's expected error and band are reasons to stop only where
+  /// outlines that are drawn (outline_posterior.h) keep them, too: asked after every batch,
+  /// Laplace's approximation is believed when it is luckiest.
+  explicit Exploration(Surface surface, Model model = {}, Plan plan = {}, Reach reach = {},
+                       std::optional<std::uint64_t> outlines_seed = std::nullopt);
 
   /// The next stops, in the order of travel from where the probe was last: first the initial
   /// design, then batches. Empty when finished.
@@ -73,11 +77,13 @@ class Exploration {
   Surface surface_;
   Plan plan_;
   Reach reach_;
+  std::optional<std::uint64_t> outlines_seed_;
   std::vector<Palpation> readings_;  // as they came
   ConclusionCache cache_;
   Conclusion conclusion_;
   Progress progress_;
   Choice choice_;
+  std::optional<Conclusion> drawn_;  // from all readings, where a stop rule asked for it
 };
 
 /// A touch: what the probe felt, or nothing where there was no contact. `travel` is the unit

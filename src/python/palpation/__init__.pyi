@@ -283,6 +283,7 @@ class Exploration:
         *,
         reach: npt.ArrayLike | None = ...,
         touch_once: bool = ...,
+        outlines_seed: int | None = ...,
     ) -> None: ...
     @property
     def surface(self) -> Surface: ...
