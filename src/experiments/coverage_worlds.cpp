@@ -110,6 +110,8 @@ void add_reliability(const Surface& surface, const World& world, const Field& pr
 std::string misfit_text(const Conclusion& conclusion) {
   constexpr std::array kNames = {"zero", "gain", "moved", "weaker"};
   std::string text;
+  for (const ZeroChange& one : conclusion.evidence.zero_changes)
+    text += (text.empty() ? "" : " ") + ("zero-back=" + reading_text(one.amount));
   for (const Misfit& one : misfits(conclusion))
     text += (text.empty() ? "" : " ") + std::string(kNames[static_cast<std::size_t>(one.kind)]) +
             "=" + fixed(one.evidence, 1);

@@ -5,6 +5,7 @@
 #include "exploration/believe.h"
 #include "exploration/find_boundary.h"
 #include "exploration/weak_parts.h"
+#include "exploration/zero_changes.h"
 #include "palpation/base/error.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
@@ -56,6 +57,22 @@ Marginals component_of(const Believed& believed, const Model& model, const Margi
   return component;
 }
 
+/// Of readings whose zero moved, as if it had not.
+Believed believed_with_one_zero(const Surface& surface, const Model& model,
+                                const std::vector<Palpation>& felt, ConclusionCache& cache) {
+  Believed believed = believe(surface, model, felt, cache);
+  if (!believed.evidence.contrast_seen) return believed;
+  ConclusionCache apart;
+  const auto again = [&](std::vector<Palpation> changed) {
+    return believe(surface, model, std::move(changed), apart).belief;
+  };
+  std::vector<ZeroChange> changes = zero_changes(believed.palpations, again, believed.belief);
+  if (changes.empty()) return believed;
+  believed = believe(surface, model, with_zeros_taken_back(felt, changes), apart);
+  believed.evidence.zero_changes = std::move(changes);
+  return believed;
+}
+
 }  // namespace
 
 Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
@@ -66,8 +83,8 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   const ReadingScale scale = model.contrast.scale;
   const Model scaled = on_scale(scale, model);
   // Equations (1) and (2), and whether they show more than noise.
-  Believed believed =
-      believe(surface, scaled, on_scale(scale, felt), cache != nullptr ? *cache : own);
+  Believed believed = believed_with_one_zero(surface, scaled, on_scale(scale, felt),
+                                             cache != nullptr ? *cache : own);
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
   Marginals marginals = believed.belief.at_vertices();

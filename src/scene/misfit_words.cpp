@@ -48,10 +48,21 @@ std::string words_of(const Surface& surface, const Misfit& misfit) {
   return "";
 }
 
+std::string zero_words(const ZeroChange& change) {
+  return "From batch " + std::to_string(change.batch) + ", reading " +
+         std::to_string(change.number + 1) + ", on readings lie " +
+         side_words(change.amount, "higher", "lower") +
+         " than before, wherever they are: the sensor's zero has moved. That much is taken from "
+         "them; "
+         "set it again.";
+}
+
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   std::vector<std::string> words;
+  for (const ZeroChange& change : conclusion.evidence.zero_changes)
+    words.push_back(zero_words(change));
   for (const Misfit& misfit : misfits(conclusion))
     words.push_back(words_of(conclusion.belief.prior().surface(), misfit));
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)

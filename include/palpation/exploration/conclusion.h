@@ -38,6 +38,14 @@ struct WeakerPart {
   double contrast = 0.0;  ///< there, above healthy tissue, in readings
 };
 
+/// From some reading on the sensor's zero lies elsewhere: that much was taken back.
+struct ZeroChange {
+  int batch = 0;           ///< of that reading
+  std::size_t number = 0;  ///< of Conclusion::palpations
+  double amount = 0.0;     ///< that it added, reading units (on the scale that is modelled)
+  double stddev = 0.0;
+};
+
 /// Whether the readings tell of a tumour at all.
 struct Evidence {
   bool contrast_seen = false;
@@ -49,6 +57,8 @@ struct Evidence {
   std::vector<Palpation> standing_alone{};
   /// What was taken out of the boundary as too weak for a tumour.
   std::vector<WeakerPart> weaker{};
+  /// In the order in which they were found.
+  std::vector<ZeroChange> zero_changes{};
 
   /// Whether level and boundary may be concluded.
   bool allows_boundary() const { return contrast_seen && !trend_is_missing; }

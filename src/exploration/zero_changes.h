@@ -1,0 +1,27 @@
+/// A sensor's zero that moved while one touched, taken back.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "palpation/belief/belief.h"
+#include "palpation/exploration/conclusion.h"
+
+namespace palpation {
+
+/// The readings, those since each change less what it added.
+std::vector<Palpation> with_zeros_taken_back(std::vector<Palpation> palpations,
+                                             std::span<const ZeroChange> changes);
+
+/// The changes that readings show by a field which is believed in them anew after each: a reading
+/// is then field + offset + noise, the offset normal, its standard deviation the field's, from some
+/// reading on. A change is weighed as a misfit is (misfit.h), the mean over all moments, and passes
+/// where tissue that moved, or a gain, explains less (changed_since). `palpations`: as they were
+/// made; `believe`: the belief of some. Nothing where readings have no noise, or a slope is
+/// modelled, which trades with a step.
+std::vector<ZeroChange> zero_changes(std::span<const Palpation> palpations,
+                                     const std::function<Belief(std::vector<Palpation>)>& believe,
+                                     const Belief& first);
+
+}  // namespace palpation
