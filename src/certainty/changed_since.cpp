@@ -22,6 +22,9 @@ constexpr std::array kZeros = {-2.0, -1.5, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 1.
 /// it leaves alone.
 constexpr std::array kGains = {0.5, 0.7, 0.85, 1.2, 1.4, 2.0};
 constexpr double kLow = 0.1;
+/// Noise is taken to be no less, of the field's standard deviation: a smooth field does not follow
+/// an edge more closely, and what it misses there is no change.
+constexpr double kLeastNoise = 0.1;
 /// The likelihood costs the third power of their number.
 constexpr std::size_t kMostReadings = 200;
 /// Moments are tried that part the readings into so many of equal number.
@@ -42,7 +45,8 @@ class ChangedField {
  public:
   explicit ChangedField(const Belief& belief)
       : prior_(belief.prior()),
-        at_{prior_.kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())},
+        at_{prior_.kernel().length_m, belief.signal_sd(),
+            std::max(std::sqrt(belief.noise_variance()), kLeastNoise * belief.signal_sd())},
         readings_(in_time(belief.palpations())) {
     Vec3 normal = Vec3::Zero();
     std::vector<double> values;
