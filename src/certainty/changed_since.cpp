@@ -1,8 +1,10 @@
 // Whether readings fit tissue that moved, or a sensor that changed, while one touched.
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "belief/likelihood.h"
@@ -40,6 +42,12 @@ std::vector<Palpation> in_time(std::span<const Palpation> palpations) {
   return some;
 }
 
+/// Readings in place of others, at places so far off in the metric's coordinates.
+struct Instead {
+  std::vector<Palpation> readings;
+  Vec3 shift = Vec3::Zero();
+};
+
 /// How probable the readings are if those since one of them were made otherwise.
 class ChangedField {
  public:
@@ -57,6 +65,7 @@ class ChangedField {
     if (!values.empty()) low_ = quantile(values, kLow);
     across_ = normal.unitOrthogonal();
     along_ = normal.normalized().cross(across_);
+    if (!readings_.empty() && prior_.surface().is_planar()) coordinates_ = metric_in_plane();
   }
 
   const std::vector<Palpation>& readings() const { return readings_; }
@@ -67,25 +76,28 @@ class ChangedField {
     return across_m * across_ + along_m * along_;
   }
 
-  /// At the places of the tissue at rest, where each was made after it moved.
-  std::vector<Palpation> moved_by(const Vec3& move_m) const {
-    std::vector<Palpation> moved = readings_;
-    for (Palpation& one : moved)
+  /// At the places of the tissue at rest, where each was made after it moved. On planar tissue
+  /// these are as far off in the metric's coordinates, border or not.
+  Instead moved_by(const Vec3& move_m) const {
+    if (prior_.surface().is_planar())
+      return {readings_, -(coordinates_ * Vec2(move_m.dot(across_), move_m.dot(along_)))};
+    Instead moved{readings_};
+    for (Palpation& one : moved.readings)
       one.where = prior_.surface().project(prior_.surface().position(one.where) - move_m);
     return moved;
   }
 
   /// By the zero of before, where it has risen by so much.
-  std::vector<Palpation> lowered_by(double zero) const {
-    std::vector<Palpation> lowered = readings_;
-    for (Palpation& one : lowered) one.reading -= zero;
+  Instead lowered_by(double zero) const {
+    Instead lowered{readings_};
+    for (Palpation& one : lowered.readings) one.reading -= zero;
     return lowered;
   }
 
   /// By the gain of before, where it is so many times as large.
-  std::vector<Palpation> divided_by(double gain) const {
-    std::vector<Palpation> divided = readings_;
-    for (Palpation& one : divided) one.reading = low_ + (one.reading - low_) / gain;
+  Instead divided_by(double gain) const {
+    Instead divided{readings_};
+    for (Palpation& one : divided.readings) one.reading = low_ + (one.reading - low_) / gain;
     return divided;
   }
 
@@ -94,12 +106,14 @@ class ChangedField {
   }
 
   /// Those since the first of them are these instead.
-  double log_likelihood_of(std::size_t first, const std::vector<Palpation>& instead) const {
-    const auto since = static_cast<std::ptrdiff_t>(first);
-    std::vector<Palpation> all(readings_.begin(), readings_.begin() + since);
-    all.insert(all.end(), instead.begin() + since, instead.end());
+  double log_likelihood_of(std::size_t first, const Instead& instead) const {
     try {
-      return log_likelihood(prior_, gather_sites(prior_, all), at_);
+      std::vector<Site> sites = gather_sites(prior_, std::span(readings_).first(first));
+      for (Site& site : gather_sites(prior_, std::span(instead.readings).subspan(first))) {
+        site.place.coordinates += instead.shift;
+        sites.push_back(std::move(site));
+      }
+      return log_likelihood(prior_, sites, at_);
     } catch (const Error&) {
       return -std::numeric_limits<double>::infinity();  // places brought together that the noise
                                                         // does not part
@@ -107,11 +121,28 @@ class ChangedField {
   }
 
  private:
+  /// Planar tissue lies in the metric's coordinates as in space, turned.
+  Eigen::Matrix<double, 3, 2> metric_in_plane() const {
+    const auto count = static_cast<Eigen::Index>(readings_.size());
+    Eigen::MatrixX2d plane(count, 2);
+    Eigen::MatrixX3d metric(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const SurfacePoint& where = readings_[static_cast<std::size_t>(i)].where;
+      const Vec3 position = prior_.surface().position(where);
+      plane.row(i) << position.dot(across_), position.dot(along_);
+      metric.row(i) = prior_.place(where).coordinates;
+    }
+    plane.rowwise() -= Eigen::RowVector2d(plane.colwise().mean());
+    metric.rowwise() -= Eigen::RowVector3d(metric.colwise().mean());
+    return plane.completeOrthogonalDecomposition().solve(metric).transpose();
+  }
+
   const Prior& prior_;
   Hyperparameters at_;
   std::vector<Palpation> readings_;
   double low_ = 0.0;
   Vec3 across_, along_;
+  Eigen::Matrix<double, 3, 2> coordinates_;  // of the metric, by each of these
 };
 
 /// Changes of one kind, each at every moment.
@@ -121,11 +152,11 @@ class Changes {
       : field_(field), unchanged_(field.log_likelihood_unchanged()) {}
 
   /// `log_scale`: log of a reading's density over that of what stands for it.
-  void weigh(const std::vector<Palpation>& instead, Misfit change, double log_scale = 0.0) {
+  void weigh(const Instead& instead, Misfit change, double log_scale = 0.0) {
     for (std::size_t span = 1; span < kSpans; ++span) {
       const std::size_t first = span * field_.readings().size() / kSpans;
       change.evidence = field_.log_likelihood_of(first, instead) - unchanged_ +
-                        log_scale * static_cast<double>(instead.size() - first);
+                        log_scale * static_cast<double>(instead.readings.size() - first);
       ++rivals_;
       if (!(change.evidence > best_.evidence)) {
         others_ += std::exp(change.evidence - best_.evidence);
