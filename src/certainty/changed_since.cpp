@@ -7,9 +7,11 @@
 #include <span>
 #include <utility>
 
+#include "base/log_mean.h"
 #include "belief/likelihood.h"
 #include "palpation/base/error.h"
 #include "palpation/certainty/misfit.h"
+#include "readings/readings.h"
 #include "readings/robust.h"
 
 namespace palpation {
@@ -32,13 +34,9 @@ constexpr std::size_t kMostReadings = 200;
 /// Moments are tried that part the readings into so many of equal number.
 constexpr std::size_t kSpans = 12;
 
-/// As they were made: a batch after the other.
-std::vector<Palpation> in_time(std::span<const Palpation> palpations) {
-  std::vector<Palpation> used, some;
-  std::ranges::copy_if(palpations, std::back_inserter(used), counts);
-  std::ranges::stable_sort(used, {}, &Palpation::batch);
-  const std::size_t stride = used.size() / kMostReadings + 1;
-  for (std::size_t i = 0; i < used.size(); i += stride) some.push_back(used[i]);
+std::vector<Palpation> telling(std::span<const Palpation> palpations) {
+  std::vector<Palpation> some;
+  for (const std::size_t i : in_time(palpations, kMostReadings)) some.push_back(palpations[i]);
   return some;
 }
 
@@ -55,7 +53,7 @@ class ChangedField {
       : prior_(belief.prior()),
         at_{prior_.kernel().length_m, belief.signal_sd(),
             std::max(std::sqrt(belief.noise_variance()), kLeastNoise * belief.signal_sd())},
-        readings_(in_time(belief.palpations())) {
+        readings_(telling(belief.palpations())) {
     Vec3 normal = Vec3::Zero();
     std::vector<double> values;
     for (const Palpation& one : readings_) {
@@ -157,12 +155,8 @@ class Changes {
       const std::size_t first = span * field_.readings().size() / kSpans;
       change.evidence = field_.log_likelihood_of(first, instead) - unchanged_ +
                         log_scale * static_cast<double>(instead.readings.size() - first);
-      ++rivals_;
-      if (!(change.evidence > best_.evidence)) {
-        others_ += std::exp(change.evidence - best_.evidence);
-        continue;
-      }
-      others_ = (1.0 + others_) * std::exp(best_.evidence - change.evidence);
+      factors_.add(change.evidence);
+      if (!(change.evidence > best_.evidence)) continue;
       change.from_batch = field_.readings()[first].batch;
       best_ = change;
       first_ = first;
@@ -172,7 +166,7 @@ class Changes {
   /// The strongest, with the kind's evidence.
   Misfit verdict() const {
     Misfit misfit = best_;
-    misfit.evidence += std::log1p(others_) - std::log(rivals_);
+    misfit.evidence = factors_.value();
     return misfit;
   }
 
@@ -182,7 +176,7 @@ class Changes {
  private:
   const ChangedField& field_;
   double unchanged_;
-  double rivals_ = 0.0, others_ = 0.0;  // others: their factors, over the best one's
+  LogMean factors_;
   Misfit best_{.evidence = -std::numeric_limits<double>::infinity()};
   std::size_t first_ = 0;
 };
@@ -216,9 +210,7 @@ Vec3 closer_look(const ChangedField& field, std::size_t first, Vec3 move_m) {
 
 }  // namespace
 
-std::optional<Misfit> changed_since(const Belief& belief, double false_alarms) {
-  require(false_alarms > 0.0 && false_alarms < 1.0, "changed_since",
-          "false_alarms = " + text_of(false_alarms), "must lie in (0, 1)");
+std::optional<Misfit> changed_since(const Belief& belief) {
   const ChangedField field(belief);
   if (field.readings().size() < kSpans) return std::nullopt;
   const Changes moved = moves_of(field);
@@ -233,8 +225,7 @@ std::optional<Misfit> changed_since(const Belief& belief, double false_alarms) {
                 -std::log(gain));
   Misfit found =
       std::ranges::max({moved.verdict(), zeros.verdict(), gains.verdict()}, {}, &Misfit::evidence);
-  const bool surprises = found.evidence > std::log(kMisfitKinds / false_alarms);
-  if (!surprises || found.kind == MisfitKind::Gain) return std::nullopt;
+  if (!(found.evidence > surprising())) return std::nullopt;
   if (found.kind == MisfitKind::Moved) {
     found.moved_m = closer_look(field, moved.first(), found.moved_m);
     found.amount = found.moved_m.norm();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "base/log_mean.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/layout.h"
 #include "palpation/base/error.h"
@@ -13,6 +14,7 @@
 namespace palpation {
 namespace {
 
+constexpr double kKinds = 4.0;  // zero, gain, place, parts
 /// What a rival may add, standard deviations: of the contrast, and of a gain.
 constexpr double kPart = 0.5;
 /// Radii of parts that are tried; they begin so far outside of the outline.
@@ -39,13 +41,12 @@ class Kind {
     const double before = rows.residual.dot(rows.fit.pull), b = column.dot(rows.fit.pull);
     const double a = kPart * kPart * column.dot(rows.fit.covariance.solve(column));
     const double after = before - kPart * kPart * b * b / (1.0 + a);
-    ++rivals_;
-    if (!(after > 0.0)) return;
+    if (!(after > 0.0)) return factors_.add(-std::numeric_limits<double>::infinity());
     rival.evidence = rows.log_weight +
                      0.5 * static_cast<double>(column.size()) * std::log(before / after) -
                      0.5 * std::log1p(a);
     rival.amount *= kPart * kPart * b / (1.0 + a);
-    sum_ = std::max(sum_, rival.evidence) + std::log1p(std::exp(-std::abs(sum_ - rival.evidence)));
+    factors_.add(rival.evidence);
     if (!best_ || rival.evidence > best_->evidence) best_ = rival;
   }
 
@@ -53,13 +54,12 @@ class Kind {
   std::optional<Misfit> verdict() const {
     if (!best_) return std::nullopt;
     Misfit misfit = *best_;
-    misfit.evidence = sum_ - std::log(rivals_);
+    misfit.evidence = factors_.value();
     return misfit;
   }
 
  private:
-  double rivals_ = 0.0;
-  double sum_ = -std::numeric_limits<double>::infinity();
+  LogMean factors_;
   std::optional<Misfit> best_;
 };
 
@@ -112,9 +112,14 @@ void weigh_parts(const Explained& rows, const Layout& layout, Kind& weaker) {
 
 }  // namespace
 
-std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
+double surprising(double false_alarms) {
   require(false_alarms > 0.0 && false_alarms < 1.0, "misfits",
           "false_alarms = " + text_of(false_alarms), "must lie in (0, 1)");
+  return std::log(kKinds / false_alarms);
+}
+
+std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
+  const double least = surprising(false_alarms);
   Kind zero, gain, weaker;
   for (const auto& one : fits_) {
     const EdgeFit& fit = one->edge;
@@ -134,8 +139,7 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   std::vector<Misfit> found;
   for (const Kind* kind : {&zero, &gain, &weaker}) {
     const std::optional<Misfit> verdict = kind->verdict();
-    if (verdict && verdict->evidence > std::log(kMisfitKinds / false_alarms))
-      found.push_back(*verdict);
+    if (verdict && verdict->evidence > least) found.push_back(*verdict);
   }
   if (std::ranges::find(found, MisfitKind::WeakerPart, &Misfit::kind) == found.end())
     found.insert(found.end(), weaker_.begin(), weaker_.end());

@@ -134,7 +134,8 @@ std::optional<Level> level_in_readings(const Conclusion& conclusion) {
 std::vector<Misfit> misfits(const Conclusion& conclusion) {
   std::vector<Misfit> found;
   if (conclusion.edge) found = conclusion.edge->misfits();
-  if (const auto change = changed_since(conclusion.belief)) found.push_back(*change);
+  const std::optional<Misfit> change = changed_since(conclusion.belief);
+  if (change && change->kind == MisfitKind::Moved) found.push_back(*change);
   std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
   const auto changed = [](const Misfit& one) { return one.kind != MisfitKind::WeakerPart; };
   if (const auto strongest = std::ranges::find_if(found, changed); strongest != found.end())

@@ -3,10 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <optional>
+#include <utility>
 
+#include "base/log_mean.h"
 #include "palpation/certainty/misfit.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
@@ -18,23 +21,28 @@ constexpr std::size_t kFewest = 12;
 constexpr std::size_t kMostChanges = 4;
 /// Of the constant that all readings share, of the field's standard deviation: it is not known.
 constexpr double kConstant = 30.0;
-constexpr double kFalseAlarms = 0.02;
-
-/// Numbers of those that count, as they were made: a batch after the other.
-std::vector<std::size_t> in_time(std::span<const Palpation> palpations) {
-  std::vector<std::size_t> used, some;
-  for (std::size_t i = 0; i < palpations.size(); ++i) {
-    if (counts(palpations[i])) used.push_back(i);
-  }
-  std::ranges::stable_sort(used, {}, [&](std::size_t i) { return palpations[i].batch; });
-  const std::size_t stride = used.size() / kMost + 1;
-  for (std::size_t i = 0; i < used.size(); i += stride) some.push_back(used[i]);
-  return some;
-}
+/// Whose ground a place is on, so many of the readings nearest to it say, all but one.
+constexpr std::size_t kNeighbours = 4;
 
 bool is_since(const ZeroChange& change, const Palpation& palpation, std::size_t number) {
   return palpation.batch > change.batch ||
          (palpation.batch == change.batch && number >= change.number);
+}
+
+/// Of each reading, those nearest to it.
+std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Vec3>& places) {
+  std::vector<std::vector<std::size_t>> all;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::vector<std::pair<double, std::size_t>> others;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      if (j != i) others.emplace_back((places[j] - places[i]).squaredNorm(), j);
+    }
+    const auto most = others.begin() + kNeighbours;
+    std::partial_sort(others.begin(), most, others.end());
+    std::vector<std::size_t>& near = all.emplace_back();
+    for (auto other = others.begin(); other != most; ++other) near.push_back(other->second);
+  }
+  return all;
 }
 
 /// Steps in readings of a field with a constant that is not known.
@@ -44,7 +52,12 @@ class Steps {
         std::span<const std::size_t> numbers)
       : palpations_(palpations), numbers_(numbers), variance_(square(belief.signal_sd())) {
     std::vector<SurfacePoint> places;
-    for (const std::size_t i : numbers) places.push_back(palpations[i].where);
+    std::vector<Vec3> positions;
+    for (const std::size_t i : numbers) {
+      places.push_back(palpations[i].where);
+      positions.push_back(belief.prior().coordinates(places.back()));
+    }
+    neighbours_ = neighbours_of(positions);
     const auto count = static_cast<Eigen::Index>(numbers.size());
     Kernel kernel = belief.prior().kernel();
     kernel.signal_sd = belief.signal_sd();
@@ -86,28 +99,47 @@ class Steps {
     }
     const Eigen::VectorXd pull = inverse * readings_;
     const double before = readings_.dot(pull);
-    const auto count = readings_.size();
-    double sum_a = 0.0, sum_b = 0.0, best = -std::numeric_limits<double>::infinity();
-    std::vector<double> evidence;
+    const auto evidence_of = [&](const Eigen::VectorXd& added) {
+      const double a = added.dot(inverse * added), b = added.dot(pull);
+      return 0.5 * static_cast<double>(added.size()) *
+                 std::log(before / (before - square(b) / (a + 1.0 / variance_))) -
+             0.5 * std::log1p(a * variance_);
+    };
+    LogMean steps_in_time, steps_in_space;
+    double best = -std::numeric_limits<double>::infinity();
     Eigen::Index first = 0;
-    for (Eigen::Index i = count - 1; i > 0; --i) {
-      sum_a += inverse(i, i) + 2.0 * inverse.col(i).tail(count - 1 - i).sum();
-      sum_b += pull[i];
-      const double after = before - square(sum_b) / (sum_a + 1.0 / variance_);
-      evidence.push_back(0.5 * static_cast<double>(count) * std::log(before / after) -
-                         0.5 * std::log1p(sum_a * variance_));
-      if (evidence.back() > best) best = evidence.back(), first = i;
+    for (Eigen::Index i = 1; i < readings_.size(); ++i) {
+      const Eigen::VectorXd step = Eigen::VectorXd::NullaryExpr(
+          readings_.size(), [&](Eigen::Index row) { return row >= i ? 1.0 : 0.0; });
+      const double evidence = evidence_of(step);
+      steps_in_time.add(evidence);
+      steps_in_space.add(evidence_of(in_space(step)));
+      if (evidence > best) best = evidence, first = i;
     }
-    double others = 0.0;
-    for (const double one : evidence) others += std::exp(one - best);
-    const double mean = best + std::log(others / static_cast<double>(evidence.size()));
-    if (!(mean > std::log(kMisfitKinds / kFalseAlarms))) return std::nullopt;
+    const double mean = steps_in_time.value() - std::max(0.0, steps_in_space.value());
+    if (!(mean > surprising())) return std::nullopt;
     const std::size_t number = numbers_[static_cast<std::size_t>(first)];
     return ZeroChange{.batch = palpations_[number].batch, .number = number};
   }
 
  private:
   static double square(double value) { return value * value; }
+
+  /// The step that the tissue itself would make, whose readings are high on the ground where those
+  /// since then were made: each as those around it.
+  Eigen::VectorXd in_space(const Eigen::VectorXd& in_time) const {
+    Eigen::VectorXd in_space = in_time;
+    for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const auto differs = [&](std::size_t near) {
+        return in_time[static_cast<Eigen::Index>(near)] != in_time[row];
+      };
+      const auto others = std::ranges::count_if(neighbours_[i], differs);
+      if (others + 1 >= static_cast<std::ptrdiff_t>(kNeighbours))
+        in_space[row] = 1.0 - in_time[row];
+    }
+    return in_space;
+  }
 
   Eigen::MatrixXd columns(const std::vector<ZeroChange>& changes) const {
     Eigen::MatrixXd steps(readings_.size(), static_cast<Eigen::Index>(changes.size()));
@@ -130,6 +162,7 @@ class Steps {
   double variance_;  // of a step
   Eigen::VectorXd readings_;
   Eigen::MatrixXd inverse_;
+  std::vector<std::vector<std::size_t>> neighbours_;
 };
 
 bool is_of_the_zero(const Belief& belief) {
@@ -152,7 +185,7 @@ std::vector<Palpation> with_zeros_taken_back(std::vector<Palpation> palpations,
 std::vector<ZeroChange> zero_changes(std::span<const Palpation> palpations,
                                      const std::function<Belief(std::vector<Palpation>)>& believe,
                                      const Belief& first) {
-  const std::vector<std::size_t> numbers = in_time(palpations);
+  const std::vector<std::size_t> numbers = in_time(palpations, kMost);
   std::vector<ZeroChange> changes;
   Belief belief = first;
   while (numbers.size() >= kFewest && changes.size() < kMostChanges &&

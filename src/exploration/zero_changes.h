@@ -16,8 +16,10 @@ std::vector<Palpation> with_zeros_taken_back(std::vector<Palpation> palpations,
 
 /// The changes that readings show by a field which is believed in them anew after each: a reading
 /// is then field + offset + noise, the offset normal, its standard deviation the field's, from some
-/// reading on. A change is weighed as a misfit is (misfit.h), the mean over all moments, and passes
-/// where tissue that moved, or a gain, explains less (changed_since). `palpations`: as they were
+/// reading on. A change is weighed as a misfit is (misfit.h), by the mean over all moments; against
+/// the same step made by the tissue itself, on the ground where those since then were made, which a
+/// raster cannot tell from it; and passes where tissue that moved, or a gain, explains less
+/// (changed_since). `palpations`: as they were
 /// made; `believe`: the belief of some. Nothing where readings have no noise, or a slope is
 /// modelled, which trades with a step.
 std::vector<ZeroChange> zero_changes(std::span<const Palpation> palpations,

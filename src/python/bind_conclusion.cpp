@@ -59,7 +59,7 @@ py::dict summary(const Concluded& here) {
       "level"_a = level ? py::object(py::float_(level->value)) : py::none(),
       "level_sd"_a = level ? maybe(level->stddev) : py::none(),
       "transform"_a = all.scale() == ReadingScale::Log ? "log" : "none",
-      "tip_hides_all()"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
+      "tip_hides_all"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
       "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
       "expected_untouched_m2"_a = py::none(), "band_probability"_a = py::none(),
       "band_half_width_m"_a = py::none());
@@ -72,6 +72,11 @@ py::dict summary(const Concluded& here) {
     result["band_probability"] = certainty.probability;
     result["band_half_width_m"] = certainty.half_width_m;
   }
+  py::list zero_changes;
+  for (const ZeroChange& change : all.evidence.zero_changes)
+    zero_changes.append(py::dict("reading"_a = change.number, "batch"_a = change.batch,
+                                 "amount"_a = change.amount, "amount_sd"_a = change.stddev));
+  result["zero_changes"] = zero_changes;
   if (all.lag) {
     result["lag_m"] = all.lag->value_m;
     result["lag_sd_m"] = all.lag->stddev_m;

@@ -20,6 +20,17 @@ std::vector<double> used_readings(std::span<const Palpation> palpations) {
   return readings;
 }
 
+std::vector<std::size_t> in_time(std::span<const Palpation> palpations, std::size_t most) {
+  std::vector<std::size_t> used, some;
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    if (counts(palpations[i])) used.push_back(i);
+  }
+  std::ranges::stable_sort(used, {}, [&](std::size_t i) { return palpations[i].batch; });
+  const std::size_t stride = (used.size() + most - 1) / most;
+  for (std::size_t i = 0; i < used.size(); i += stride) some.push_back(used[i]);
+  return some;
+}
+
 PlacedReadings placed_readings(const Surface& surface, std::span<const Palpation> palpations) {
   const std::vector<double> readings = used_readings(palpations);
   PlacedReadings placed{Eigen::MatrixX3d(readings.size(), 3),

@@ -14,7 +14,11 @@ namespace palpation {
 /// Of the palpations that count, in their order.
 std::vector<double> used_readings(std::span<const Palpation> palpations);
 
-/// The same with their places in space, metres, a row each.
+/// Numbers of those that count, as they were made, a batch after the other; evenly thinned to at
+/// most so many.
+std::vector<std::size_t> in_time(std::span<const Palpation> palpations, std::size_t most);
+
+/// Readings that count with their places in space, metres, a row each.
 struct PlacedReadings {
   Eigen::MatrixX3d places;
   Eigen::VectorXd readings;

@@ -23,10 +23,22 @@ std::string side_words(double amount, const std::string& more, const std::string
   return reading_text(std::abs(amount)) + " " + (amount > 0.0 ? more : less);
 }
 
-std::string words_of(const Surface& surface, const Misfit& misfit) {
+/// "0.5 higher", or of logarithms "1.65 times as high".
+std::string raised_words(ReadingScale scale, double amount) {
+  if (scale == ReadingScale::Log) return fixed(std::exp(amount), 2) + " times as high";
+  return side_words(amount, "higher", "lower");
+}
+
+std::string standing_out_words(ReadingScale scale, double amount) {
+  if (scale == ReadingScale::Log)
+    return "reads " + fixed(std::exp(amount), 2) + " times as much as tissue around it";
+  return (amount > 0.0 ? "stands out by " : "reads less by ") + reading_text(std::abs(amount));
+}
+
+std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& misfit) {
   switch (misfit.kind) {
     case MisfitKind::Zero:
-      return since_words(misfit) + "readings lie " + side_words(misfit.amount, "higher", "lower") +
+      return since_words(misfit) + "readings lie " + raised_words(scale, misfit.amount) +
              " than before, wherever they are: set the sensor's zero again and touch anew, or take "
              "the earlier ones out.";
     case MisfitKind::Gain:
@@ -41,20 +53,18 @@ std::string words_of(const Surface& surface, const Misfit& misfit) {
              "outline is of both.";
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
-             (misfit.amount > 0.0 ? "stands out by " : "reads less by ") +
-             reading_text(std::abs(misfit.amount)) +
+             standing_out_words(scale, misfit.amount) +
              ", which the outline does not hold. Touch there.";
   }
   return "";
 }
 
-std::string zero_words(const ZeroChange& change) {
+std::string zero_words(ReadingScale scale, const ZeroChange& change) {
   return "From batch " + std::to_string(change.batch) + ", reading " +
          std::to_string(change.number + 1) + ", on readings lie " +
-         side_words(change.amount, "higher", "lower") +
+         raised_words(scale, change.amount) +
          " than before, wherever they are: the sensor's zero has moved. That much is taken from "
-         "them; "
-         "set it again.";
+         "them; set it again.";
 }
 
 }  // namespace
@@ -62,9 +72,9 @@ std::string zero_words(const ZeroChange& change) {
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   std::vector<std::string> words;
   for (const ZeroChange& change : conclusion.evidence.zero_changes)
-    words.push_back(zero_words(change));
+    words.push_back(zero_words(conclusion.scale(), change));
   for (const Misfit& misfit : misfits(conclusion))
-    words.push_back(words_of(conclusion.belief.prior().surface(), misfit));
+    words.push_back(words_of(conclusion.belief.prior().surface(), conclusion.scale(), misfit));
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
     words.push_back(apart_words(conclusion.outlines->disagreement));
   return words;

@@ -275,8 +275,7 @@ std::vector<SceneKey> make_scene_keys() {
             "beyond their noise; no effect where field and level are both given"),
       number("plan.stop.expected_error_mm2", "mm2", 0.0, 1e12, kBound,
              "stop once the expected wrong area is no larger, with certainty = sampled by drawn "
-             "outlines, "
-             "too; 0: when the batches are done"),
+             "outlines, too; 0: when the batches are done"),
       number("plan.stop.band_mm", "mm", 0.0, kMostLength_mm, kBound,
              "stop once the band's mean half width is no larger, with certainty = sampled by drawn "
              "outlines, too; 0: when the batches are done"),

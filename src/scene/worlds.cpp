@@ -73,6 +73,7 @@ Probe faulty_probe(const Scene& scene, const Surface& surface, const DrawnWorld&
   return [=](const SurfacePoint& where, const Vec3& travel) {
     Palpation palpation = phantom->touch(sensor->feels_at(surface, where), travel, *random);
     palpation.where = where;
+    // Stops are at vertices, readings on the way between them.
     const TouchKind kind = surface.vertex_at(where) >= 0 ? TouchKind::Stop : TouchKind::Way;
     palpation.reading = sensor->reported(palpation.reading, *faults, kind);
     return std::optional(palpation);

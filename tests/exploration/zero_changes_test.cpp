@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -92,6 +93,45 @@ TEST(ZeroChanges, AreNotWhatTissueThatMovedReads) {
   };
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     EXPECT_TRUE(concluded(moved, seed).evidence.zero_changes.empty()) << seed;
+}
+
+/// Row by row, stiff from some row on: the tissue steps when time does.
+TEST(ZeroChanges, AreNotWhatARasterFindsOverTissueThatIsStiffBeyondALine) {
+  const Surface surface = tissue();
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    std::vector<Palpation> raster;
+    for (int i = 0; i < kReadings; ++i) {
+      const int row = i / 10;
+      const Vec3 place(0.0015 + 0.0024 * row, 0.0015 + 0.0024 * (i % 10), 0.0);
+      const double stiff = 2.0 / (1.0 + std::exp(-1400.0 * (place.x() - 0.0125)));
+      raster.push_back({.where = surface.project(place),
+                        .reading = 7.0 + stiff + kNoise * random.normal(),
+                        .batch = row});
+    }
+    const Conclusion conclusion =
+        conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, raster);
+    EXPECT_TRUE(conclusion.evidence.zero_changes.empty()) << seed;
+    EXPECT_NEAR(conclusion.level->value, 8.0, 0.2);
+    for (const Misfit& misfit : misfits(conclusion)) EXPECT_NE(misfit.kind, MisfitKind::Zero);
+  }
+}
+
+/// The probe goes on where it found something: what comes later is stiff.
+TEST(ZeroChanges, AreNotATumourThatIsTouchedLast) {
+  const Surface surface = tissue();
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    std::vector<Palpation> palpations = felt(surface, sound, seed);
+    const auto is_outside = [&](const Palpation& one) {
+      return (surface.position(one.where) - Vec3(0.0105, 0.0125, 0.0)).norm() > 0.006;
+    };
+    std::ranges::stable_partition(palpations, is_outside);
+    for (std::size_t i = 0; i < palpations.size(); ++i)
+      palpations[i].batch = static_cast<int>(i / 10);
+    EXPECT_TRUE(conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, palpations)
+                    .evidence.zero_changes.empty())
+        << seed;
+  }
 }
 
 }  // namespace

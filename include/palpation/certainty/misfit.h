@@ -37,15 +37,16 @@ struct Misfit {
   std::optional<SurfacePoint> where{};  ///< WeakerPart
 };
 
-inline constexpr double kMisfitKinds = 4.0;
+/// What a kind's evidence must exceed, nats, so that a true model is doubted in so many runs at
+/// most, all kinds together. Throws InvalidInput unless that lies in (0, 1).
+double surprising(double false_alarms = 0.02);
 
-/// The change since some moment, of place or zero, that makes the field's readings more probable by
-/// the most: tissue that moved in its own plane, or whose registration did, by up to 6 mm, or a
-/// zero that moved by up to a contrast. Each kind is weighed by the mean, over eleven moments and
-/// over changes on a grid, all equally likely, of the readings' likelihood over that without a
-/// change, by the field that was learned as if there was none. Nothing where a change of gain
-/// explains more: that is for an edge to say, which knows the plateaus. `false_alarms`: as of
-/// EdgeBelief::misfits. Throws InvalidInput unless it lies in (0, 1).
-std::optional<Misfit> changed_since(const Belief& belief, double false_alarms = 0.02);
+/// The change since some moment, of place, zero or gain, that makes the field's readings more
+/// probable by the most, where it surprises: tissue that moved in its own plane, or whose
+/// registration did, by up to 6 mm, a zero that moved by up to a contrast, a gain of half to twice.
+/// Each kind is weighed by the mean, over eleven moments and over changes on a grid, all equally
+/// likely, of the readings' likelihood over that without a change, by the field that was learned as
+/// if there was none.
+std::optional<Misfit> changed_since(const Belief& belief);
 
 }  // namespace palpation

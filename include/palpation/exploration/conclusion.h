@@ -68,8 +68,8 @@ struct Conclusion {
   Model model;  ///< that it was concluded under
   /// The readings as they were made, with the reason where one is set aside.
   std::vector<Palpation> palpations;
-  /// Knows the same readings, where a lag is modelled at the places where they belong, and those on
-  /// the way that are next to each other as one.
+  /// Knows the same readings, less what a zero that moved added, where a lag is modelled at the
+  /// places where they belong, and those on the way that are next to each other as one.
   Belief belief;
   /// The whole field: its variance is what touches are planned by.
   Marginals marginals;
@@ -105,9 +105,10 @@ struct Conclusion {
 /// The level in the readings' own unit, its standard deviation to first order.
 std::optional<Level> level_in_readings(const Conclusion& conclusion);
 
-/// What the readings say that the conclusion does not (misfit.h), the strongest first. A change of
-/// zero, gain or place from some batch on can pass for one of the others: only the strongest of the
-/// three is among them. Takes a tenth of a second.
+/// What the readings say that the conclusion does not (misfit.h), the strongest first; of the field
+/// that they moved with the tissue, where that explains more than a zero or a gain (changed_since).
+/// Of changes of zero, gain and place one can pass for another: only the strongest is among them.
+/// Takes a tenth of a second.
 std::vector<Misfit> misfits(const Conclusion& conclusion);
 
 /// Beliefs that were made on the way to a conclusion, for the next one to grow by its fresh
