@@ -54,7 +54,8 @@ std::vector<Misfit> misfits_of(const World& world, std::uint64_t seed, int readi
   constexpr double kFirstLevels[] = {8.0};
   std::vector<Misfit> found =
       EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value().misfits();
-  if (const auto change = changed_since(belief)) found.push_back(*change);
+  const std::optional<Misfit> change = changed_since(belief);
+  if (change && change->kind == MisfitKind::Moved) found.push_back(*change);
   std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
   return found;
 }

@@ -7,9 +7,9 @@
 ///     (r' C^-1 r / r' (C + h S h')^-1 r)^(n/2) (1 + h' C^-1 h S)^(-1/2),
 ///
 /// and a kind of misfit by the mean over its rivals: when it began, where it lies, what kind of
-/// outline there is (edge_belief.h). Were the model
-/// true, that mean would exceed 1 / a in a share a of all runs at most (Markov's
-/// inequality), so what counts as surprising needs no constant but the rate of false alarms.
+/// outline there is (edge_belief.h). Were the model true, that mean would exceed 1 / a in a share a
+/// of all runs at most (Markov's inequality), so what counts as surprising needs no constant but
+/// the rate of false alarms.
 #pragma once
 
 #include <optional>
