@@ -23,10 +23,10 @@ std::string side_words(double amount, const std::string& more, const std::string
   return reading_text(std::abs(amount)) + " " + (amount > 0.0 ? more : less);
 }
 
-/// "0.5 higher", or of logarithms "1.65 times as high".
+/// "0.5 higher than before", or of logarithms "1.65 times as high as before".
 std::string raised_words(ReadingScale scale, double amount) {
-  if (scale == ReadingScale::Log) return fixed(std::exp(amount), 2) + " times as high";
-  return side_words(amount, "higher", "lower");
+  if (scale == ReadingScale::Log) return fixed(std::exp(amount), 2) + " times as high as before";
+  return side_words(amount, "higher", "lower") + " than before";
 }
 
 std::string standing_out_words(ReadingScale scale, double amount) {
@@ -39,7 +39,7 @@ std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& m
   switch (misfit.kind) {
     case MisfitKind::Zero:
       return since_words(misfit) + "readings lie " + raised_words(scale, misfit.amount) +
-             " than before, wherever they are: set the sensor's zero again and touch anew, or take "
+             ", wherever they are: set the sensor's zero again and touch anew, or take "
              "the earlier ones out.";
     case MisfitKind::Gain:
       return since_words(misfit) + "what stands out does so " + fixed(1.0 + misfit.amount, 2) +
@@ -63,7 +63,7 @@ std::string zero_words(ReadingScale scale, const ZeroChange& change) {
   return "From batch " + std::to_string(change.batch) + ", reading " +
          std::to_string(change.number + 1) + ", on readings lie " +
          raised_words(scale, change.amount) +
-         " than before, wherever they are: the sensor's zero has moved. That much is taken from "
+         ", wherever they are: the sensor's zero has moved. That much is taken from "
          "them; set it again.";
 }
 

@@ -143,6 +143,11 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
     result["lag_sd_mm"] =
         episode.conclusion().lag ? json(episode.conclusion().lag->stddev_m * kMm) : json(nullptr);
   }
+  for (const ZeroChange& change : episode.conclusion().evidence.zero_changes)
+    result["zero_changes"].push_back({{"batch", change.batch},
+                                      {"reading", change.number + 1},
+                                      {"amount", change.amount},
+                                      {"amount_sd", change.stddev}});
   const bool found = !episode.estimate.empty();
   const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
   result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;

@@ -6,6 +6,7 @@ usage: worlds_test.py PALPATE [Worlds.test_...]        needs Python 3
 
 import json
 import math
+import random
 import sys
 import unittest
 
@@ -90,6 +91,31 @@ class Worlds(InFolder):
         self.assertGreater(raw["level"], log["level"] + 0.1)
         self.refused(self.scene(field={"transform": "log", "noise": 0.1}), "field.noise")
         self.refused(self.scene(field={"transform": "log"}, plan={"min_contrast": 1.0}), "plan.min_contrast")
+
+    def test_a_zero_that_moves_is_taken_back_and_said(self):
+        scene = self.scene(probe={"world": "sensor-shift", "noise": 0.05}, plan={"batches": 9})
+        summary = self.summary("simulate", scene, "--seed", 11)
+        (change,) = summary["zero_changes"]
+        self.assertAlmostEqual(change["reading"], 41, delta=3)  # the catalogue's, after 40 stops
+        said = f"From batch {change['batch']}, reading {change['reading']}, on readings lie {change['amount']:.3f} higher than before"
+        self.assertTrue(any(words.startswith(said) for words in summary["warnings"]), summary["warnings"])
+        self.assertLess(summary["error"]["symmetric_difference_mm2"], 20)
+
+    def test_of_logarithms_a_zero_that_moves_is_a_factor(self):
+        random.seed(1)
+        rows = ["x,y,z,reading,batch"]
+        for touch in range(100):
+            x, y = random.uniform(0, 25), random.uniform(0, 50)
+            stiff = 1 + 2 / (1 + math.exp(-1.2 * (6 - math.hypot(x - 12, y - 25))))
+            factor = 1.8 if touch >= 50 else 1
+            rows.append(f"{x / 1e3},{y / 1e3},0,{stiff * factor * math.exp(random.gauss(0, 0.03))},{touch // 10}")
+        felt = self.folder / "felt.csv"
+        felt.write_text("\n".join(rows) + "\n")
+        summary = self.summary("boundary", self.scene(field={"transform": "log"}), "--measurements", felt)
+        (change,) = summary["zero_changes"]
+        self.assertAlmostEqual(change["amount"], math.log(1.8), delta=0.05)
+        said = f"{math.exp(change['amount']):.2f} times as high as before"
+        self.assertIn(said, " ".join(summary["warnings"]))
 
     def test_a_search_with_a_goal_says_how_far_it_is(self):
         short = self.scene(plan={"goal": {"max_undetected_diameter_mm": 6}, "batches": 1}, probe={"noise": 0.05})
