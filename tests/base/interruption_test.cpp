@@ -35,14 +35,21 @@ TEST(Interruptible, EndsWorkInPiecesWithWhatItThrows) {
 
 TEST(Interruptible, EndsWorkThatHasBegunAndTheNextIsWhole) {
   set_thread_count(2);
-  std::atomic<bool> is_asked{false};
+  const std::thread::id mine = std::this_thread::get_id();
+  std::atomic<bool> is_stopped{false};
   {
+    bool is_asked = false;
     const Interruptible scope([&] {
-      if (is_asked) throw Stop();
+      if (!is_asked) return;
+      is_stopped = true;
+      is_stopped.notify_all();
+      throw Stop();
     });
     EXPECT_THROW(pieces_done([&](int) {
-                   is_asked = true;
-                   std::this_thread::yield();
+                   if (std::this_thread::get_id() == mine)
+                     is_asked = true;
+                   else
+                     is_stopped.wait(false);  // or the other thread might do all the pieces alone
                  }),
                  Stop);
   }
