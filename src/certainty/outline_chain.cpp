@@ -88,15 +88,6 @@ void OutlineChain::keep_fresh() {
   for (const auto& [reading, felt] : fresh_) felt_[reading] = felt;
 }
 
-std::vector<double> OutlineChain::deepest_readings() const {
-  std::vector<double> deepest(profile_.log_contrast.size(), 0.0);
-  for (std::size_t i = 0; i < felt_.size(); ++i) {
-    double& of_part = deepest[part_of(felt_[i])];
-    of_part = std::max(of_part, felt_[i].depth_m);
-  }
-  return deepest;
-}
-
 double OutlineChain::log_density() const {
   double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
   for (const Felt& felt : felt_) sum += felt.log_likelihood;
@@ -225,7 +216,8 @@ bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape,
   if (is_of_shape) {
     change += log_shape_density(outline_, profile) - log_shape_density(outline_, profile_);
   } else {
-    const bool keeps_shares = law.slope_per_m == law_.slope_per_m;
+    const bool keeps_shares = law.slope_per_m == law_.slope_per_m &&
+                              law.shoulder == law_.shoulder && law.skirt == law_.skirt;
     for (std::size_t i = 0; i < felt_.size(); ++i) {
       Felt felt = felt_[i];
       if (!keeps_shares) felt.share = share_at(law, felt.depth_m);

@@ -45,9 +45,6 @@ class OutlineChain {
   const Cuts& cuts() const { return cuts_; }
   const OutlineProfile& profile() const { return profile_; }
   const ReadingLaw& law() const { return law_; }
-  /// Of each part, the depth of its deepest reading; 0 where none is
-  /// inside.
-  std::vector<double> deepest_readings() const;
   /// Of the posterior, without what depends on nothing that moves; as it was added up step by step.
   double log_density() const;
 

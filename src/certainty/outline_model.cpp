@@ -11,18 +11,34 @@ namespace {
 constexpr double kWild = 0.01;          ///< part of the readings that tell nothing
 constexpr double kWildReach = 12.0;     ///< of these, in plateau_sd: three times the range
 constexpr double kTurnLogSd = 1.0;      ///< of the turns' half width
+constexpr double kPlateau = 2.0 / 3.0;  ///< part of the tumours that are as equation 4 has them
+constexpr double kUnbentLogSd = 0.25;   ///< of shoulder and skirt there
+constexpr double kBentLogSd = 0.5;      ///< elsewhere
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 
 double half_square(double z) { return 0.5 * z * z; }
 
+double bent(double t, double power) { return std::sinh(power * std::asinh(t)) / power; }
+
+double logit(double share) { return std::log(share / (1.0 - share)); }
+
+/// Of shoulder and skirt.
+double bend_density(const OutlineProfile& profile, double log_sd) {
+  return std::exp(-half_square(profile.log_shoulder / log_sd) -
+                  half_square(profile.log_skirt / log_sd)) /
+         (2.0 * std::numbers::pi * log_sd * log_sd);
+}
+
 }  // namespace
 
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
   ReadingLaw law{.low = profile.low,
                  .slope_per_m = std::exp(profile.log_slope),
-                 .logit_fraction = std::log(prior.fraction / (1.0 - prior.fraction)),
+                 .shoulder = std::exp(profile.log_shoulder),
+                 .skirt = std::exp(profile.log_skirt),
+                 .logit_fraction = logit(prior.fraction),
                  .contrast = {},
                  .noise_square = std::exp(2.0 * profile.log_noise),
                  .wild_density = kWild / (kWildReach * prior.plateau_sd)};
@@ -32,7 +48,14 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
 }
 
 double share_at(const ReadingLaw& law, double depth_m) {
-  return sigmoid(law.slope_per_m * depth_m + law.logit_fraction);
+  const double steps = law.slope_per_m * depth_m;
+  return sigmoid(bent(steps, steps > 0.0 ? law.shoulder : law.skirt) + law.logit_fraction);
+}
+
+double depth_where(const ReadingLaw& law, double share) {
+  const double steps = logit(share) - law.logit_fraction,
+               power = steps > 0.0 ? law.shoulder : law.skirt;
+  return bent(power * steps, 1.0 / power) / (law.slope_per_m * power);
 }
 
 double log_likelihood(const ReadingLaw& law, double reading, double variance, double rise) {
@@ -80,7 +103,15 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
-  return -sum;
+  return std::log(kPlateau * bend_density(profile, kUnbentLogSd) +
+                  (1.0 - kPlateau) * bend_density(profile, kBentLogSd)) -
+         sum;
+}
+
+double plateau_probability(const OutlineProfile& profile) {
+  const double with = kPlateau * bend_density(profile, kUnbentLogSd),
+               without = (1.0 - kPlateau) * bend_density(profile, kBentLogSd);
+  return with / (with + without);
 }
 
 }  // namespace palpation

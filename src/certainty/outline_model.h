@@ -6,10 +6,13 @@
 /// with the outline. Pieces are about as long as each other. Depth is the signed distance to the
 /// polygon, and a reading
 ///
-///     low + contrast (high - low) / (1 + exp(-(slope depth + logit fraction))) + noise
+///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction))) + noise
 ///
-/// (equation 4 of Garg et al. 2016, zero where the boundary is), the noise normal but for a reading
-/// in a hundred, which tells nothing. Cuts take from the inside (outline_cut.h).
+/// the noise normal but for a reading in a hundred, which tells nothing. Unbent, that is equation 4
+/// of Garg et al. 2016, zero where the boundary is; bent(t) = sinh(k asinh t) / k (Jones and Pewsey
+/// 2009) is t near the boundary and goes on as t^k, with a k for each side: a round top or a sharp
+/// one, the wide skirt of something that lies deep or none. Cuts take from the inside
+/// (outline_cut.h).
 #pragma once
 
 #include <vector>
@@ -30,6 +33,8 @@ struct OutlineProfile {
   double low = 0.0;
   double high = 0.0;
   double log_slope = 0.0;            ///< of a slope per metre
+  double log_shoulder = 0.0;         ///< of the power with which readings rise on inside
+  double log_skirt = 0.0;            ///< and fall on outside
   double log_noise = 0.0;            ///< of what the noise's standard deviations are multiplied by
   double log_turn = 0.0;             ///< of the law's half width, radians
   std::vector<double> log_spacing;   ///< of each loop's pieces, metres
@@ -47,7 +52,7 @@ struct OutlinePrior {
 
 /// How readings come from depths, by a profile.
 struct ReadingLaw {
-  double low, slope_per_m, logit_fraction;
+  double low, slope_per_m, shoulder, skirt, logit_fraction;
   std::vector<double> contrast;  ///< of each part
   double noise_square;           ///< what variances are multiplied by
   double wild_density;           ///< of a reading that tells nothing, times how many there are
@@ -56,6 +61,8 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
 
 /// What share of its contrast tissue has at a depth.
 double share_at(const ReadingLaw& law, double depth_m);
+/// The depth at which it has so much of it, which lies in (0, 1).
+double depth_where(const ReadingLaw& law, double share);
 /// Log density of a reading where tissue reads so much higher than `low`.
 double log_likelihood(const ReadingLaw& law, double reading, double variance, double rise);
 
@@ -66,7 +73,10 @@ double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& no
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
 /// Of all nodes.
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile);
-/// Of the profile itself.
+/// Of the profile itself. Two tumours in three are as equation 4 has them, with a plateau; the
+/// others are bent, and no law tells how high they would be if they were wider.
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);
+/// That one with such bends is of the first kind.
+double plateau_probability(const OutlineProfile& profile);
 
 }  // namespace palpation

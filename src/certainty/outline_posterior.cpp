@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <utility>
 
 #include "certainty/outline_start.h"
 #include "certainty/outline_walk.h"
@@ -73,30 +73,48 @@ double share_inside(double depth_m, double width_m) {
   return std::clamp(depth_m / width_m + 0.5, 0.0, 1.0);
 }
 
-double depth_of(const OutlineDraw& draw, const OutlinePieces& pieces, const Vec2& place) {
-  const OutlineNodes& outline = draw.outline;
-  const auto [square, piece] = pieces.nearest(place);
-  double depth = pieces.encloses(place) ? std::sqrt(square) : -std::sqrt(square);
-  for (const Stadium& cut : draw.cuts) depth = std::min(depth, -cut.depth_at(place));
-  return depth + draw.wider_m[outline.loops[outline.loop_of[piece]].part];
+/// How deep each of the places lies in the drawn boundary, and the level there, of the first part.
+std::pair<Eigen::RowVectorXf, double> depths_of(const OutlineDraw& draw, const Points2& places) {
+  const OutlinePieces pieces(draw.outline);
+  Eigen::RowVectorXf depths(places.rows());
+  std::vector<int> part_of(static_cast<std::size_t>(places.rows()));
+  std::vector<double> greatest(draw.profile.log_contrast.size(), 0.0);
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    const Vec2 place = places.row(i).transpose();
+    const auto [square, piece] = pieces.nearest(place);
+    double depth = pieces.encloses(place) ? std::sqrt(square) : -std::sqrt(square);
+    for (const Stadium& cut : draw.cuts) depth = std::min(depth, -cut.depth_at(place));
+    const int part = draw.outline.loops[draw.outline.loop_of[piece]].part;
+    greatest[part] = std::max(greatest[part], depth);
+    depths[i] = static_cast<float>(depth);
+    part_of[i] = part;
+  }
+  std::vector<float> wider;
+  std::vector<double> share;  // of the contrast, at the boundary of each part
+  for (const double deepest : greatest) {
+    const double height = draw.has_plateau ? 1.0 : share_at(draw.law, deepest);
+    share.push_back(height * share_at(draw.law, 0.0));
+    wider.push_back(static_cast<float>(-depth_where(draw.law, share.back())));
+  }
+  for (Eigen::Index i = 0; i < places.rows(); ++i) depths[i] += wider[part_of[i]];
+  return {depths, draw.law.low + draw.law.contrast.front() * share.front()};
 }
 
-/// The draws' depths: rows are draws, columns vertices.
-Eigen::MatrixXf depths_at(const Surface& surface, const Draws& draws) {
-  const Points2& uv = surface.chart().uv;
-  Eigen::MatrixXf depths(static_cast<Eigen::Index>(draws.size()), surface.vertex_count());
-  std::vector<OutlinePieces> pieces;
-  for (const OutlineDraw& draw : draws) pieces.emplace_back(draw.outline);
-  for_ranges(surface.vertex_count(), kVerticesAtOnce, [&](int first, int last) {
-    for (int vertex = first; vertex < last; ++vertex) {
-      const Vec2 place = uv.row(vertex).transpose();
-      for (std::size_t i = 0; i < draws.size(); ++i) {
-        depths(static_cast<Eigen::Index>(i), vertex) =
-            static_cast<float>(depth_of(draws[i], pieces[i], place));
-      }
+struct DrawnBoundaries {
+  Eigen::MatrixXf depths;  ///< rows are draws, columns vertices
+  std::vector<double> levels;
+};
+DrawnBoundaries boundaries_at(const Surface& surface, const Draws& draws) {
+  DrawnBoundaries all{{static_cast<Eigen::Index>(draws.size()), surface.vertex_count()},
+                      std::vector(draws.size(), 0.0)};
+  for_ranges(static_cast<int>(draws.size()), 1, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const auto [depths, level] = depths_of(draws[i], surface.chart().uv);
+      all.depths.row(i) = depths;
+      all.levels[i] = level;
     }
   });
-  return depths;
+  return all;
 }
 
 /// How far each draw's outline, where it crosses the mesh's edges, lies from the boundary.
@@ -170,11 +188,10 @@ void add_areas(const Surface& surface, const Eigen::MatrixXf& depths, OutlinePos
   posterior.area_m2 = summed_up(std::move(areas));
 }
 
-Level level_of(const Draws& draws, double fraction) {
+Level level_of(const std::vector<double>& levels) {
   double sum = 0.0, square = 0.0;
-  const auto count = static_cast<double>(draws.size());
-  for (const OutlineDraw& draw : draws) {
-    const double level = draw.profile.low + fraction * (draw.profile.high - draw.profile.low);
+  const auto count = static_cast<double>(levels.size());
+  for (const double level : levels) {
     sum += level;
     square += level * level;
   }
@@ -204,13 +221,13 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   const std::optional<OutlineStart> start = outline_start(belief, edge, options);
   if (!start) return std::nullopt;
   const auto [draws, disagreement] = drawn(*start, options);
-  const Eigen::MatrixXf depths = depths_at(surface, draws);
+  const auto [depths, levels] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = {},
                              .spread = {},
                              .farthest = {},
                              .expected = {},
                              .area_m2 = {},
-                             .level = level_of(draws, options.fraction),
+                             .level = level_of(levels),
                              .disagreement = disagreement};
   add_depths(depths, posterior);
   add_areas(surface, depths, posterior);

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/sigmoid.h"
 #include "palpation/base/interruption.h"
 
 namespace palpation {
@@ -39,7 +38,7 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   for (auto& lengths : lengths_.of_loops) lengths.fill(kFirst_m);
   lengths_.of_contrasts.assign(chain_.profile().log_contrast.size(), 0.1);
   const double plateau = 0.2 * prior.plateau_sd;
-  lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1};
+  lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1, 0.1, 0.1};
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
 }
 
@@ -61,17 +60,11 @@ std::vector<OutlineDraw> OutlineWalk::draws(int sweeps, int count) {
 }
 
 OutlineDraw OutlineWalk::drawn() {
-  OutlineDraw draw{
-      .outline = chain_.outline(), .profile = chain_.profile(), .wider_m = {}, .cuts = {}};
-  const ReadingLaw& law = chain_.law();
-  const bool has_plateau = random_.below(2) == 0;
-  const double fraction = sigmoid(law.logit_fraction),
-               of_felt = has_plateau ? 0.0 : random_.uniform();
-  for (const double deepest : chain_.deepest_readings()) {
-    const double level = fraction * (1.0 - of_felt * (1.0 - share_at(law, deepest)));
-    draw.wider_m.push_back((law.logit_fraction - std::log(level / (1.0 - level))) /
-                           law.slope_per_m);
-  }
+  OutlineDraw draw{.outline = chain_.outline(),
+                   .profile = chain_.profile(),
+                   .law = chain_.law(),
+                   .has_plateau = random_.uniform() < plateau_probability(chain_.profile()),
+                   .cuts = {}};
   for (const OutlineCut& cut : chain_.cuts()) {
     if (cut.is_present) draw.cuts.push_back(cut.stadium());
   }
@@ -152,8 +145,9 @@ void OutlineWalk::move_loop(int loop, int kind) {
 void OutlineWalk::move_profile() {
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
-    double* const number[kOfProfile] = {&profile.low, &profile.high, &profile.log_slope,
-                                        &profile.log_noise, &profile.log_turn};
+    double* const number[kOfProfile] = {
+        &profile.low,       &profile.high,      &profile.log_slope, &profile.log_shoulder,
+        &profile.log_skirt, &profile.log_noise, &profile.log_turn};
     *number[i] += lengths_.of_profile[i] * random_.normal();
     const bool is_turn = i == kOfProfile - 1;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);

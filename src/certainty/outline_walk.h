@@ -15,11 +15,11 @@ namespace palpation {
 struct OutlineDraw {
   OutlineNodes outline;
   OutlineProfile profile;
-  /// How much deeper than in the outline a place lies in the tumour, for each part, metres. A
-  /// tumour has a plateau, and its boundary at the fraction of that; or, as likely, none: then it
-  /// is as high as its readings, or higher up to that plateau, which they do not tell, and its
-  /// boundary at the fraction of that height.
-  std::vector<double> wider_m;
+  ReadingLaw law;  ///< of the profile
+  /// A tumour has a plateau, and its boundary, the outline, at the fraction of that; or, as likely,
+  /// none: then it is as high as it is where it is deepest, and its boundary at the fraction of
+  /// that height.
+  bool has_plateau = true;
   std::vector<Stadium> cuts;
 };
 
@@ -37,7 +37,7 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 5, kOfCut = 4;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 7, kOfCut = 4;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres

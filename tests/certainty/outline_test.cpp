@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "certainty/outline_chain.h"
 #include "certainty/outline_walk.h"
@@ -62,6 +63,57 @@ TEST(OutlineNodes, AHoleIsOutside) {
   EXPECT_EQ(ring.loops[1].turns, -1.0);
   EXPECT_NEAR(depth_in(ring, kMm * Vec2(4, 4)), -1 * kMm, 1e-15);
   EXPECT_NEAR(depth_in(ring, kMm * Vec2(4, 2)), 1 * kMm, 1e-15);
+}
+
+ReadingLaw bent_law(double log_shoulder, double log_skirt) {
+  OutlinePrior prior;
+  prior.fraction = 0.3;
+  const OutlineProfile profile{.low = 7.0,
+                               .high = 9.0,
+                               .log_slope = std::log(1200.0),
+                               .log_shoulder = log_shoulder,
+                               .log_skirt = log_skirt,
+                               .log_spacing = {std::log(kMm)},
+                               .log_contrast = {0.0}};
+  return law_of(profile, prior);
+}
+
+TEST(ReadingLaw, UnbentIsEquationFour) {
+  const ReadingLaw law = bent_law(0.0, 0.0);
+  for (const double depth : {-20 * kMm, -1.3 * kMm, 0.0, 0.4 * kMm, 15 * kMm}) {
+    const double share = 1.0 / (1.0 + std::exp(-1200.0 * depth - std::log(0.3 / 0.7)));
+    EXPECT_NEAR(share_at(law, depth), share, 1e-14);
+  }
+}
+
+// At great depths bent(t) is close to (2 t)^k / (2 k): log odds of shares are known by hand.
+TEST(ReadingLaw, GoesOnAsAPowerOfTheDepthOnEitherSide) {
+  const ReadingLaw law = bent_law(std::log(0.5), std::log(0.25));
+  const auto bend = [&](double depth) {
+    const double share = share_at(law, depth);
+    return std::log(share / (1.0 - share)) - std::log(0.3 / 0.7);
+  };
+  EXPECT_NEAR(bend(100 * kMm), std::pow(240.0, 0.5), 0.07);
+  EXPECT_NEAR(bend(-100 * kMm), -4.0 * std::sinh(0.25 * std::asinh(120.0)), 1e-9);
+  EXPECT_NEAR(bend(0.001 * kMm), 0.0012, 1e-9);  // as steep at the boundary as unbent
+}
+
+TEST(ReadingLaw, HasEachShareAtOneDepth) {
+  for (const double log_shoulder : {-1.5, 0.0, 0.9}) {
+    const ReadingLaw law = bent_law(log_shoulder, 0.6);
+    for (const double share : {0.001, 0.1, 0.3, 0.5, 0.97})
+      EXPECT_NEAR(share_at(law, depth_where(law, share)), share, 1e-12);
+  }
+}
+
+// Shares of normal densities, by hand: at no bend 2/3 / .25^2 against 1/3 / .5^2.
+TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheLessItIsBent) {
+  OutlineProfile profile;
+  EXPECT_NEAR(plateau_probability(profile), 8.0 / 9.0, 1e-12);
+  profile.log_shoulder = 0.5;
+  EXPECT_NEAR(plateau_probability(profile), 8.0 / (8.0 + std::exp(1.5)), 1e-12);
+  profile.log_skirt = -1.0;
+  EXPECT_LT(plateau_probability(profile), 0.01);
 }
 
 // A hundred pieces: more than are measured at once.
@@ -245,6 +297,45 @@ TEST(OutlineWalk, FindsAHoleThatItsStartDoesNotKnow) {
         draw.cuts, [](const Stadium& cut) { return cut.depth_at(kMm * Vec2(8, 8)) > 1.5 * kMm; });
   }
   EXPECT_GE(with_hole, 95);
+}
+
+// What is felt above a small sphere, r from its middle, is (1 + r^2 / z^2)^(-3/2) of its height
+// (Boussinesq 1885): no sigmoid, no plateau, and half of the height at 6 mm.
+TEST(OutlineWalk, FindsWhereAHillHasHalfOfItsHeight) {
+  constexpr double kHalf_m = 6 * kMm;
+  const double z2 = kHalf_m * kHalf_m / (std::cbrt(4.0) - 1.0);
+  Random random(16);
+  OutlineReadings readings;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 place = kMm * Vec2(-20.0 + 40.0 * random.uniform(), -20.0 + 40.0 * random.uniform());
+    readings.places.push_back(place);
+    readings.reading.push_back(7.0 + 2.0 * std::pow(1.0 + place.squaredNorm() / z2, -1.5) +
+                               0.02 * random.normal());
+    readings.variance.push_back(0.0004);
+  }
+  std::vector<Vec2> circle;
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 0.05 * std::numbers::pi * i;
+    circle.push_back(7 * kMm * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  OutlineNodes start;
+  start.add(circle, 0);
+  const OutlinePrior prior = prior_of(start);
+  OutlineWalk walk(readings, prior, start, prior.median, 17);
+  walk.settle(400);
+  int bent = 0;
+  double radius_m = 0.0;
+  const std::vector<OutlineDraw> draws = walk.draws(800, 100);
+  for (const OutlineDraw& draw : draws) {
+    if (draw.has_plateau) continue;
+    const OutlineNodes& outline = draw.outline;
+    const double reach_m = std::sqrt(std::abs(enclosed_area(outline.place)) / std::numbers::pi),
+                 half = 0.5 * share_at(draw.law, depth_in(outline, Vec2(0, 0)));
+    radius_m += reach_m - depth_where(draw.law, half);
+    ++bent;
+  }
+  EXPECT_GT(bent, 50);
+  EXPECT_NEAR(radius_m / bent, kHalf_m, 0.25 * kMm);
 }
 
 TEST(OutlineWalk, TheSameSeedDrawsTheSame) {
