@@ -25,19 +25,27 @@ struct OutlineChain::Step {
   std::vector<int> turning;        ///< at which the direction's turn may change
   std::vector<MovedPiece> pieces;  ///< that move
   Eigen::AlignedBox2d now, ever;   ///< of the pieces as they are; as they are and were
+
+  bool moves(int piece) const {
+    const int after_first = piece - pieces.front().node,
+              steps = after_first < 0 ? after_first + loop.count : after_first;
+    return piece >= loop.first && piece < loop.first + loop.count &&
+           steps < static_cast<int>(pieces.size());
+  }
 };
 
 OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior,
-                           OutlineNodes start, OutlineProfile profile, const Cuts& cuts)
+                           OutlineNodes start, OutlineProfile profile, const Cuts& cuts,
+                           const OutlineBackground* background)
     : readings_(&readings),
       prior_(&prior),
       outline_(std::move(start)),
       pieces_(outline_),
       profile_(std::move(profile)),
       law_(law_of(profile_, prior)),
+      background_(background != nullptr ? *background : OutlineBackground(readings.background)),
       cuts_(cuts),
-      felt_(readings.places.size()),
-      moves_(outline_.place.size(), false) {
+      felt_(readings.places.size()) {
   for (int which = 0; which < kCuts; ++which) stadiums_[which] = cuts_[which].stadium();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     const Vec2& place = readings_->places[i];
@@ -67,7 +75,8 @@ double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
 double OutlineChain::likelihood_of(std::size_t reading, const Felt& felt,
                                    const ReadingLaw& law) const {
   const double rise = law.contrast[part_of(felt)] * felt.share;
-  return log_likelihood(law, readings_->reading[reading], readings_->variance[reading], rise);
+  return log_likelihood(law, readings_->reading[reading] - background_.at(reading),
+                        readings_->variance[reading], rise);
 }
 
 OutlineChain::Felt OutlineChain::felt_at(std::size_t reading, NearestPiece nearest,
@@ -89,7 +98,8 @@ void OutlineChain::keep_fresh() {
 }
 
 double OutlineChain::log_density() const {
-  double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
+  double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_) +
+               background_.log_density();
   for (const Felt& felt : felt_) sum += felt.log_likelihood;
   for (const OutlineCut& cut : cuts_) sum += cut.is_present ? log_cut_density(cut) : 0.0;
   return sum;
@@ -115,7 +125,7 @@ bool OutlineChain::crosses_another(const Step& step) const {
     for (const MovedPiece& piece : step.pieces) {
       const int end = outline_.next(piece.node);
       const bool is_neighbour = other == piece.node || other == end || after == piece.node;
-      if (is_neighbour || (moves_[other] && other < piece.node)) continue;
+      if (is_neighbour || (step.moves(other) && other < piece.node)) continue;
       if (cross_each_other(outline_.place[piece.node], outline_.place[end], from, to)) return true;
     }
   }
@@ -126,7 +136,7 @@ bool OutlineChain::crosses_another(const Step& step) const {
 bool OutlineChain::is_untouched(const Step& step, std::size_t reading) const {
   const Vec2& place = readings_->places[reading];
   const NearestPiece& nearest = felt_[reading].nearest;
-  return !moves_[nearest.piece] && !step.ever.contains(place) &&
+  return !step.moves(nearest.piece) && !step.ever.contains(place) &&
          step.now.squaredExteriorDistance(place) > nearest.square;
 }
 
@@ -146,7 +156,7 @@ OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t readin
   }
   if (moved.square <= nearest.square) {
     nearest = moved;
-  } else if (moves_[nearest.piece]) {
+  } else if (step.moves(nearest.piece)) {
     nearest = pieces_.nearest(place);
   }
   return felt_at(reading, nearest, inside);
@@ -186,7 +196,6 @@ bool OutlineChain::move_nodes(int first, const std::vector<Vec2>& places, Random
 bool OutlineChain::feel(Step& step, Random& random) {
   for (const MovedPiece& piece : step.pieces) {
     const Vec2 &from = outline_.place[piece.node], &to = outline_.place[outline_.next(piece.node)];
-    moves_[piece.node] = true;
     pieces_.set(piece.node, from, to);
     step.now.extend(from).extend(to);
     step.ever.extend(piece.from).extend(piece.to);
@@ -201,35 +210,11 @@ bool OutlineChain::feel(Step& step, Random& random) {
     }
     taken = std::log(random.uniform()) < change;
   }
-  for (const MovedPiece& piece : step.pieces) {
-    moves_[piece.node] = false;
-    if (!taken) pieces_.set(piece.node, piece.from, piece.to);
+  if (!taken) {
+    for (const MovedPiece& piece : step.pieces) pieces_.set(piece.node, piece.from, piece.to);
   }
   if (taken) keep_fresh();
   return taken;
-}
-
-bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random) {
-  double change = log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
-  const ReadingLaw law = law_of(profile, *prior_);
-  fresh_.clear();
-  if (is_of_shape) {
-    change += log_shape_density(outline_, profile) - log_shape_density(outline_, profile_);
-  } else {
-    const bool keeps_shares = law.slope_per_m == law_.slope_per_m &&
-                              law.shoulder == law_.shoulder && law.skirt == law_.skirt;
-    for (std::size_t i = 0; i < felt_.size(); ++i) {
-      Felt felt = felt_[i];
-      if (!keeps_shares) felt.share = share_at(law, felt.depth_m);
-      felt.log_likelihood = likelihood_of(i, felt, law);
-      change += consider(i, felt);
-    }
-  }
-  if (!(std::log(random.uniform()) < change)) return false;
-  profile_ = profile;
-  law_ = law;
-  keep_fresh();
-  return true;
 }
 
 /// Of the readings' part of the density; the rest has changed by `change`. Few readings lie any

@@ -23,7 +23,8 @@ class OutlineChain {
 
   /// The readings and the prior must outlive it. The start's lines must not cross.
   OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
-               OutlineProfile profile, const Cuts& cuts = {});
+               OutlineProfile profile, const Cuts& cuts = {},
+               const OutlineBackground* background = nullptr);
 
   /// Proposes that consecutive nodes of a loop, from `first` on, move to these places; at most all
   /// of them. `log_volume`: of the proposal's Jacobian. Never lets lines cross. Returns whether it
@@ -33,6 +34,9 @@ class OutlineChain {
   /// Proposes another profile; `is_of_shape` where it differs in log_turn and log_spacing alone,
   /// else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
+
+  /// Another background, from what it is given all else.
+  void draw_background(Random& random);
 
   /// Proposes that a cut which is present is not, or that a fresh one is.
   bool switch_cut(int which, Random& random);
@@ -45,6 +49,7 @@ class OutlineChain {
   const Cuts& cuts() const { return cuts_; }
   const OutlineProfile& profile() const { return profile_; }
   const ReadingLaw& law() const { return law_; }
+  const OutlineBackground& background() const { return background_; }
   /// Of the posterior, without what depends on nothing that moves; as it was added up step by step.
   double log_density() const;
 
@@ -80,11 +85,11 @@ class OutlineChain {
   OutlinePieces pieces_;  // of the outline
   OutlineProfile profile_;
   ReadingLaw law_;  // of the profile
+  OutlineBackground background_;
   Cuts cuts_;
   std::array<Stadium, kCuts> stadiums_;  // of the cuts that are present
   std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
   std::vector<Felt> felt_;
-  std::vector<bool> moves_;                          // of each piece, in the step at hand
   std::vector<std::pair<std::size_t, Felt>> fresh_;  // what the step at hand changes
 };
 

@@ -6,17 +6,19 @@
 /// with the outline. Pieces are about as long as each other. Depth is the signed distance to the
 /// polygon, and a reading
 ///
-///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction))) + noise
+///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction)))
+///         + background + noise
 ///
-/// the noise normal but for a reading in a hundred, which tells nothing. Unbent, that is equation 4
-/// of Garg et al. 2016, zero where the boundary is; bent(t) = sinh(k asinh t) / k (Jones and Pewsey
-/// 2009) is t near the boundary and goes on as t^k, with a k for each side: a round top or a sharp
-/// one, the wide skirt of something that lies deep or none. Cuts take from the inside
-/// (outline_cut.h).
+/// the background as outline_background.h has it, the noise normal but for a reading in a hundred,
+/// which tells nothing. Unbent, that is equation 4 of Garg et al. 2016, zero where the boundary is;
+/// bent(t) = sinh(k asinh t) / k (Jones and Pewsey 2009) is t near the boundary and goes on as t^k,
+/// with a k for each side: a round top or a sharp one, the wide skirt of something that lies deep
+/// or none. Cuts take from the inside (outline_cut.h).
 #pragma once
 
 #include <vector>
 
+#include "certainty/outline_background.h"
 #include "certainty/outline_nodes.h"
 
 namespace palpation {
@@ -26,6 +28,7 @@ struct OutlineReadings {
   std::vector<Vec2> places;
   std::vector<double> reading;
   std::vector<double> variance;  ///< of the noise
+  BackgroundTerms background{};
 };
 
 /// All but the nodes that is not known.

@@ -18,7 +18,8 @@ constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
 /// Of a noise that is given: edges are no perfect sigmoids.
 constexpr double kGivenNoiseLogSd = 0.3;
 constexpr double kLearnedNoiseLogSd = 1.0;
-constexpr double kModelError = 1e-3;  ///< of the range, as the edge's fit has it
+constexpr double kWaves = 0.02, kDrift = 0.1;  ///< sd of the background's, of the range
+constexpr double kModelError = 1e-3;           ///< of the range, as the edge's fit has it
 
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range) {
   const Surface& surface = belief.prior().surface();
@@ -37,12 +38,19 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
     return std::array{places[i].x(), places[i].y(), data.reading[row], data.variance[row]};
   });
   OutlineReadings readings;
+  std::vector<double> when;
   for (const std::size_t i : order) {
     const auto row = static_cast<Eigen::Index>(i);
     readings.places.push_back(places[i]);
     readings.reading.push_back(data.reading[row]);
     readings.variance.push_back(std::max(data.variance[row], least_variance));
+    const std::vector<int>& batches = data.batches[i];
+    when.push_back(std::accumulate(batches.begin(), batches.end(), 0.0) /
+                   static_cast<double>(batches.size()));
   }
+  readings.background = background_terms(readings.places, when);
+  readings.background.median_sd = kWaves * range;
+  readings.background.drift_sd = kDrift * range;
   return readings;
 }
 

@@ -17,7 +17,8 @@ constexpr double kOfNodes = 0.3, kOfNumbers = 0.4;
 constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
 constexpr int kProfileRounds = 2;
-constexpr int kSwitches = 3;  ///< of each cut, a sweep
+constexpr int kBackgroundEvery = 3;  ///< sweeps: it costs as much as they do
+constexpr int kSwitches = 3;         ///< of each cut, a sweep
 
 double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform(); }
 
@@ -88,6 +89,7 @@ void OutlineWalk::sweep() {
     for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
   }
   for (int round = 0; round < kProfileRounds; ++round) move_profile();
+  if (swept_++ % kBackgroundEvery == 0) chain_.draw_background(random_);
   move_cuts();
 }
 

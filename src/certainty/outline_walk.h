@@ -58,6 +58,7 @@ class OutlineWalk {
   Random random_;
   Lengths lengths_;
   bool settling_ = false;
+  int swept_ = 0;
 };
 
 }  // namespace palpation

@@ -150,12 +150,15 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   OutlineNodes start = rectangle(7 * kMm, 9 * kMm, 32);
   start.add({kMm * Vec2(-3.5, -3), kMm * Vec2(-2, -3.5), kMm * Vec2(-2, -2), kMm * Vec2(-3, -1.5)},
             1);
-  const OutlineReadings readings = felt_around(truth, 80, random);
+  OutlineReadings readings = felt_around(truth, 80, random);
+  readings.background = background_terms(readings.places, readings.reading);
+  readings.background.median_sd = 0.1;
   const OutlinePrior prior = prior_of(start);
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
+  EXPECT_NE(chain.chain().background().at(0), 0.0);
   const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile(),
-                           chain.chain().cuts());
+                           chain.chain().cuts(), &chain.chain().background());
   // Some 20,000 steps were taken: each adds and removes the same numbers.
   EXPECT_NEAR(chain.chain().log_density(), fresh.log_density(), 1e-9);
 }
