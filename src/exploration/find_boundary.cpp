@@ -40,11 +40,13 @@ BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& 
   fit.edge = EdgeBelief::around(belief, component, first_levels, fraction, {},
                                 noise_log_sd_of(model, belief));
   if (fit.edge) fit.level = fit.edge->level();
-  // Where contact fades no profile fits: its plateau may run away, and with it the level. The
-  // mean's range is left: its least is felt all over healthy tissue, its greatest is as unsure a
-  // plateau as it was for the profile.
+  // Where contact fades no profile fits: its plateau may run away, and with it the level, until it
+  // is out of the mean's range or nothing is inside. That range is left: its least is felt all over
+  // healthy tissue, its greatest is as unsure a plateau as it was for the profile.
   const double least = component.mean.minCoeff(), greatest = component.mean.maxCoeff();
-  if (fit.level->value > least && fit.level->value < greatest) return fit;
+  const bool is_felt = fit.level->value > least && fit.level->value < greatest,
+             is_empty = fit.edge && fit.edge->depth().maxCoeff() < 0.0;
+  if (is_felt && !is_empty) return fit;
   fit = {.level = level_from_range(component, fraction)};
   fit.level->stddev = fraction * ShapePrior{}.plateau_error * (greatest - least);
   return fit;
