@@ -24,12 +24,21 @@ double bent(double t, double power) { return std::sinh(power * std::asinh(t)) / 
 
 double logit(double share) { return std::log(share / (1.0 - share)); }
 
-/// Of shoulder and skirt.
+/// Of shoulder and skirt, where they spread so.
 double bend_density(const OutlineProfile& profile, double log_sd) {
   return std::exp(-half_square(profile.log_shoulder / log_sd) -
                   half_square(profile.log_skirt / log_sd)) /
          (2.0 * std::numbers::pi * log_sd * log_sd);
 }
+
+/// Of a tumour with such bends and a plateau, and of one without.
+struct Kinds {
+  double with, without;
+  explicit Kinds(const OutlineProfile& profile)
+      : with(kPlateau * bend_density(profile, kUnbentLogSd)),
+        without((1.0 - kPlateau) * bend_density(profile, kBentLogSd)) {}
+  double both() const { return with + without; }
+};
 
 }  // namespace
 
@@ -103,15 +112,12 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
-  return std::log(kPlateau * bend_density(profile, kUnbentLogSd) +
-                  (1.0 - kPlateau) * bend_density(profile, kBentLogSd)) -
-         sum;
+  return std::log(Kinds(profile).both()) - sum;
 }
 
 double plateau_probability(const OutlineProfile& profile) {
-  const double with = kPlateau * bend_density(profile, kUnbentLogSd),
-               without = (1.0 - kPlateau) * bend_density(profile, kBentLogSd);
-  return with / (with + without);
+  const Kinds kinds(profile);
+  return kinds.with / kinds.both();
 }
 
 }  // namespace palpation
