@@ -5,6 +5,7 @@
 /// `scatter_log_likelihood` adds (RELIABILITY: merging is both speed and stability).
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Site {
   std::vector<double> plain;            ///< readings whose noise is the field's
   std::vector<double> known;            ///< readings whose noise variance is known ...
   std::vector<double> known_variances;  ///< ... and those variances
-  std::vector<int> batches{};           ///< of all its readings, in their order
+  std::vector<Made> made{};             ///< of all its readings, in their order
 };
 
 /// One site per distinct place of the palpations that are not set aside, in order of first touch;

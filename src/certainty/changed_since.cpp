@@ -1,10 +1,12 @@
 // Whether readings fit tissue that moved, or a sensor that changed, while one touched.
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/log_mean.h"
@@ -18,8 +20,8 @@ namespace palpation {
 namespace {
 
 /// How far tissue may have moved, and how finely that is tried: a field's length is 3.5 mm. The
-/// best of these is looked at more closely, to be told.
-constexpr double kMost_m = 0.006, kStep_m = 0.002, kFinest_m = 0.0005;
+/// best of these is looked at more closely.
+constexpr double kMost_m = 0.006, kStep_m = 0.002, kFinest_m = 0.00025;
 /// What a zero may have moved by, of the field's standard deviation: half of a contrast is one.
 constexpr std::array kZeros = {-2.0, -1.5, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 1.5, 2.0};
 /// What a gain may have changed to; and the part of the readings below which healthy ones lie, that
@@ -34,12 +36,6 @@ constexpr std::size_t kMostReadings = 200;
 /// Moments are tried that part the readings into so many of equal number.
 constexpr std::size_t kSpans = 12;
 
-std::vector<Palpation> telling(std::span<const Palpation> palpations) {
-  std::vector<Palpation> some;
-  for (const std::size_t i : in_time(palpations, kMostReadings)) some.push_back(palpations[i]);
-  return some;
-}
-
 /// Readings in place of others, at places so far off in the metric's coordinates.
 struct Instead {
   std::vector<Palpation> readings;
@@ -52,8 +48,12 @@ class ChangedField {
   explicit ChangedField(const Belief& belief)
       : prior_(belief.prior()),
         at_{prior_.kernel().length_m, belief.signal_sd(),
-            std::max(std::sqrt(belief.noise_variance()), kLeastNoise * belief.signal_sd())},
-        readings_(telling(belief.palpations())) {
+            std::max(std::sqrt(belief.noise_variance()), kLeastNoise * belief.signal_sd())} {
+    const std::vector<std::size_t> before = readings_before_each(belief.palpations());
+    for (const std::size_t i : in_time(belief.palpations(), kMostReadings)) {
+      readings_.push_back(belief.palpations()[i]);
+      numbers_.push_back(before[i]);
+    }
     Vec3 normal = Vec3::Zero();
     std::vector<double> values;
     for (const Palpation& one : readings_) {
@@ -67,6 +67,9 @@ class ChangedField {
   }
 
   const std::vector<Palpation>& readings() const { return readings_; }
+  /// How many readings were made before one of these.
+  std::size_t number(std::size_t reading) const { return numbers_[reading]; }
+  double low() const { return low_; }
   double signal_sd() const { return at_.signal_sd; }
 
   /// In the tissue's plane.
@@ -92,10 +95,16 @@ class ChangedField {
     return lowered;
   }
 
-  /// By the gain of before, where it is so many times as large.
+  /// By the gain of before, where it is so many times as large. Noise is the sensor's own, and does
+  /// not change with it: what varies less than noise would is no tissue that stands out less.
   Instead divided_by(double gain) const {
     Instead divided{readings_};
-    for (Palpation& one : divided.readings) one.reading = low_ + (one.reading - low_) / gain;
+    for (Palpation& one : divided.readings) {
+      one.reading = low_ + (one.reading - low_) / gain;
+      const double variance =
+          std::isnan(one.noise_variance) ? at_.noise_sd * at_.noise_sd : one.noise_variance;
+      one.noise_variance = variance / (gain * gain);
+    }
     return divided;
   }
 
@@ -103,15 +112,16 @@ class ChangedField {
     return log_likelihood(prior_, gather_sites(prior_, readings_), at_);
   }
 
-  /// Those since the first of them are these instead.
-  double log_likelihood_of(std::size_t first, const Instead& instead) const {
+  /// Those since the first of them are these instead, each so much denser than what was felt.
+  double log_likelihood_since(std::size_t first, const Instead& instead, double log_scale) const {
     try {
       std::vector<Site> sites = gather_sites(prior_, std::span(readings_).first(first));
       for (Site& site : gather_sites(prior_, std::span(instead.readings).subspan(first))) {
         site.place.coordinates += instead.shift;
         sites.push_back(std::move(site));
       }
-      return log_likelihood(prior_, sites, at_);
+      return log_likelihood(prior_, sites, at_) +
+             log_scale * static_cast<double>(readings_.size() - first);
     } catch (const Error&) {
       return -std::numeric_limits<double>::infinity();  // places brought together that the noise
                                                         // does not part
@@ -137,11 +147,29 @@ class ChangedField {
 
   const Prior& prior_;
   Hyperparameters at_;
+  std::vector<std::size_t> numbers_;
   std::vector<Palpation> readings_;
   double low_ = 0.0;
   Vec3 across_, along_;
   Eigen::Matrix<double, 3, 2> coordinates_;  // of the metric, by each of these
 };
+
+/// Log of a reading's density over that of what stands for it without the change.
+double log_scale_of(const Misfit& change) {
+  return change.kind == MisfitKind::Gain ? -std::log1p(change.amount) : 0.0;
+}
+
+/// What those since it were, had it not happened.
+Instead without(const ChangedField& field, const Misfit& change) {
+  switch (change.kind) {
+    case MisfitKind::Moved:
+      return field.moved_by(change.moved_m);
+    case MisfitKind::Gain:
+      return field.divided_by(1.0 + change.amount);
+    default:
+      return field.lowered_by(change.amount);
+  }
+}
 
 /// Changes of one kind, each at every moment.
 class Changes {
@@ -149,28 +177,21 @@ class Changes {
   explicit Changes(const ChangedField& field)
       : field_(field), unchanged_(field.log_likelihood_unchanged()) {}
 
-  /// `log_scale`: log of a reading's density over that of what stands for it.
-  void weigh(const Instead& instead, Misfit change, double log_scale = 0.0) {
+  void weigh(Misfit change) {
+    const Instead instead = without(field_, change);
     for (std::size_t span = 1; span < kSpans; ++span) {
       const std::size_t first = span * field_.readings().size() / kSpans;
-      change.evidence = field_.log_likelihood_of(first, instead) - unchanged_ +
-                        log_scale * static_cast<double>(instead.readings.size() - first);
+      change.evidence =
+          field_.log_likelihood_since(first, instead, log_scale_of(change)) - unchanged_;
       factors_.add(change.evidence);
-      if (!(change.evidence > best_.evidence)) continue;
-      change.from_batch = field_.readings()[first].batch;
-      best_ = change;
-      first_ = first;
+      if (change.evidence > best_.evidence) best_ = change, first_ = first;
     }
   }
 
-  /// The strongest, with the kind's evidence.
-  Misfit verdict() const {
-    Misfit misfit = best_;
-    misfit.evidence = factors_.value();
-    return misfit;
-  }
-
-  /// Of the strongest.
+  /// Of the kind.
+  double evidence() const { return factors_.value(); }
+  /// The strongest, and the first reading that differs.
+  const Misfit& best() const { return best_; }
   std::size_t first() const { return first_; }
 
  private:
@@ -181,55 +202,73 @@ class Changes {
   std::size_t first_ = 0;
 };
 
-Changes moves_of(const ChangedField& field) {
-  Changes moved(field);
+std::vector<Misfit> all_moves(const ChangedField& field) {
+  std::vector<Misfit> moves;
   const int steps = static_cast<int>(std::lround(kMost_m / kStep_m));
   for (int i = -steps; i <= steps; ++i) {
     for (int j = -steps; j <= steps; ++j) {
       if (const int square = i * i + j * j; square == 0 || square > steps * steps) continue;
       const Vec3 move_m = field.in_plane(i * kStep_m, j * kStep_m);
-      moved.weigh(field.moved_by(move_m), {.kind = MisfitKind::Moved, .moved_m = move_m});
+      moves.push_back({.kind = MisfitKind::Moved, .amount = move_m.norm(), .moved_m = move_m});
     }
   }
-  return moved;
+  return moves;
 }
 
-/// Uphill by steps that are halved.
-Vec3 closer_look(const ChangedField& field, std::size_t first, Vec3 move_m) {
-  double best = field.log_likelihood_of(first, field.moved_by(move_m));
-  for (double step_m = 0.5 * kStep_m; step_m >= kFinest_m; step_m *= 0.5) {
-    const Vec3 centre = move_m;
-    for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      const Vec3 next = centre + field.in_plane(i * step_m, j * step_m);
-      const double there = field.log_likelihood_of(first, field.moved_by(next));
-      if (there > best) best = there, move_m = next;
+/// Uphill, by steps that are halved; and to its first reading, among those that were skipped.
+std::pair<Misfit, std::size_t> closer_look(const ChangedField& field, Misfit move,
+                                           std::size_t first) {
+  const auto value_of = [&](const Vec3& moved_m, std::size_t since) {
+    return field.log_likelihood_since(since, field.moved_by(moved_m), 0.0);
+  };
+  double best = value_of(move.moved_m, first);
+  const auto climb = [&] {
+    for (double step_m = 0.5 * kStep_m; step_m >= kFinest_m; step_m *= 0.5) {
+      const Vec3 centre = move.moved_m;
+      for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const Vec3 next = centre + field.in_plane(i * step_m, j * step_m);
+        const double there = value_of(next, first);
+        if (there > best) best = there, move.moved_m = next;
+      }
     }
+  };
+  climb();
+  const std::size_t count = field.readings().size(), skipped = count / kSpans, middle = first;
+  for (std::size_t since = std::max(middle, skipped + 1) - skipped;
+       since <= std::min(middle + skipped, count - 1); ++since) {
+    const double there = value_of(move.moved_m, since);
+    if (there > best) best = there, first = since;
   }
-  return move_m;
+  climb();
+  move.amount = move.moved_m.norm();
+  return {move, first};
 }
 
 }  // namespace
 
+bool is_since(const Misfit& change, const Made& made) {
+  if (change.kind == MisfitKind::Tilted) return true;
+  if (change.session > 0) return made.session >= change.session;
+  return std::pair(made.batch, made.number) >= std::pair(change.from_batch, change.number);
+}
+
 std::optional<Misfit> changed_since(const Belief& belief) {
   const ChangedField field(belief);
   if (field.readings().size() < kSpans) return std::nullopt;
-  const Changes moved = moves_of(field);
-  Changes zeros(field);
-  for (const double of_signal : kZeros) {
-    const double zero = of_signal * field.signal_sd();
-    zeros.weigh(field.lowered_by(zero), {.kind = MisfitKind::Zero, .amount = zero});
-  }
-  Changes gains(field);
+  Changes moves(field), zeros(field), gains(field);
+  for (const Misfit& one : all_moves(field)) moves.weigh(one);
+  for (const double of_signal : kZeros)
+    zeros.weigh({.kind = MisfitKind::Zero, .amount = of_signal * field.signal_sd()});
   for (const double gain : kGains)
-    gains.weigh(field.divided_by(gain), {.kind = MisfitKind::Gain, .amount = gain - 1.0},
-                -std::log(gain));
-  Misfit found =
-      std::ranges::max({moved.verdict(), zeros.verdict(), gains.verdict()}, {}, &Misfit::evidence);
-  if (!(found.evidence > surprising())) return std::nullopt;
-  if (found.kind == MisfitKind::Moved) {
-    found.moved_m = closer_look(field, moved.first(), found.moved_m);
-    found.amount = found.moved_m.norm();
-  }
+    gains.weigh({.kind = MisfitKind::Gain, .amount = gain - 1.0, .low = field.low()});
+  const Changes& strongest = *std::ranges::max({&moves, &zeros, &gains}, {},
+                                               [](const Changes* of) { return of->evidence(); });
+  if (!(strongest.evidence() > surprising())) return std::nullopt;
+  auto [found, first] = std::pair(strongest.best(), strongest.first());
+  if (found.kind == MisfitKind::Moved) std::tie(found, first) = closer_look(field, found, first);
+  found.evidence = strongest.evidence();
+  found.number = field.number(first);
+  found.from_batch = field.readings()[first].batch;
   return found;
 }
 

@@ -54,19 +54,19 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
                   .variance = Eigen::VectorXd::Zero(count),
                   .depth_m = Eigen::VectorXd::Zero(count),
                   .part = {},
-                  .batches = {},
+                  .made = {},
                   .log_scatter = data.log_scatter};
   for (Eigen::Index row = 0; row < count; ++row) {
     const std::vector<std::size_t>& together = rows[static_cast<std::size_t>(row)];
     double precisions = 0.0;
-    std::vector<int> batches;
+    std::vector<Made> made;
     for (const std::size_t i : together) {
       const auto at = static_cast<Eigen::Index>(i);
       const double precision = 1.0 / data.variance[at];
       precisions += precision;
       merged.reading[row] += precision * data.reading[at];
       merged.depth_m[row] += precision * data.depth_m[at];
-      batches.insert(batches.end(), data.batches[i].begin(), data.batches[i].end());
+      made.insert(made.end(), data.made[i].begin(), data.made[i].end());
     }
     merged.reading[row] /= precisions;
     merged.depth_m[row] /= precisions;
@@ -79,7 +79,7 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
     merged.variance[row] = 1.0 / precisions;
     merged.places.push_back(data.places[together.front()]);
     merged.part.push_back(data.part[together.front()]);
-    merged.batches.push_back(std::move(batches));
+    merged.made.push_back(std::move(made));
   }
   return merged;
 }
@@ -97,7 +97,7 @@ EdgeData gathered_for_edge(const Belief& belief) {
   for (Eigen::Index i = 0; i < count; ++i) {
     const MergedReading merged = merge(sites[i], belief.noise_variance());
     data.places.push_back(sites[i].where);
-    data.batches.push_back(sites[i].batches);
+    data.made.push_back(sites[i].made);
     data.reading[i] = merged.mean;
     data.variance[i] = merged.variance;
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "belief/sites.h"
 #include "palpation/certainty/edge_belief.h"
 
 namespace palpation {
@@ -35,10 +36,10 @@ ReadingSlopes profile_slopes(const ProfileParameters& profile, int part, double 
 struct EdgeData {
   std::vector<SurfacePoint> places;
   Eigen::VectorXd reading;
-  Eigen::VectorXd variance;               ///< of the noise
-  Eigen::VectorXd depth_m;                ///< from the first boundary
-  std::vector<int> part;                  ///< that each is nearest to
-  std::vector<std::vector<int>> batches;  ///< that the readings of each were made in
+  Eigen::VectorXd variance;             ///< of the noise
+  Eigen::VectorXd depth_m;              ///< from the first boundary
+  std::vector<int> part;                ///< that each is nearest to
+  std::vector<std::vector<Made>> made;  ///< of the readings of each
   /// Log likelihood of what was merged about its means: with it, evidence of data that were merged
   /// otherwise compares.
   double log_scatter = 0.0;

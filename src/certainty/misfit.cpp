@@ -1,9 +1,11 @@
 #include "palpation/certainty/misfit.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "base/log_mean.h"
@@ -15,8 +17,11 @@ namespace palpation {
 namespace {
 
 constexpr double kKinds = 4.0;  // zero, gain, place, parts
-/// What a rival may add, standard deviations: of the contrast, and of a gain.
+/// What a rival may add, standard deviations: of the contrast, and of a gain; of a move, metres.
 constexpr double kPart = 0.5;
+constexpr double kMove_m = 0.003;
+/// Ways in which tissue may have moved, over half a turn.
+constexpr int kWays = 4;
 /// Radii of parts that are tried; they begin so far outside of the outline.
 constexpr std::array kRadii_m = {0.002, 0.004};
 constexpr double kApart_m = 0.002;
@@ -27,6 +32,7 @@ struct Explained {
   const EdgeFit& fit;
   const EdgeData& data;
   double log_weight;  ///< of this kind of outline, against the most likely one's
+  double low;
   double contrast;
   Eigen::VectorXd depth;     ///< of each row
   Eigen::VectorXd share;     ///< of the contrast, at that depth
@@ -65,28 +71,90 @@ class Kind {
 
 /// Of each row, the part of its readings from that batch on.
 Eigen::VectorXd part_since(const EdgeData& data, int batch) {
-  Eigen::VectorXd part(static_cast<Eigen::Index>(data.batches.size()));
-  for (std::size_t i = 0; i < data.batches.size(); ++i) {
-    const std::vector<int>& made = data.batches[i];
+  Eigen::VectorXd part(static_cast<Eigen::Index>(data.made.size()));
+  for (std::size_t i = 0; i < data.made.size(); ++i) {
+    const std::vector<Made>& made = data.made[i];
     part[static_cast<Eigen::Index>(i)] =
-        static_cast<double>(std::ranges::count_if(made, [&](int one) { return one >= batch; })) /
+        static_cast<double>(
+            std::ranges::count_if(made, [&](const Made& one) { return one.batch >= batch; })) /
         static_cast<double>(made.size());
   }
   return part;
 }
 
+/// The first that was made in or after a batch.
+std::size_t first_since(const EdgeData& data, int batch) {
+  std::size_t first = std::numeric_limits<std::size_t>::max();
+  for (const std::vector<Made>& made : data.made) {
+    for (const Made& one : made) {
+      if (one.batch >= batch) first = std::min(first, one.number);
+    }
+  }
+  return first;
+}
+
+/// In its plane, of a field that is linear on each triangle.
+Vec3 gradient_at(const Surface& surface, const Field& field, int face) {
+  const Eigen::Vector3i corners = surface.triangle(face);
+  const Vec3 a = surface.vertex(corners[1]) - surface.vertex(corners[0]),
+             b = surface.vertex(corners[2]) - surface.vertex(corners[0]), normal = a.cross(b);
+  const double by_a = field[corners[1]] - field[corners[0]],
+               by_b = field[corners[2]] - field[corners[0]];
+  return (by_a * b.cross(normal) + by_b * normal.cross(a)) / normal.squaredNorm();
+}
+
+/// By how much readings change for a metre that the tissue moves this way.
+Eigen::VectorXd by_move(const Explained& rows, const Field& depth, const Vec3& way) {
+  Eigen::VectorXd change = -rows.fit.by_depth;
+  for (Eigen::Index i = 0; i < change.size(); ++i)
+    change[i] *= gradient_at(rows.surface, depth, rows.data.places[i].face).dot(way);
+  return change;
+}
+
+/// The ways, in the plane that the readings lie in on the whole.
+std::vector<Vec3> ways_of(const Explained& rows) {
+  Vec3 normal = Vec3::Zero();
+  for (const SurfacePoint& place : rows.data.places) normal += rows.surface.normal(place);
+  const Vec3 across = normal.unitOrthogonal(), along = normal.normalized().cross(across);
+  std::vector<Vec3> ways;
+  for (int i = 0; i < kWays; ++i) {
+    const double angle = i * std::numbers::pi / kWays;
+    ways.emplace_back(std::cos(angle) * across + std::sin(angle) * along);
+  }
+  return ways;
+}
+
 /// What may have changed from one batch to the next.
-void weigh_changes(const Explained& rows, Kind& zero, Kind& gain) {
+void weigh_changes(const Explained& rows, const Field& depth, Kind& zero, Kind& gain, Kind& moved) {
   std::set<int> batches;
-  for (const std::vector<int>& made : rows.data.batches) batches.insert(made.begin(), made.end());
+  for (const std::vector<Made>& made : rows.data.made) {
+    for (const Made& one : made) batches.insert(one.batch);
+  }
   if (batches.empty()) return;
   batches.erase(batches.begin());
+  const std::vector<Vec3> ways = ways_of(rows);
+  std::vector<Eigen::VectorXd> changes;
+  for (const Vec3& way : ways) changes.push_back(by_move(rows, depth, way));
+  constexpr double kScale = kMove_m / kPart;
   for (const int batch : batches) {
     const Eigen::VectorXd since = part_since(rows.data, batch);
-    zero.weigh(rows, rows.contrast * since,
-               {.kind = MisfitKind::Zero, .from_batch = batch, .amount = rows.contrast});
+    const std::size_t number = first_since(rows.data, batch);
+    zero.weigh(
+        rows, rows.contrast * since,
+        {.kind = MisfitKind::Zero, .from_batch = batch, .number = number, .amount = rows.contrast});
     gain.weigh(rows, rows.contrast * since.cwiseProduct(rows.share),
-               {.kind = MisfitKind::Gain, .from_batch = batch, .amount = 1.0});
+               {.kind = MisfitKind::Gain,
+                .from_batch = batch,
+                .number = number,
+                .amount = 1.0,
+                .low = rows.low});
+    for (std::size_t way = 0; way < ways.size(); ++way)
+      moved.weigh(rows, kScale * since.cwiseProduct(changes[way]),
+                  {.kind = MisfitKind::Moved,
+                   .from_batch = batch,
+                   .number = number,
+                   .amount = kScale,
+                   .moved_m = ways[way]});
   }
 }
 
@@ -112,6 +180,11 @@ void weigh_parts(const Explained& rows, const Layout& layout, Kind& weaker) {
 
 }  // namespace
 
+std::string_view name_of(MisfitKind kind) {
+  constexpr std::array<std::string_view, 5> kNames = {"zero", "gain", "moved", "weaker", "tilt"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
 double surprising(double false_alarms) {
   require(false_alarms > 0.0 && false_alarms < 1.0, "misfits",
           "false_alarms = " + text_of(false_alarms), "must lie in (0, 1)");
@@ -120,26 +193,32 @@ double surprising(double false_alarms) {
 
 std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   const double least = surprising(false_alarms);
-  Kind zero, gain, weaker;
+  Kind zero, gain, moved, weaker;
   for (const auto& one : fits_) {
     const EdgeFit& fit = one->edge;
     Explained rows{surface_,
                    fit,
                    one->data,
                    std::log(one->weight / most_likely().weight),
+                   profile_.low,
                    profile_.high - profile_.low,
                    one->data.depth_m + fit.correction_m,
                    {},
                    fit.covariance.matrixL() * Eigen::VectorXd(fit.covariance.matrixU() * fit.pull)};
     rows.share =
         rows.depth.unaryExpr([&](double depth) { return profile_share(fit.profile, depth); });
-    weigh_changes(rows, zero, gain);
+    weigh_changes(rows, one->depth, zero, gain, moved);
     weigh_parts(rows, Layout(one->correction), weaker);
   }
   std::vector<Misfit> found;
-  for (const Kind* kind : {&zero, &gain, &weaker}) {
+  for (const Kind* kind : {&zero, &gain, &moved, &weaker}) {
     const std::optional<Misfit> verdict = kind->verdict();
     if (verdict && verdict->evidence > least) found.push_back(*verdict);
+  }
+  for (Misfit& one : found) {
+    if (one.kind != MisfitKind::Moved) continue;
+    one.moved_m *= one.amount;
+    one.amount = std::abs(one.amount);
   }
   if (std::ranges::find(found, MisfitKind::WeakerPart, &Misfit::kind) == found.end())
     found.insert(found.end(), weaker_.begin(), weaker_.end());

@@ -1,57 +1,46 @@
-/// What healthy tissue and the sensor add to readings beside a plateau: slow waves over the tissue,
-/// and a zero that drifts from batch to batch.
+/// What healthy tissue and the sensor add to readings beside a plateau: waves over the tissue, a
+/// zero that drifts from batch to batch, a tilt of the tissue or of its stiffness, and what is left
+/// of the zero's steps once they are taken back.
 ///
-/// The waves are a Gaussian field, by sines in a rectangle around the readings (Solin and Sarkka
-/// 2020); how high they are is learned. Both are linear in coefficients that are normal, so that
-/// they are drawn at once from what they are given all else.
+/// The waves are a Gaussian field, by the pivoted Cholesky decomposition of its covariance at the
+/// readings (Harbrecht, Peters and Schneider 2012), so that they are the same however tissue is
+/// turned: of a length as short as what a tip can feel, and of one longer than an edge; how high
+/// each are is learned. All is linear in coefficients that are normal, and can be integrated out
+/// (outline_residuals.h).
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
 #include <vector>
 
-#include "palpation/base/random.h"
 #include "palpation/base/types.h"
 
 namespace palpation {
 
-/// What one unit of each coefficient adds to each reading: rows are readings, columns terms. The
-/// last is the drift, one unit from the first batch to the last.
+/// What one unit of each coefficient adds to each reading: rows are readings, columns terms. First
+/// the waves of each length; then the drift, one unit from the first batch to the last; then the
+/// tilt along x and y, one unit over the readings' root mean square distance from their middle;
+/// then the steps.
 struct BackgroundTerms {
   Eigen::MatrixXd of_readings;
-  double median_sd = 1.0;  ///< of the waves beforehand, in reading units; the spread of its
-                           ///< logarithm is 1
-  double drift_sd = 1.0;   ///< in reading units
+  std::vector<Eigen::Index> waves;  ///< columns of each length, the shortest first
+  Eigen::MatrixXd information;      ///< that readings have of the coefficients: F' V^-1 F
+  double median_sd = 1.0;   ///< of waves of one length beforehand, in reading units; the spread of
+                            ///< its logarithm is 1
+  double drift_sd = 1.0;    ///< in reading units
+  double tilt_sd = 1.0;     ///< of either direction, in reading units
+  Eigen::VectorXd step_sd;  ///< of each, in reading units
+
+  Eigen::Index steps() const { return step_sd.size(); }
+
+  bool is_none() const { return of_readings.size() == 0; }
 };
-/// `when`: of each reading, any number that rises as time goes on.
-BackgroundTerms background_terms(std::span<const Vec2> places, std::span<const double> when);
-
-class OutlineBackground {
- public:
-  /// None.
-  OutlineBackground() = default;
-  /// Of all coefficients 0. The terms must outlive it.
-  explicit OutlineBackground(const BackgroundTerms& terms);
-
-  bool is_none() const { return coefficients_.size() == 0; }
-  /// What is added to a reading.
-  double at(std::size_t reading) const { return added_.empty() ? 0.0 : added_[reading]; }
-  double waves_sd() const;
-
-  /// Another one, given how far readings are off without it and their precisions (0: such a reading
-  /// tells nothing). First the waves' sd, all coefficients integrated out, then these.
-  void draw(const Eigen::VectorXd& off, const Eigen::VectorXd& precision, Random& random);
-
-  /// Of coefficients and sd.
-  double log_density() const;
-
- private:
-  Eigen::VectorXd sds(double log_sd) const;
-
-  const BackgroundTerms* terms_ = nullptr;
-  Eigen::VectorXd coefficients_;
-  double log_sd_ = 0.0;  // of the waves over its median
-  std::vector<double> added_;
+struct BackgroundReadings {
+  std::span<const Vec2> places;
+  std::span<const double> variance;  ///< of the noise
+  std::span<const double> when;      ///< any numbers that rise as time goes on
+  Eigen::MatrixXd steps{};  ///< what one unit of each adds to each reading: as many rows, or none
 };
+BackgroundTerms background_terms(const BackgroundReadings& readings);
 
 }  // namespace palpation

@@ -36,26 +36,52 @@ struct OutlineChain::Step {
 
 OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior,
                            OutlineNodes start, OutlineProfile profile, const Cuts& cuts,
-                           const OutlineBackground* background)
+                           const OutlineResiduals* residuals)
     : readings_(&readings),
       prior_(&prior),
       outline_(std::move(start)),
       pieces_(outline_),
       profile_(std::move(profile)),
       law_(law_of(profile_, prior)),
-      background_(background != nullptr ? *background : OutlineBackground(readings.background)),
       cuts_(cuts),
-      felt_(readings.places.size()) {
-  for (int which = 0; which < kCuts; ++which) stadiums_[which] = cuts_[which].stadium();
+      felt_(felt_at_start()),
+      residuals_(residuals != nullptr ? *residuals : fresh_residuals()) {
+  if (residuals != nullptr) {
+    for (std::size_t i = 0; i < felt_.size(); ++i)
+      residuals_.consider(i, off_from(i, felt_[i], law_));
+    residuals_.keep();
+  }
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    const Vec2& place = readings_->places[i];
-    felt_[i] = felt_at(i, pieces_.nearest(place), pieces_.encloses(place));
     // The worse a reading fits, the likelier something is missing there.
-    const double best = log_likelihood(law_, law_.low, readings_->variance[i], 0.0),
-                 lacking = best - felt_[i].log_likelihood;
+    const double lacking = residuals_.lacking(i);
     anchors_.push_back((i > 0 ? anchors_.back() : 0.0) + 1.0 + lacking * lacking);
   }
   for (double& share : anchors_) share /= anchors_.back();
+}
+
+std::vector<OutlineChain::Felt> OutlineChain::felt_at_start() {
+  for (int which = 0; which < kCuts; ++which) stadiums_[which] = cuts_[which].stadium();
+  std::vector<Felt> felt;
+  for (std::size_t i = 0; i < readings_->places.size(); ++i) felt.push_back(felt_anew(i));
+  return felt;
+}
+
+OutlineResiduals OutlineChain::fresh_residuals() const {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < felt_.size(); ++i) off.push_back(off_from(i, felt_[i], law_));
+  return {std::move(off), readings_->variance, readings_->background, residual_prior(*prior_),
+          profile_.log_noise};
+}
+
+int OutlineChain::epoch_of(std::size_t reading) const {
+  return readings_->epoch.empty() ? 0 : readings_->epoch[reading];
+}
+
+/// Where it was made, as far as that is known.
+Vec2 OutlineChain::place_of(std::size_t reading) const {
+  Vec2 place = readings_->places[reading];
+  for (const int change : prior_->epochs[epoch_of(reading)]) place += profile_.moved_m[change];
+  return place;
 }
 
 int OutlineChain::part_of(const Felt& felt) const {
@@ -65,42 +91,56 @@ int OutlineChain::part_of(const Felt& felt) const {
 double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
   const double distance = std::sqrt(felt.nearest.square);
   double depth = felt.inside ? distance : -distance;
+  const Vec2 place = place_of(reading);
   for (int which = 0; which < kCuts; ++which) {
-    if (cuts_[which].is_present)
-      depth = std::min(depth, -stadiums_[which].depth_at(readings_->places[reading]));
+    if (cuts_[which].is_present) depth = std::min(depth, -stadiums_[which].depth_at(place));
   }
   return depth;
 }
 
-double OutlineChain::likelihood_of(std::size_t reading, const Felt& felt,
-                                   const ReadingLaw& law) const {
-  const double rise = law.contrast[part_of(felt)] * felt.share;
-  return log_likelihood(law, readings_->reading[reading] - background_.at(reading),
-                        readings_->variance[reading], rise);
+/// How far it is off the profile.
+double OutlineChain::off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
+  const double rise = law.gain[epoch_of(reading)] * law.contrast[part_of(felt)] * felt.share;
+  return readings_->reading[reading] - law.low - rise;
+}
+
+double OutlineChain::share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
+  return share_at(law, felt.depth_m, steepness_at(law, place_of(reading)));
+}
+
+OutlineChain::Felt OutlineChain::felt_anew(std::size_t reading) const {
+  const Vec2 place = place_of(reading);
+  return felt_at(reading, pieces_.nearest(place), pieces_.encloses(place));
 }
 
 OutlineChain::Felt OutlineChain::felt_at(std::size_t reading, NearestPiece nearest,
                                          bool inside) const {
   Felt felt{.nearest = nearest, .inside = inside};
   felt.depth_m = depth_of(reading, felt);
-  felt.share = share_at(law_, felt.depth_m);
-  felt.log_likelihood = likelihood_of(reading, felt, law_);
+  felt.share = share_of(reading, felt, law_);
   return felt;
 }
 
-double OutlineChain::consider(std::size_t reading, const Felt& felt) {
-  fresh_.emplace_back(reading, felt);
-  return felt.log_likelihood - felt_[reading].log_likelihood;
+void OutlineChain::consider_none() {
+  fresh_.clear();
+  residuals_.forget();
 }
 
-void OutlineChain::keep_fresh() {
+void OutlineChain::consider(std::size_t reading, const Felt& felt, const ReadingLaw& law) {
+  fresh_.emplace_back(reading, felt);
+  residuals_.consider(reading, off_from(reading, felt, law));
+}
+
+bool OutlineChain::takes(double change, Random& random) {
+  if (!(std::log(random.uniform()) < change + residuals_.change())) return false;
   for (const auto& [reading, felt] : fresh_) felt_[reading] = felt;
+  residuals_.keep();
+  return true;
 }
 
 double OutlineChain::log_density() const {
   double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_) +
-               background_.log_density();
-  for (const Felt& felt : felt_) sum += felt.log_likelihood;
+               residuals_.log_density();
   for (const OutlineCut& cut : cuts_) sum += cut.is_present ? log_cut_density(cut) : 0.0;
   return sum;
 }
@@ -134,16 +174,15 @@ bool OutlineChain::crosses_another(const Step& step) const {
 
 /// Neither which side it lies on nor what is nearest to it can have changed.
 bool OutlineChain::is_untouched(const Step& step, std::size_t reading) const {
-  const Vec2& place = readings_->places[reading];
+  const Vec2 place = place_of(reading);
   const NearestPiece& nearest = felt_[reading].nearest;
   return !step.moves(nearest.piece) && !step.ever.contains(place) &&
          step.now.squaredExteriorDistance(place) > nearest.square;
 }
 
 OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t reading) const {
-  const Vec2& place = readings_->places[reading];
-  if (step.pieces.size() > kFew)
-    return felt_at(reading, pieces_.nearest(place), pieces_.encloses(place));
+  const Vec2 place = place_of(reading);
+  if (step.pieces.size() > kFew) return felt_anew(reading);
   auto [nearest, inside] = std::pair(felt_[reading].nearest, felt_[reading].inside);
   const bool may_flip = step.ever.contains(place);
   NearestPiece moved{.square = 1e300};
@@ -201,76 +240,18 @@ bool OutlineChain::feel(Step& step, Random& random) {
     step.ever.extend(piece.from).extend(piece.to);
   }
   step.ever.extend(step.now);
-  double change = 0.0;
   bool taken = !crosses_another(step);
   if (taken) {
-    fresh_.clear();
+    consider_none();
     for (std::size_t i = 0; i < felt_.size(); ++i) {
-      if (!is_untouched(step, i)) change += consider(i, felt_after(step, i));
+      if (!is_untouched(step, i)) consider(i, felt_after(step, i), law_);
     }
-    taken = std::log(random.uniform()) < change;
+    taken = takes(0.0, random);
   }
   if (!taken) {
     for (const MovedPiece& piece : step.pieces) pieces_.set(piece.node, piece.from, piece.to);
   }
-  if (taken) keep_fresh();
   return taken;
-}
-
-/// Of the readings' part of the density; the rest has changed by `change`. Few readings lie any
-/// deeper or less deep for a cut.
-bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Random& random) {
-  const OutlineCut before = std::exchange(cuts_[which], cut);
-  const Stadium stadium_before = std::exchange(stadiums_[which], cut.stadium());
-  fresh_.clear();
-  for (std::size_t i = 0; i < felt_.size(); ++i) {
-    if (depth_of(i, felt_[i]) != felt_[i].depth_m)
-      change += consider(i, felt_at(i, felt_[i].nearest, felt_[i].inside));
-  }
-  const bool taken = std::log(random.uniform()) < change;
-  if (taken) {
-    keep_fresh();
-  } else {
-    cuts_[which] = before;
-    stadiums_[which] = stadium_before;
-  }
-  return taken;
-}
-
-/// Fresh ones come from their prior but for the anchor: the rest of the density cancels.
-bool OutlineChain::switch_cut(int which, Random& random) {
-  if (felt_.empty()) return false;
-  const auto anchor_ratio = [&](std::size_t anchor) {
-    const double share = anchors_[anchor] - (anchor > 0 ? anchors_[anchor - 1] : 0.0);
-    return -std::log(static_cast<double>(felt_.size()) * share);
-  };
-  const OutlineCut& now = cuts_[which];
-  if (now.is_present) return try_cut(which, {}, -anchor_ratio(now.anchor), random);
-  const auto found = std::ranges::upper_bound(anchors_, random.uniform());
-  const auto anchor = std::min<std::size_t>(found - anchors_.begin(), felt_.size() - 1);
-  return try_cut(which, drawn_cut(static_cast<int>(anchor), readings_->places[anchor], random),
-                 anchor_ratio(anchor), random);
-}
-
-bool OutlineChain::move_cut(int which, const OutlineCut& cut, Random& random) {
-  const double density = log_cut_density(cut);
-  return std::isfinite(density) &&
-         try_cut(which, cut, density - log_cut_density(cuts_[which]), random);
-}
-
-void OutlineChain::anchor_anew(int which, Random& random) {
-  OutlineCut& cut = cuts_[which];
-  const double radius = std::exp(cut.log_radius);
-  const Vec2 middle = cut.anchor_place + radius * cut.offset;
-  std::vector<int> within;
-  for (std::size_t i = 0; i < felt_.size(); ++i) {
-    if ((readings_->places[i] - middle).squaredNorm() <= radius * radius)
-      within.push_back(static_cast<int>(i));
-  }
-  if (within.empty()) return;
-  cut.anchor = within[random.below(static_cast<int>(within.size()))];
-  cut.anchor_place = readings_->places[cut.anchor];
-  cut.offset = (middle - cut.anchor_place) / radius;
 }
 
 }  // namespace palpation

@@ -21,22 +21,27 @@ class OutlineChain {
   static constexpr int kCuts = 2;
   using Cuts = std::array<OutlineCut, kCuts>;
 
-  /// The readings and the prior must outlive it. The start's lines must not cross.
+  /// The readings and the prior must outlive it. The start's lines must not cross. `residuals`:
+  /// whose scales it has.
   OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
                OutlineProfile profile, const Cuts& cuts = {},
-               const OutlineBackground* background = nullptr);
+               const OutlineResiduals* residuals = nullptr);
 
   /// Proposes that consecutive nodes of a loop, from `first` on, move to these places; at most all
   /// of them. `log_volume`: of the proposal's Jacobian. Never lets lines cross. Returns whether it
   /// was taken.
   bool move_nodes(int first, const std::vector<Vec2>& places, Random& random,
                   double log_volume = 0.0);
-  /// Proposes another profile; `is_of_shape` where it differs in log_turn and log_spacing alone,
-  /// else it must differ in the others alone.
+  /// Proposes another profile of the same noise; `is_of_shape` where it differs in log_turn and
+  /// log_spacing alone, else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
 
-  /// Another background, from what it is given all else.
-  void draw_background(Random& random);
+  /// Proposes that readings after a change were made elsewhere.
+  bool move_tissue(int change, const Vec2& moved_m, Random& random);
+
+  /// Another noise, background and other readings that tell nothing, from what they are given all
+  /// else. Returns the zero's steps, drawn with them.
+  Eigen::VectorXd redraw_residuals(Random& random);
 
   /// Proposes that a cut which is present is not, or that a fresh one is.
   bool switch_cut(int which, Random& random);
@@ -48,29 +53,38 @@ class OutlineChain {
   const OutlineNodes& outline() const { return outline_; }
   const Cuts& cuts() const { return cuts_; }
   const OutlineProfile& profile() const { return profile_; }
+  const OutlinePrior& prior() const { return *prior_; }
   const ReadingLaw& law() const { return law_; }
-  const OutlineBackground& background() const { return background_; }
-  /// Of the posterior, without what depends on nothing that moves; as it was added up step by step.
+  const OutlineResiduals& residuals() const { return residuals_; }
+  /// Of the posterior, without what depends on nothing that moves.
   double log_density() const;
 
  private:
-  /// Where a reading lies to the outline, and its log likelihood there.
+  /// Where a reading lies to the outline.
   struct Felt {
     NearestPiece nearest;
     bool inside = false;
     double depth_m = 0.0;  ///< in the loops, less what cuts take
     double share = 0.0;    ///< of its contrast
-    double log_likelihood = 0.0;
   };
   struct Step;
 
+  int epoch_of(std::size_t reading) const;
+  Vec2 place_of(std::size_t reading) const;
   int part_of(const Felt& felt) const;
   double depth_of(std::size_t reading, const Felt& felt) const;
-  double likelihood_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  double share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  double off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  Felt felt_anew(std::size_t reading) const;
   Felt felt_at(std::size_t reading, NearestPiece nearest, bool inside) const;
-  /// What the readings' density changes by if this one is felt so; `keep_fresh` makes it so.
-  double consider(std::size_t reading, const Felt& felt);
-  void keep_fresh();
+  std::vector<Felt> felt_at_start();
+  OutlineResiduals fresh_residuals() const;
+  /// Another thought: nothing is considered.
+  void consider_none();
+  void consider(std::size_t reading, const Felt& felt, const ReadingLaw& law);
+  /// Whether what is considered is taken, where the rest of the log density changes by so much;
+  /// makes it so.
+  bool takes(double change, Random& random);
   bool try_cut(int which, const OutlineCut& cut, double change, Random& random);
   Step step_from(int first, int moved) const;
   double shape_about(const Step& step) const;
@@ -85,11 +99,11 @@ class OutlineChain {
   OutlinePieces pieces_;  // of the outline
   OutlineProfile profile_;
   ReadingLaw law_;  // of the profile
-  OutlineBackground background_;
   Cuts cuts_;
   std::array<Stadium, kCuts> stadiums_;  // of the cuts that are present
-  std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
   std::vector<Felt> felt_;
+  OutlineResiduals residuals_;
+  std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
   std::vector<std::pair<std::size_t, Felt>> fresh_;  // what the step at hand changes
 };
 

@@ -1,4 +1,5 @@
-// How a chain moves all but its nodes and cuts: the profile and the background.
+// How a chain moves the profile, the tissue, and what readings are off by.
+#include <algorithm>
 #include <cmath>
 
 #include "certainty/outline_chain.h"
@@ -8,41 +9,42 @@ namespace palpation {
 bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random) {
   double change = log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
   const ReadingLaw law = law_of(profile, *prior_);
-  fresh_.clear();
+  consider_none();
   if (is_of_shape) {
     change += log_shape_density(outline_, profile) - log_shape_density(outline_, profile_);
   } else {
-    const bool keeps_shares = law.slope_per_m == law_.slope_per_m &&
+    const bool keeps_shares = law.slope_per_m == law_.slope_per_m && law.lean == law_.lean &&
                               law.shoulder == law_.shoulder && law.skirt == law_.skirt;
     for (std::size_t i = 0; i < felt_.size(); ++i) {
       Felt felt = felt_[i];
-      if (!keeps_shares) felt.share = share_at(law, felt.depth_m);
-      felt.log_likelihood = likelihood_of(i, felt, law);
-      change += consider(i, felt);
+      if (!keeps_shares) felt.share = share_of(i, felt, law);
+      consider(i, felt, law);
     }
   }
-  if (!(std::log(random.uniform()) < change)) return false;
+  if (!takes(change, random)) return false;
   profile_ = profile;
   law_ = law;
-  keep_fresh();
   return true;
 }
 
-/// Which readings tell nothing is drawn first: those that do are normal.
-void OutlineChain::draw_background(Random& random) {
-  if (background_.is_none()) return;
-  const auto count = static_cast<Eigen::Index>(felt_.size());
-  Eigen::VectorXd off(count), precision(count);
+bool OutlineChain::move_tissue(int change, const Vec2& moved_m, Random& random) {
+  const OutlineProfile before = profile_;
+  profile_.moved_m[change] = moved_m;
+  consider_none();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const double square = readings_->variance[i] * law_.noise_square,
-                 tells_nothing = law_.wild_density / std::exp(felt_[i].log_likelihood);
-    off[row] = readings_->reading[i] - law_.low - law_.contrast[part_of(felt_[i])] * felt_[i].share;
-    precision[row] = random.uniform() < tells_nothing ? 0.0 : 1.0 / square;
+    if (std::ranges::count(prior_->epochs[epoch_of(i)], change) > 0)
+      consider(i, felt_anew(i), law_);
   }
-  background_.draw(off, precision, random);
-  for (std::size_t i = 0; i < felt_.size(); ++i)
-    felt_[i].log_likelihood = likelihood_of(i, felt_[i], law_);
+  const bool taken =
+      takes(log_profile_density(profile_, *prior_) - log_profile_density(before, *prior_), random);
+  if (!taken) profile_ = before;
+  return taken;
+}
+
+Eigen::VectorXd OutlineChain::redraw_residuals(Random& random) {
+  Eigen::VectorXd steps = residuals_.redraw(random);
+  profile_.log_noise = residuals_.log_noise();
+  return steps;
 }
 
 }  // namespace palpation

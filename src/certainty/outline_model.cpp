@@ -8,15 +8,16 @@
 namespace palpation {
 namespace {
 
-constexpr double kWild = 0.01;          ///< part of the readings that tell nothing
-constexpr double kWildReach = 12.0;     ///< of these, in plateau_sd: three times the range
-constexpr double kTurnLogSd = 1.0;      ///< of the turns' half width
+constexpr double kWildReach = 12.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
+constexpr double kTurnLogSd = 1.0;   ///< of the turns' half width
 constexpr double kPlateau = 2.0 / 3.0;  ///< part of the tumours that are as equation 4 has them
 constexpr double kUnbentLogSd = 0.25;   ///< of shoulder and skirt there
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
+constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the middle to a side
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
+constexpr double kMoved_m = 0.002;      ///< sd of what is left of a move, as finely as it was tried
 
 double half_square(double z) { return 0.5 * z * z; }
 
@@ -48,30 +49,41 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
                  .shoulder = std::exp(profile.log_shoulder),
                  .skirt = std::exp(profile.log_skirt),
                  .logit_fraction = logit(prior.fraction),
+                 .lean = profile.lean,
+                 .middle = prior.middle,
+                 .radius_m = prior.radius_m,
                  .contrast = {},
-                 .noise_square = std::exp(2.0 * profile.log_noise),
-                 .wild_density = kWild / (kWildReach * prior.plateau_sd)};
+                 .gain = {}};
   for (const double log_contrast : profile.log_contrast)
     law.contrast.push_back((profile.high - profile.low) * std::exp(log_contrast));
+  for (const std::vector<int>& changes : prior.epochs) {
+    double log_gain = 0.0;
+    for (const int change : changes) log_gain += profile.log_gain[change];
+    law.gain.push_back(std::exp(log_gain));
+  }
   return law;
 }
 
-double share_at(const ReadingLaw& law, double depth_m) {
-  const double steps = law.slope_per_m * depth_m;
+double steepness_at(const ReadingLaw& law, const Vec2& place) {
+  const Vec2 off = place - law.middle;
+  return std::exp(law.lean.dot(off) / std::sqrt(off.squaredNorm() + law.radius_m * law.radius_m));
+}
+
+double share_at(const ReadingLaw& law, double depth_m, double steepness) {
+  const double steps = law.slope_per_m * steepness * depth_m;
   return sigmoid(bent(steps, steps > 0.0 ? law.shoulder : law.skirt) + law.logit_fraction);
 }
 
-double depth_where(const ReadingLaw& law, double share) {
+double depth_where(const ReadingLaw& law, double share, double steepness) {
   const double steps = logit(share) - law.logit_fraction,
                power = steps > 0.0 ? law.shoulder : law.skirt;
-  return bent(power * steps, 1.0 / power) / (law.slope_per_m * power);
+  return bent(power * steps, 1.0 / power) / (law.slope_per_m * steepness * power);
 }
 
-double log_likelihood(const ReadingLaw& law, double reading, double variance, double rise) {
-  const double square = variance * law.noise_square, off = reading - law.low - rise;
-  const double normal =
-      std::exp(-0.5 * off * off / square) / std::sqrt(2.0 * std::numbers::pi * square);
-  return std::log((1.0 - kWild) * normal + law.wild_density);
+ResidualPrior residual_prior(const OutlinePrior& prior) {
+  return {.log_noise = prior.median.log_noise,
+          .noise_log_sd = prior.noise_log_sd,
+          .wild_density = 1.0 / (kWildReach * prior.plateau_sd)};
 }
 
 double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,
@@ -106,12 +118,15 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   double sum = half_square((profile.low - median.low) / prior.plateau_sd) +
                half_square((profile.high - median.high) / prior.plateau_sd) +
                half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
-               half_square((profile.log_noise - median.log_noise) / prior.noise_log_sd) +
+               half_square(profile.lean.norm() / kLean) +
                half_square((profile.log_turn - median.log_turn) / kTurnLogSd);
   for (std::size_t loop = 0; loop < profile.log_spacing.size(); ++loop)
     sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
+  for (const Vec2& moved_m : profile.moved_m) sum += half_square(moved_m.norm() / kMoved_m);
+  for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
+    sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
   return std::log(Kinds(profile).both()) - sum;
 }
 

@@ -9,17 +9,19 @@
 ///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction)))
 ///         + background + noise
 ///
-/// the background as outline_background.h has it, the noise normal but for a reading in a hundred,
-/// which tells nothing. Unbent, that is equation 4 of Garg et al. 2016, zero where the boundary is;
-/// bent(t) = sinh(k asinh t) / k (Jones and Pewsey 2009) is t near the boundary and goes on as t^k,
-/// with a k for each side: a round top or a sharp one, the wide skirt of something that lies deep
-/// or none. Cuts take from the inside (outline_cut.h).
+/// these two as outline_residuals.h has them. Unbent, that is equation 4 of Garg et al. 2016, zero
+/// where the boundary is; bent(t) = sinh(k asinh t) / k (Jones and Pewsey 2009) is t near the
+/// boundary and goes on as t^k, with a k for each side: a round top or a sharp one, the wide skirt
+/// of something that lies deep or none. The slope may be another on each side, its logarithm that
+/// in the middle + lean . x / (x^2 + radius^2)^(1/2) at x from there. Cuts take from the inside
+/// (outline_cut.h).
 #pragma once
 
 #include <vector>
 
-#include "certainty/outline_background.h"
 #include "certainty/outline_nodes.h"
+#include "certainty/outline_residuals.h"
+#include "palpation/certainty/misfit.h"
 
 namespace palpation {
 
@@ -28,6 +30,8 @@ struct OutlineReadings {
   std::vector<Vec2> places;
   std::vector<double> reading;
   std::vector<double> variance;  ///< of the noise
+  /// In which of OutlinePrior::epochs each was made; empty where there is but the first.
+  std::vector<int> epoch{};
   BackgroundTerms background{};
 };
 
@@ -35,13 +39,18 @@ struct OutlineReadings {
 struct OutlineProfile {
   double low = 0.0;
   double high = 0.0;
-  double log_slope = 0.0;            ///< of a slope per metre
+  double log_slope = 0.0;            ///< of a slope per metre, in the tumour's middle
+  Vec2 lean = Vec2::Zero();          ///< how that rises towards a side (OutlinePrior::middle)
   double log_shoulder = 0.0;         ///< of the power with which readings rise on inside
   double log_skirt = 0.0;            ///< and fall on outside
   double log_noise = 0.0;            ///< of what the noise's standard deviations are multiplied by
   double log_turn = 0.0;             ///< of the law's half width, radians
   std::vector<double> log_spacing;   ///< of each loop's pieces, metres
   std::vector<double> log_contrast;  ///< of each part, the first one's 0
+  /// What is left of each change once it is taken back: later readings were made so much farther on
+  /// than they are said to be, and are so many times as far from `low`.
+  std::vector<Vec2> moved_m{};
+  std::vector<double> log_gain{};
 };
 
 /// Medians and spreads, of all that is positive in logarithms.
@@ -50,24 +59,33 @@ struct OutlinePrior {
   double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
-  double fraction = 0.5;  ///< of the way from low to high, where the boundary is
+  double fraction = 0.5;              ///< of the way from low to high, where the boundary is
+  Vec2 middle = Vec2::Zero();         ///< of what was found first, and
+  double radius_m = 0.005;            ///< how far from it a slope is nearly that of its side
+  std::vector<MisfitKind> changes{};  ///< in time: what `moved_m` and `log_gain` may differ by
+  std::vector<double> gain_log_sd{};  ///< of each
+  /// The changes that readings of each were made after; of the first, none.
+  std::vector<std::vector<int>> epochs{{}};
 };
 
 /// How readings come from depths, by a profile.
 struct ReadingLaw {
   double low, slope_per_m, shoulder, skirt, logit_fraction;
+  Vec2 lean, middle;
+  double radius_m;
   std::vector<double> contrast;  ///< of each part
-  double noise_square;           ///< what variances are multiplied by
-  double wild_density;           ///< of a reading that tells nothing, times how many there are
+  std::vector<double> gain;      ///< of readings of each epoch
 };
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
 
+/// How many times as steep as in the middle.
+double steepness_at(const ReadingLaw& law, const Vec2& place);
 /// What share of its contrast tissue has at a depth.
-double share_at(const ReadingLaw& law, double depth_m);
+double share_at(const ReadingLaw& law, double depth_m, double steepness = 1.0);
 /// The depth at which it has so much of it, which lies in (0, 1).
-double depth_where(const ReadingLaw& law, double share);
-/// Log density of a reading where tissue reads so much higher than `low`.
-double log_likelihood(const ReadingLaw& law, double reading, double variance, double rise);
+double depth_where(const ReadingLaw& law, double share, double steepness = 1.0);
+/// Of what a reading is off by that.
+ResidualPrior residual_prior(const OutlinePrior& prior);
 
 /// Of the turn at a node of a loop, by the places before it, of it and after it.
 double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,

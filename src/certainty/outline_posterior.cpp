@@ -78,25 +78,33 @@ std::pair<Eigen::RowVectorXf, double> depths_of(const OutlineDraw& draw, const P
   const OutlinePieces pieces(draw.outline);
   Eigen::RowVectorXf depths(places.rows());
   std::vector<int> part_of(static_cast<std::size_t>(places.rows()));
-  std::vector<double> greatest(draw.profile.log_contrast.size(), 0.0);
+  struct Deepest {
+    double depth_m = 0.0;
+    Vec2 place = Vec2::Zero();
+  };
+  std::vector<Deepest> deepest(draw.profile.log_contrast.size());
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
     const Vec2 place = places.row(i).transpose();
     const auto [square, piece] = pieces.nearest(place);
     double depth = pieces.encloses(place) ? std::sqrt(square) : -std::sqrt(square);
     for (const Stadium& cut : draw.cuts) depth = std::min(depth, -cut.depth_at(place));
     const int part = draw.outline.loops[draw.outline.loop_of[piece]].part;
-    greatest[part] = std::max(greatest[part], depth);
+    if (depth > deepest[part].depth_m) deepest[part] = {depth, place};
     depths[i] = static_cast<float>(depth);
     part_of[i] = part;
   }
-  std::vector<float> wider;
   std::vector<double> share;  // of the contrast, at the boundary of each part
-  for (const double deepest : greatest) {
-    const double height = draw.has_plateau ? 1.0 : share_at(draw.law, deepest);
+  for (const auto& [depth_m, place] : deepest) {
+    const double height =
+        draw.has_plateau ? 1.0 : share_at(draw.law, depth_m, steepness_at(draw.law, place));
     share.push_back(height * share_at(draw.law, 0.0));
-    wider.push_back(static_cast<float>(-depth_where(draw.law, share.back())));
   }
-  for (Eigen::Index i = 0; i < places.rows(); ++i) depths[i] += wider[part_of[i]];
+  if (!draw.has_plateau) {
+    for (Eigen::Index i = 0; i < places.rows(); ++i) {
+      const double steepness = steepness_at(draw.law, places.row(i).transpose());
+      depths[i] -= static_cast<float>(depth_where(draw.law, share[part_of[i]], steepness));
+    }
+  }
   return {depths, draw.law.low + draw.law.contrast.front() * share.front()};
 }
 
@@ -188,15 +196,31 @@ void add_areas(const Surface& surface, const Eigen::MatrixXf& depths, OutlinePos
   posterior.area_m2 = summed_up(std::move(areas));
 }
 
-Level level_of(const std::vector<double>& levels) {
+Level mean_and_sd(const std::vector<double>& numbers) {
   double sum = 0.0, square = 0.0;
-  const auto count = static_cast<double>(levels.size());
-  for (const double level : levels) {
-    sum += level;
-    square += level * level;
+  const auto count = static_cast<double>(numbers.size());
+  for (const double number : numbers) {
+    sum += number;
+    square += number * number;
   }
   const double mean = sum / count;
   return {mean, std::sqrt(std::max(square / count - mean * mean, 0.0))};
+}
+
+std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes, const Draws& draws) {
+  std::vector<ChangeLeft> left;
+  Eigen::Index step = 0;
+  for (std::size_t change = 0; change < changes.size(); ++change) {
+    if (changes[change].kind == MisfitKind::Moved) continue;
+    std::vector<double> steps, gains;
+    for (const OutlineDraw& draw : draws) {
+      steps.push_back(moves_zero(changes[change]) ? draw.steps[step] : 0.0);
+      gains.push_back(std::exp(draw.profile.log_gain[change]));
+    }
+    step += moves_zero(changes[change]);
+    left.push_back({changes[change], mean_and_sd(steps), summed_up(std::move(gains))});
+  }
+  return left;
 }
 
 }  // namespace
@@ -227,7 +251,8 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .farthest = {},
                              .expected = {},
                              .area_m2 = {},
-                             .level = level_of(levels),
+                             .left = left_of(options.changes, draws),
+                             .level = mean_and_sd(levels),
                              .disagreement = disagreement};
   add_depths(depths, posterior);
   add_areas(surface, depths, posterior);

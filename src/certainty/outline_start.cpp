@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <span>
 
 #include "certainty/edge_data.h"
 #include "palpation/boundary/level_set.h"
@@ -18,10 +20,62 @@ constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
 /// Of a noise that is given: edges are no perfect sigmoids.
 constexpr double kGivenNoiseLogSd = 0.3;
 constexpr double kLearnedNoiseLogSd = 1.0;
-constexpr double kWaves = 0.02, kDrift = 0.1;  ///< sd of the background's, of the range
-constexpr double kModelError = 1e-3;           ///< of the range, as the edge's fit has it
+constexpr double kWaves = 0.02, kDrift = 0.1,
+                 kTilt = 0.2;         ///< sd of the background's, of the range
+constexpr double kStep = 0.25;        ///< sd of what is left of a zero's step, of the range
+constexpr double kSessionStep = 1.0;  ///< where another session began: it may have felt one plateau
+/// Of what is left of a gain, and of a session's, of which nothing was taken back.
+constexpr double kGainLogSd = 0.2, kSessionGainLogSd = 0.5;
+constexpr double kModelError = 1e-3;  ///< of the range, as the edge's fit has it
 
-OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range) {
+/// The changes that most of the readings that are one were made after.
+std::vector<int> changes_before(std::span<const Misfit> changes, const std::vector<Made>& made) {
+  std::vector<int> before;
+  for (std::size_t change = 0; change < changes.size(); ++change) {
+    const auto since = std::ranges::count_if(
+        made, [&](const Made& one) { return is_since(changes[change], one); });
+    if (2 * since > std::ssize(made)) before.push_back(static_cast<int>(change));
+  }
+  return before;
+}
+
+/// Columns for those that move the zero.
+Eigen::MatrixXd steps_of(std::span<const Misfit> changes,
+                         const std::vector<std::vector<int>>& before) {
+  Eigen::MatrixXd steps(static_cast<Eigen::Index>(before.size()), 0);
+  for (std::size_t change = 0; change < changes.size(); ++change) {
+    if (!moves_zero(changes[change])) continue;
+    steps.conservativeResize(Eigen::NoChange, steps.cols() + 1);
+    for (Eigen::Index row = 0; row < steps.rows(); ++row)
+      steps(row, steps.cols() - 1) =
+          static_cast<double>(std::ranges::count(before[row], static_cast<int>(change)));
+  }
+  return steps;
+}
+
+/// Each reading's, among those that there are: the first knows of no change.
+std::vector<int> epochs_of(const std::vector<std::vector<int>>& before,
+                           std::vector<std::vector<int>>& epochs) {
+  std::vector<int> of_readings;
+  for (const std::vector<int>& changes : before) {
+    const auto found = std::ranges::find(epochs, changes);
+    of_readings.push_back(static_cast<int>(found - epochs.begin()));
+    if (found == epochs.end()) epochs.push_back(changes);
+  }
+  return of_readings;
+}
+
+Eigen::VectorXd step_sd_of(std::span<const Misfit> changes, double range) {
+  std::vector<double> sd;
+  for (const Misfit& change : changes) {
+    if (moves_zero(change)) sd.push_back(range * (change.session > 0 ? kSessionStep : kStep));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(sd.data(), static_cast<Eigen::Index>(sd.size()));
+}
+
+OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
+                                  std::span<const Misfit> changes,
+                                  std::vector<std::vector<int>>& epochs) {
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
   EdgeData data = gathered_for_edge(belief);
@@ -39,18 +93,26 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   });
   OutlineReadings readings;
   std::vector<double> when;
+  std::vector<std::vector<int>> before;
   for (const std::size_t i : order) {
     const auto row = static_cast<Eigen::Index>(i);
     readings.places.push_back(places[i]);
     readings.reading.push_back(data.reading[row]);
     readings.variance.push_back(std::max(data.variance[row], least_variance));
-    const std::vector<int>& batches = data.batches[i];
-    when.push_back(std::accumulate(batches.begin(), batches.end(), 0.0) /
-                   static_cast<double>(batches.size()));
+    double batches = 0.0;
+    for (const Made& one : data.made[i]) batches += one.batch;
+    when.push_back(batches / static_cast<double>(data.made[i].size()));
+    before.push_back(changes_before(changes, data.made[i]));
   }
-  readings.background = background_terms(readings.places, when);
+  readings.background = background_terms({.places = readings.places,
+                                          .variance = readings.variance,
+                                          .when = when,
+                                          .steps = steps_of(changes, before)});
+  readings.epoch = epochs_of(before, epochs);
+  readings.background.step_sd = step_sd_of(changes, range);
   readings.background.median_sd = kWaves * range;
   readings.background.drift_sd = kDrift * range;
+  readings.background.tilt_sd = kTilt * range;
   return readings;
 }
 
@@ -119,17 +181,21 @@ bool is_simple(const OutlineNodes& outline) {
 
 }  // namespace
 
+bool moves_zero(const Misfit& change) {
+  return change.kind == MisfitKind::Zero ||
+         (change.kind == MisfitKind::Gain && change.session == 0);
+}
+
 std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief& edge,
                                           const OutlineOptions& options) {
   const Surface& surface = belief.prior().surface();
   const EdgeProfile& profile = edge.profile();
   const double range = profile.high - profile.low;
+  const std::vector<Misfit>& changes = options.changes;
   const std::vector<std::vector<Vec2>> lines = lines_of(surface, edge.depth());
   if (lines.empty() || !(range > 0.0)) return std::nullopt;
-  OutlineStart start{.readings = readings_in_plane(belief, edge, range),
-                     .prior = {},
-                     .outline = {},
-                     .profile = {}};
+  OutlineStart start;
+  start.readings = readings_in_plane(belief, edge, range, changes, start.prior.epochs);
   start.outline = outline_from(lines, start.readings.places);
   while (!is_simple(start.outline)) {
     if (start.outline.loops.size() == 1) return std::nullopt;
@@ -150,7 +216,13 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
             .log_noise = 0.0,
             .log_turn = std::log(kTurn),
             .log_spacing = std::vector(start.outline.loops.size(), std::log(kSpacing_m)),
-            .log_contrast = {}};
+            .log_contrast = {},
+            .moved_m = std::vector<Vec2>(changes.size(), Vec2::Zero()),
+            .log_gain = std::vector(changes.size(), 0.0)};
+  for (const Misfit& change : changes) {
+    start.prior.changes.push_back(change.kind);
+    start.prior.gain_log_sd.push_back(change.session > 0 ? kSessionGainLogSd : kGainLogSd);
+  }
   int parts = 1;
   for (const NodeLoop& loop : start.outline.loops) parts = std::max(parts, loop.part + 1);
   median.log_contrast.assign(static_cast<std::size_t>(parts), 0.0);
@@ -158,6 +230,12 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;
+  const NodeLoop& largest = start.outline.loops.front();
+  const std::span<const Vec2> nodes(start.outline.place.begin() + largest.first,
+                                    static_cast<std::size_t>(largest.count));
+  for (const Vec2& node : nodes) start.prior.middle += node / largest.count;
+  start.prior.radius_m =
+      std::sqrt(std::abs(enclosed_area({nodes.begin(), nodes.end()})) / std::numbers::pi);
   start.profile = median;
   start.profile.low = profile.low;
   start.profile.high = profile.high;

@@ -16,6 +16,10 @@ struct OutlineStart {
   OutlineProfile profile;
 };
 
+/// Whether a change adds the same to all readings since; what a session's gain would add, its zero
+/// does.
+bool moves_zero(const Misfit& change);
+
 /// Nothing where there is no boundary. The readings are sorted, so that their order tells nothing.
 std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief& edge,
                                           const OutlineOptions& options);

@@ -1,5 +1,6 @@
 #include "certainty/outline_walk.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -16,9 +17,10 @@ constexpr double kFirst_m = 0.0003, kLeast_m = 1e-8, kMost_m = 0.008;
 constexpr double kOfNodes = 0.3, kOfNumbers = 0.4;
 constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
+constexpr double kTradedGain = 0.2;
 constexpr int kProfileRounds = 2;
-constexpr int kBackgroundEvery = 3;  ///< sweeps: it costs as much as they do
-constexpr int kSwitches = 3;         ///< of each cut, a sweep
+constexpr int kResidualsEvery = 4;  ///< sweeps: it costs as much as they do
+constexpr int kSwitches = 3;        ///< of each cut, a sweep
 
 double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform(); }
 
@@ -38,8 +40,9 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   lengths_.of_loops.resize(outline.loops.size());
   for (auto& lengths : lengths_.of_loops) lengths.fill(kFirst_m);
   lengths_.of_contrasts.assign(chain_.profile().log_contrast.size(), 0.1);
+  lengths_.of_changes.assign(prior.changes.size(), kFirst_m);
   const double plateau = 0.2 * prior.plateau_sd;
-  lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1, 0.1, 0.1};
+  lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
 }
 
@@ -65,7 +68,8 @@ OutlineDraw OutlineWalk::drawn() {
                    .profile = chain_.profile(),
                    .law = chain_.law(),
                    .has_plateau = random_.uniform() < plateau_probability(chain_.profile()),
-                   .cuts = {}};
+                   .cuts = {},
+                   .steps = steps_};
   for (const OutlineCut& cut : chain_.cuts()) {
     if (cut.is_present) draw.cuts.push_back(cut.stadium());
   }
@@ -89,7 +93,8 @@ void OutlineWalk::sweep() {
     for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
   }
   for (int round = 0; round < kProfileRounds; ++round) move_profile();
-  if (swept_++ % kBackgroundEvery == 0) chain_.draw_background(random_);
+  move_changes();
+  if (swept_++ % kResidualsEvery == 0) steps_ = chain_.redraw_residuals(random_);
   move_cuts();
 }
 
@@ -148,8 +153,8 @@ void OutlineWalk::move_profile() {
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
     double* const number[kOfProfile] = {
-        &profile.low,       &profile.high,      &profile.log_slope, &profile.log_shoulder,
-        &profile.log_skirt, &profile.log_noise, &profile.log_turn};
+        &profile.low,      &profile.high,         &profile.log_slope, &profile.lean.x(),
+        &profile.lean.y(), &profile.log_shoulder, &profile.log_skirt, &profile.log_turn};
     *number[i] += lengths_.of_profile[i] * random_.normal();
     const bool is_turn = i == kOfProfile - 1;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);
@@ -165,6 +170,42 @@ void OutlineWalk::move_profile() {
     profile.log_spacing[loop] += kSpacingStep * random_.normal();
     chain_.move_profile(profile, true, random_);
   }
+}
+
+void OutlineWalk::move_changes() {
+  for (std::size_t change = 0; change < lengths_.of_changes.size(); ++change) {
+    double& length = lengths_.of_changes[change];
+    const double step = length * random_.normal();
+    OutlineProfile profile = chain_.profile();
+    switch (chain_.prior().changes[change]) {
+      case MisfitKind::Moved: {
+        const Vec2 next = profile.moved_m[change] + step * direction_of(random_);
+        tune(length, chain_.move_tissue(static_cast<int>(change), next, random_), kOfNodes,
+             kMost_m);
+        break;
+      }
+      case MisfitKind::Gain:
+        profile.log_gain[change] += step / kFirst_m;
+        tune(length, chain_.move_profile(profile, false, random_), kOfNumbers, kFirst_m);
+        trade_gain(change);
+        break;
+      default:
+        break;  // the background's
+    }
+  }
+}
+
+/// Of a change and the next gain: what is felt after both may tell of neither alone.
+void OutlineWalk::trade_gain(std::size_t change) {
+  const std::vector<MisfitKind>& kinds = chain_.prior().changes;
+  const auto next = std::find(kinds.begin() + static_cast<std::ptrdiff_t>(change) + 1, kinds.end(),
+                              MisfitKind::Gain);
+  if (next == kinds.end()) return;
+  const double step = kTradedGain * random_.normal();
+  OutlineProfile profile = chain_.profile();
+  profile.log_gain[change] += step;
+  profile.log_gain[static_cast<std::size_t>(next - kinds.begin())] -= step;
+  chain_.move_profile(profile, false, random_);
 }
 
 void OutlineWalk::move_cuts() {

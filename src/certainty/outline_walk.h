@@ -21,6 +21,7 @@ struct OutlineDraw {
   /// that height.
   bool has_plateau = true;
   std::vector<Stadium> cuts;
+  Eigen::VectorXd steps;  ///< of the zero, of the changes that move it
 };
 
 class OutlineWalk {
@@ -37,11 +38,12 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 7, kOfCut = 4;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 8, kOfCut = 4;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres
     std::vector<double> of_contrasts;
+    std::vector<double> of_changes;
     std::array<double, kOfProfile> of_profile;
     std::array<double, kOfCut> of_cuts;
   };
@@ -51,12 +53,15 @@ class OutlineWalk {
   void move_stretch(int middle, int width);
   void move_loop(int loop, int kind);
   void move_profile();
+  void move_changes();
+  void trade_gain(std::size_t change);
   void move_cuts();
   void tune(double& length, bool taken, double share, double most) const;
 
   OutlineChain chain_;
   Random random_;
   Lengths lengths_;
+  Eigen::VectorXd steps_;  // of the zero, as last drawn
   bool settling_ = false;
   int swept_ = 0;
 };

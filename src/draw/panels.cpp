@@ -174,7 +174,7 @@ void draw_margins(Sheet& sheet, const Outcome& outcome, const PanelPlan& plan, c
 void draw_zone_keys(Sheet& sheet, const BandNumbers& band, const Box& map) {
   const Pixel first(map.right() + 14.0, map.centre().y() + 92.0);
   const Pixel down(0.0, -62.0);
-  draw_patch_key(sheet, first, kSurelyTumour, "tumour", band.inner_area_mm2);
+  draw_patch_key(sheet, first, kSurelyTumour, "certain", band.inner_area_mm2);
   draw_patch_key(sheet, first + down, kUnsure, "uncertain", std::nullopt);
   if (band.half_width_mm)
     sheet.text(first + down + Pixel(0.0, -22.0),

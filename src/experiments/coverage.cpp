@@ -149,6 +149,11 @@ std::vector<std::string> columns_against_truth() {
           "needed_width", "half_width_mm", "warnings", "expected_error_mm2"};
 }
 
+void refuse_without_certainty(const Scene& scene) {
+  if (scene.word("certainty") == "off")
+    scene.refuse_value("certainty", "sampled or laplace, for experiment coverage to judge it");
+}
+
 Figures against_truth(const Episode& episode, const World& world) {
   const Exploration& exploration = episode.exploration;
   const Surface& surface = exploration.surface();
@@ -179,6 +184,7 @@ json random_tumours_scene() {
 Study coverage_study(const ExperimentArguments& arguments) {
   if (!arguments.material.world.empty()) return worlds_study(arguments);
   const Scene base = base_scene(arguments, random_tumours_scene());
+  refuse_without_certainty(base);
   Study study;
   for (const double noise : kNoises)
     study.cells.push_back({"noise " + fixed(100.0 * noise, 0) + " %",

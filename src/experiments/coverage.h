@@ -14,6 +14,9 @@ Figures against_truth(const Episode& episode, const World& world);
 /// Its columns.
 std::vector<std::string> columns_against_truth();
 
+/// Where a scene says that it is off, there is none to hold against the truth.
+void refuse_without_certainty(const Scene& scene);
+
 /// coverage --world NAME|all.
 Study worlds_study(const ExperimentArguments& arguments);
 void report_worlds(const Results& results, const ReportFolder& folder);

@@ -108,13 +108,13 @@ void add_reliability(const Surface& surface, const World& world, const Field& pr
 
 /// What surprised, and by how many nats.
 std::string misfit_text(const Conclusion& conclusion) {
-  constexpr std::array kNames = {"zero", "gain", "moved", "weaker"};
   std::string text;
-  for (const ZeroChange& one : conclusion.evidence.zero_changes)
-    text += (text.empty() ? "" : " ") + ("zero-back=" + reading_text(one.amount));
+  for (const Misfit& one : conclusion.evidence.taken_back)
+    text += (text.empty() ? "" : " ") + std::string(name_of(one.kind)) +
+            "-back=" + reading_text(one.amount);
   for (const Misfit& one : misfits(conclusion))
-    text += (text.empty() ? "" : " ") + std::string(kNames[static_cast<std::size_t>(one.kind)]) +
-            "=" + fixed(one.evidence, 1);
+    text +=
+        (text.empty() ? "" : " ") + std::string(name_of(one.kind)) + "=" + fixed(one.evidence, 1);
   return text;
 }
 
@@ -181,6 +181,7 @@ std::vector<WorldFamily> chosen_families(const std::string& name) {
 Study worlds_study(const ExperimentArguments& arguments) {
   const bool has_tissue = !arguments.scene.empty();
   const Scene base = base_scene(arguments, worlds_scene());
+  refuse_without_certainty(base);
   Study study;
   for (const WorldFamily& family : chosen_families(arguments.material.world))
     study.cells.push_back({family.name, base.with("probe.world", family.name),

@@ -33,6 +33,7 @@ std::vector<Choice> choices_for(const Scene& scene, const Surface& surface) {
     choices.push_back(
         {"plan on " + fixed(explore_mm, 1) + " mm", {{"plan.explore_mm", explore_mm}}});
   choices.push_back({"Laplace's certainty", {{"certainty", "laplace"}}});
+  choices.push_back({"no certainty", {{"certainty", "off"}}});
   choices.push_back({"plain arithmetic", {{"error.arithmetic", "plain"}}});
   choices.push_back({"grown field", {{"field.rebuild_gain", 0.5}}});
   choices.push_back({"single precision", {{"field.precision", "single"}}});

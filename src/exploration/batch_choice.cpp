@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
+#include "boundary/superlevel_parts.h"
 #include "exploration/field_fit.h"
 #include "exploration/search_goal.h"
 #include "palpation/geometry/distance.h"
@@ -87,17 +89,35 @@ std::vector<int> with_others(const Batching& batch, std::vector<int> stops, Beli
   return stops;
 }
 
-/// Where a tumour of the goal's size could still hide: as many stops as that takes, or the plan has
-/// left.
+/// Of a disk as large as the largest part that was found; 0 where none was.
+double found_diameter_m(const Conclusion& conclusion) {
+  if (!conclusion.edge || !conclusion.contour) return 0.0;
+  const Surface& surface = conclusion.belief.prior().surface();
+  double most_m2 = 0.0;
+  for (const std::vector<int>& part :
+       superlevel_parts(surface, conclusion.contour->field, conclusion.contour->level)) {
+    double area_m2 = 0.0;
+    for (const int vertex : part) area_m2 += surface.vertex_areas()[vertex];
+    most_m2 = std::max(most_m2, area_m2);
+  }
+  return std::sqrt(4.0 * most_m2 / std::numbers::pi);
+}
+
+/// Where a tumour of the goal's size could still hide, or without a goal another one like that
+/// which was found: as many stops as that takes, or the plan has left.
 std::vector<int> lacking_stops(const Batching& batch, int batches) {
   const int left = std::max(batch.plan.batches - std::max(batches - 1, 0), 1);
+  Aim aim = batch.plan.aim;
+  if (!aim.has_goal()) aim.undetected_diameter_m = found_diameter_m(batch.conclusion);
   return stops_to_goal(
-      batch.conclusion, batch.plan.aim, batch.candidates,
+      batch.conclusion, aim, batch.candidates,
       static_cast<std::size_t>(left) * static_cast<std::size_t>(batch.options.size));
 }
 
-/// How many of these this batch must take, so that those to come take no more.
+/// How many of these this batch must take, so that those to come take no more: none without a goal,
+/// for which the edge gives up nothing.
 int due(const Batching& batch, const std::vector<int>& lacking, int batches) {
+  if (!batch.plan.aim.has_goal()) return 0;
   const int left = std::max(batch.plan.batches - std::max(batches - 1, 0), 1);
   const int lack = static_cast<int>(lacking.size());
   return std::min((lack + left - 1) / left, batch.options.size);

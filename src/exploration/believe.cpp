@@ -150,6 +150,11 @@ bool lacks_trend(const FieldModel& field, const Belief& belief) {
 
 }  // namespace
 
+std::vector<Palpation> as_made(std::vector<Palpation> felt, std::span<const Palpation> believed) {
+  for (std::size_t i = 0; i < felt.size(); ++i) felt[i].set_aside = believed[i].set_aside;
+  return felt;
+}
+
 /// What ten readings of noise once seemed to show, more readings there take back. Nor is it
 /// contrast what few of many readings show, each alone: where the others show it, and those are
 /// nothing like them, they are set aside.

@@ -17,6 +17,9 @@ struct Believed {
   Evidence evidence;
 };
 
+/// The readings as they were made, with the reasons why some are set aside.
+std::vector<Palpation> as_made(std::vector<Palpation> felt, std::span<const Palpation> believed);
+
 /// `all`: readings that were made, none of them missed.
 Believed believe(const Surface& surface, const Model& model, std::vector<Palpation> all,
                  ConclusionCache& cache);

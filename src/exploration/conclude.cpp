@@ -2,10 +2,9 @@
 #include <utility>
 
 #include "boundary/erosion.h"
-#include "exploration/believe.h"
-#include "exploration/find_boundary.h"
+#include "exploration/as_if_unchanged.h"
+#include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
-#include "exploration/zero_changes.h"
 #include "palpation/base/error.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
@@ -16,7 +15,7 @@ namespace {
 /// Whether a reading was set aside for a reason that this model judges anew.
 bool is_judged_anew(const Palpation& palpation, const Model& model) {
   const std::string& reason = palpation.set_aside;
-  if (reason == kNoContact || reason == kOutlier) return true;
+  if (reason == kNoContact || reason == kOutlier || reason == kBeyondTissue) return true;
   if (reason == kStandsAlone) return model.needs_contrast();
   const auto of_rows = {kJammed, kFrozen, kStartUp, kBaseStep};
   return model.field.probe.screening && std::ranges::find(of_rows, reason) != of_rows.end();
@@ -33,12 +32,6 @@ std::vector<Palpation> felt_among(std::span<const Palpation> readings, const Mod
   return felt;
 }
 
-/// The readings as they were made, with the reasons why some are set aside.
-std::vector<Palpation> as_made(std::vector<Palpation> felt, std::span<const Palpation> believed) {
-  for (std::size_t i = 0; i < felt.size(); ++i) felt[i].set_aside = believed[i].set_aside;
-  return felt;
-}
-
 Model on_scale(ReadingScale scale, Model model) {
   if (model.level.known) {
     require(scale == ReadingScale::Raw || *model.level.known > 0.0, "Model",
@@ -47,30 +40,6 @@ Model on_scale(ReadingScale scale, Model model) {
     model.level.known = on_scale(scale, *model.level.known);
   }
   return model;
-}
-
-/// What level and boundary are of.
-Marginals component_of(const Believed& believed, const Model& model, const Marginals& marginals) {
-  Marginals component = marginals;
-  if (model.field.trend.is_linear)
-    component.mean = believed.belief.at_vertices(Part::Detrended).mean;
-  return component;
-}
-
-/// Of readings whose zero moved, as if it had not.
-Believed believed_with_one_zero(const Surface& surface, const Model& model,
-                                const std::vector<Palpation>& felt, ConclusionCache& cache) {
-  Believed believed = believe(surface, model, felt, cache);
-  if (!believed.evidence.contrast_seen) return believed;
-  ConclusionCache apart;
-  const auto again = [&](std::vector<Palpation> changed) {
-    return believe(surface, model, std::move(changed), apart).belief;
-  };
-  std::vector<ZeroChange> changes = zero_changes(believed.palpations, again, believed.belief);
-  if (changes.empty()) return believed;
-  believed = believe(surface, model, with_zeros_taken_back(felt, changes), apart);
-  believed.evidence.zero_changes = std::move(changes);
-  return believed;
 }
 
 }  // namespace
@@ -83,16 +52,15 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   const ReadingScale scale = model.contrast.scale;
   const Model scaled = on_scale(scale, model);
   // Equations (1) and (2), and whether they show more than noise.
-  Believed believed = believed_with_one_zero(surface, scaled, on_scale(scale, felt),
-                                             cache != nullptr ? *cache : own);
+  // The level (section V.3, equation 4) and its level set.
+  auto [believed, marginals, component, boundary] =
+      known_as_if_unchanged(surface, scaled, on_scale(scale, felt), cache != nullptr ? *cache : own,
+                            sampling_seed.has_value());
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
-  Marginals marginals = believed.belief.at_vertices();
-  Marginals component = component_of(believed, model, marginals);
-  // The level (section V.3, equation 4) and its level set.
-  BoundaryFit boundary = find_boundary(surface, scaled, believed, component, sampling_seed);
+  if (sampling_seed) draw_outlines(boundary, scaled, believed, *sampling_seed);
   std::optional<Certainty> certainty;
-  if (boundary.level && believed.belief.site_count() > 0)
+  if (scaled.band && boundary.level && believed.belief.site_count() > 0)
     certainty = certainty_of(surface, scaled, believed, component, boundary);
 
   const double tip_m = model.field.probe.indenter_radius_m;
@@ -131,15 +99,42 @@ std::optional<Level> level_in_readings(const Conclusion& conclusion) {
   return level;
 }
 
+std::vector<SessionChange> session_changes(const Conclusion& conclusion) {
+  std::vector<SessionChange> sessions;
+  for (const Misfit& change : conclusion.evidence.taken_back) {
+    if (change.session == 0 || change.kind != MisfitKind::Zero) continue;
+    SessionChange& session = sessions.emplace_back(change);
+    if (!conclusion.outlines) continue;
+    for (const ChangeLeft& left : conclusion.outlines->left) {
+      if (left.change.session != change.session) continue;
+      if (left.change.kind == MisfitKind::Gain) {
+        const double taken_back = 1.0 + left.change.amount;
+        session.gain = {taken_back * left.gain.mean, taken_back * left.gain.least,
+                        taken_back * left.gain.most};
+      } else {
+        session.zero.amount += left.step.value;
+        session.zero.stddev = *left.step.stddev;
+      }
+    }
+  }
+  return sessions;
+}
+
+std::vector<Palpation> readings_as_if_unchanged(const Conclusion& conclusion) {
+  return with_changes_taken_back(conclusion.belief.prior().surface(),
+                                 on_scale(conclusion.scale(), conclusion.palpations),
+                                 conclusion.evidence.taken_back);
+}
+
 std::vector<Misfit> misfits(const Conclusion& conclusion) {
-  std::vector<Misfit> found;
-  if (conclusion.edge) found = conclusion.edge->misfits();
-  const std::optional<Misfit> change = changed_since(conclusion.belief);
-  if (change && change->kind == MisfitKind::Moved) found.push_back(*change);
-  std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
-  const auto changed = [](const Misfit& one) { return one.kind != MisfitKind::WeakerPart; };
-  if (const auto strongest = std::ranges::find_if(found, changed); strongest != found.end())
-    found.erase(std::remove_if(strongest + 1, found.end(), changed), found.end());
+  const std::vector<Palpation> readings = readings_as_if_unchanged(conclusion);
+  std::vector<Misfit> found = misfits_of(on_scale(conclusion.scale(), conclusion.model),
+                                         conclusion.edge, conclusion.belief, readings);
+  // What a session's zero and gain explain is drawn with the outlines.
+  std::erase_if(found, [&](const Misfit& misfit) {
+    return conclusion.outlines &&
+           as_of_its_session(misfit, conclusion.evidence.taken_back, readings).session > 0;
+  });
   return found;
 }
 

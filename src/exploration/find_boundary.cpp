@@ -79,9 +79,10 @@ Field mean_offset_sd(const Surface& surface, const Certainty& certainty) {
 
 Certainty known_before_faults(const Surface& surface, const Model& model, const Believed& believed,
                               const Marginals& component, const BoundaryFit& boundary) {
-  if (boundary.outlines) return certainty_of(surface, *boundary.outlines, model.band.probability);
-  if (boundary.edge) return certainty_of(surface, *boundary.edge, model.band.probability);
-  return certainty_of(surface, believed.belief, component, *boundary.level, model.band.probability);
+  if (boundary.outlines) return certainty_of(surface, *boundary.outlines, model.band->probability);
+  if (boundary.edge) return certainty_of(surface, *boundary.edge, model.band->probability);
+  return certainty_of(surface, believed.belief, component, *boundary.level,
+                      model.band->probability);
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ const Field* BoundaryFit::offset_sd() const {
 }
 
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
-                          const Marginals& component, std::optional<std::uint64_t> sampling_seed) {
+                          const Marginals& component) {
   if (model.level.known) return {.level = Level{*model.level.known, 0.0}};
   const Belief& belief = believed.belief;
   const bool is_flat = belief.site_count() == 0 || !believed.evidence.allows_boundary() ||
@@ -105,14 +106,44 @@ BoundaryFit find_boundary(const Surface& surface, const Model& model, const Beli
   if (is_flat) return {};
   if (model.level.estimate == LevelEstimate::Range)
     return {.level = level_from_range(component, model.level.fraction)};
-  BoundaryFit fit = from_edge(surface, model, belief, component);
-  if (sampling_seed && fit.edge)
-    fit.outlines = sample_outlines(belief, *fit.edge,
-                                   {.fraction = model.level.fraction,
-                                    .noise_log_sd = noise_log_sd_of(model, belief),
-                                    .seed = *sampling_seed});
-  if (fit.outlines) fit.level = fit.outlines->level;
-  return fit;
+  return from_edge(surface, model, belief, component);
+}
+
+namespace {
+
+/// And those that sessions may be, until readings tell: what a gain differs by is drawn, too. In
+/// time.
+std::vector<Misfit> with_gains_of_sessions(std::vector<Misfit> changes) {
+  std::vector<Misfit> gains;
+  std::erase_if(changes, [](const Misfit& one) { return one.kind == MisfitKind::Tilted; });
+  std::vector<int> known;  // sessions of which a gain was taken back
+  for (const Misfit& change : changes) {
+    if (change.kind == MisfitKind::Gain) known.push_back(change.session);
+  }
+  for (const Misfit& change : changes) {
+    if (change.session == 0 || std::ranges::count(known, change.session) > 0) continue;
+    gains.push_back(change);
+    gains.back().kind = MisfitKind::Gain;
+    gains.back().amount = 0.0;
+  }
+  changes.insert(changes.end(), gains.begin(), gains.end());
+  std::ranges::stable_sort(changes, {},
+                           [](const Misfit& one) { return std::pair(one.from_batch, one.number); });
+  return changes;
+}
+
+}  // namespace
+
+void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
+                   std::uint64_t seed) {
+  if (!boundary.edge) return;
+  boundary.outlines =
+      sample_outlines(believed.belief, *boundary.edge,
+                      {.fraction = model.level.fraction,
+                       .noise_log_sd = noise_log_sd_of(model, believed.belief),
+                       .seed = seed,
+                       .changes = with_gains_of_sessions(believed.evidence.taken_back)});
+  if (boundary.outlines) boundary.level = boundary.outlines->level;
 }
 
 Certainty certainty_of(const Surface& surface, const Model& model, const Believed& believed,
@@ -122,11 +153,11 @@ Certainty certainty_of(const Surface& surface, const Model& model, const Believe
   if (probe.screening)
     certainty =
         with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);
-  if (model.band.place_sd_m > 0.0) {
+  if (model.band->place_sd_m > 0.0) {
     const Field offset_sd_m =
         boundary.edge ? *boundary.offset_sd() : mean_offset_sd(surface, certainty);
     certainty =
-        doubted_as_a_whole(std::move(certainty), surface, offset_sd_m, model.band.place_sd_m);
+        doubted_as_a_whole(std::move(certainty), surface, offset_sd_m, model.band->place_sd_m);
   }
   if (probe.indenter_radius_m > 0.0)
     certainty = less_tip(std::move(certainty), surface, probe.indenter_radius_m);

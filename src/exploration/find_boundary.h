@@ -21,10 +21,13 @@ struct BoundaryFit {
 };
 
 /// Of the readings' range or edge, or as it is known. `component`: what the level cuts, at the
-/// vertices. With a seed, outlines are drawn.
+/// vertices. Without outlines.
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
-                          const Marginals& component,
-                          std::optional<std::uint64_t> sampling_seed = std::nullopt);
+                          const Marginals& component);
+
+/// Adds outlines, and takes the level from them, where the boundary has an edge.
+void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
+                   std::uint64_t seed);
 
 /// How sure that is, what fades, what a tip feels early and what is far from any reading included.
 /// Needs a level.

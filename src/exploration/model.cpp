@@ -15,13 +15,14 @@ Kernel kernel_of(const KernelModel& model) {
 }
 
 void check(const Model& model) {
-  const double fraction = model.level.fraction, probability = model.band.probability;
+  const double fraction = model.level.fraction;
+  const Band band = model.band.value_or(Band{});
   require(fraction > 0.0 && fraction < 1.0, "LevelRule", "fraction = " + text_of(fraction),
           "must lie in (0, 1)");
-  require(probability > 0.0 && probability < 1.0, "Model",
-          "band.probability = " + text_of(probability), "must lie in (0, 1)");
-  require(std::isfinite(model.band.place_sd_m) && model.band.place_sd_m >= 0.0, "Model",
-          "band.place_sd_m = " + text_of(model.band.place_sd_m), "must be finite and not negative");
+  require(band.probability > 0.0 && band.probability < 1.0, "Model",
+          "band.probability = " + text_of(band.probability), "must lie in (0, 1)");
+  require(std::isfinite(band.place_sd_m) && band.place_sd_m >= 0.0, "Model",
+          "band.place_sd_m = " + text_of(band.place_sd_m), "must be finite and not negative");
   const Contrast& contrast = model.contrast;
   if (!contrast.least) return;
   const bool is_factor = contrast.scale == ReadingScale::Log;

@@ -51,9 +51,9 @@ std::optional<Search> search_after(const Conclusion& conclusion, double probabil
     if (least) search.sought.contrast_to_noise = contrast_on_scale(conclusion, *least) / noise_sd;
     return search;
   }
-  for (Eigen::Index vertex = 0; vertex < conclusion.certainty->score.size(); ++vertex) {
-    if (conclusion.certainty->score[vertex] < 0.0)
-      search.centres.push_back(static_cast<int>(vertex));
+  const Contour& contour = *conclusion.contour;
+  for (Eigen::Index vertex = 0; vertex < contour.field.size(); ++vertex) {
+    if (contour.field[vertex] < contour.level) search.centres.push_back(static_cast<int>(vertex));
   }
   if (search.centres.empty()) return std::nullopt;
   const double healthy = mean_over(conclusion, search.centres);

@@ -33,7 +33,8 @@ struct Judged {
 }  // namespace
 
 void take_out_weak_parts(Conclusion& conclusion) {
-  if (!conclusion.model.contrast.least || !conclusion.contour || !conclusion.certainty) return;
+  const bool has_boundary = conclusion.contour && conclusion.belief.site_count() > 0;
+  if (!conclusion.model.contrast.least || !has_boundary) return;
   const Surface& surface = conclusion.belief.prior().surface();
   Contour& contour = *conclusion.contour;
   const double healthy = healthy_mean(conclusion);
@@ -67,8 +68,9 @@ void take_out_weak_parts(Conclusion& conclusion) {
   for (const Judged& one : weak) {
     for (const int vertex : one.vertices)
       contour.field[vertex] = 2.0 * contour.level - contour.field[vertex];
-    conclusion.certainty =
-        without_part(std::move(*conclusion.certainty), surface, one.vertices, one.score);
+    if (conclusion.certainty)
+      conclusion.certainty =
+          without_part(std::move(*conclusion.certainty), surface, one.vertices, one.score);
   }
 }
 

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "base/log_mean.h"
-#include "palpation/certainty/misfit.h"
+#include "exploration/taken_back.h"
 #include "readings/readings.h"
 
 namespace palpation {
@@ -17,17 +18,10 @@ namespace {
 /// Readings that are looked at: a step shows in as many, and the cost grows with the third power.
 constexpr std::size_t kMost = 200;
 constexpr std::size_t kFewest = 12;
-/// Sensors are fastened anew so often.
-constexpr std::size_t kMostChanges = 4;
 /// Of the constant that all readings share, of the field's standard deviation: it is not known.
 constexpr double kConstant = 30.0;
 /// Whose ground a place is on, so many of the readings nearest to it say, all but one.
 constexpr std::size_t kNeighbours = 4;
-
-bool is_since(const ZeroChange& change, const Palpation& palpation, std::size_t number) {
-  return palpation.batch > change.batch ||
-         (palpation.batch == change.batch && number >= change.number);
-}
 
 /// Of each reading, those nearest to it.
 std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Vec3>& places) {
@@ -74,11 +68,11 @@ class Steps {
     inverse_ = covariance.llt().solve(Eigen::MatrixXd::Identity(count, count));
   }
 
-  /// What each of the changes adds, all at once.
-  std::vector<ZeroChange> estimated(std::vector<ZeroChange> changes) const {
+  /// What each of the changes adds, all at once. Of sessions any is as likely.
+  std::vector<Misfit> estimated(std::vector<Misfit> changes) const {
     if (changes.empty()) return changes;
     const Eigen::MatrixXd steps = columns(changes);
-    const Eigen::MatrixXd precision = precision_of(steps);
+    const Eigen::MatrixXd precision = precision_of(changes, steps);
     const Eigen::MatrixXd covariance =
         precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
     const Eigen::VectorXd amounts = covariance * (steps.transpose() * (inverse_ * readings_));
@@ -91,11 +85,11 @@ class Steps {
   }
 
   /// One more than these, where it surprises.
-  std::optional<ZeroChange> another(const std::vector<ZeroChange>& known) const {
+  std::optional<Misfit> another(const std::vector<Misfit>& known) const {
     Eigen::MatrixXd inverse = inverse_;
     if (!known.empty()) {
       const Eigen::MatrixXd steps = columns(known), weighed = inverse_ * steps;
-      inverse -= weighed * precision_of(steps).llt().solve(weighed.transpose());
+      inverse -= weighed * precision_of(known, steps).llt().solve(weighed.transpose());
     }
     const Eigen::VectorXd pull = inverse * readings_;
     const double before = readings_.dot(pull);
@@ -119,7 +113,10 @@ class Steps {
     const double mean = steps_in_time.value() - std::max(0.0, steps_in_space.value());
     if (!(mean > surprising())) return std::nullopt;
     const std::size_t number = numbers_[static_cast<std::size_t>(first)];
-    return ZeroChange{.batch = palpations_[number].batch, .number = number};
+    return Misfit{.kind = MisfitKind::Zero,
+                  .evidence = mean,
+                  .from_batch = palpations_[number].batch,
+                  .number = number};
   }
 
  private:
@@ -141,19 +138,24 @@ class Steps {
     return in_space;
   }
 
-  Eigen::MatrixXd columns(const std::vector<ZeroChange>& changes) const {
+  Eigen::MatrixXd columns(const std::vector<Misfit>& changes) const {
     Eigen::MatrixXd steps(readings_.size(), static_cast<Eigen::Index>(changes.size()));
     for (Eigen::Index i = 0; i < steps.rows(); ++i) {
       const std::size_t number = numbers_[static_cast<std::size_t>(i)];
       for (Eigen::Index j = 0; j < steps.cols(); ++j)
-        steps(i, j) = is_since(changes[static_cast<std::size_t>(j)], palpations_[number], number);
+        steps(i, j) = is_since(changes[static_cast<std::size_t>(j)],
+                               {palpations_[number].batch, number, palpations_[number].session});
     }
     return steps;
   }
 
-  Eigen::MatrixXd precision_of(const Eigen::MatrixXd& steps) const {
+  Eigen::MatrixXd precision_of(const std::vector<Misfit>& changes,
+                               const Eigen::MatrixXd& steps) const {
     Eigen::MatrixXd precision = steps.transpose() * inverse_ * steps;
-    precision.diagonal().array() += 1.0 / variance_;
+    for (Eigen::Index i = 0; i < precision.rows(); ++i) {
+      const bool is_of_session = changes[static_cast<std::size_t>(i)].session > 0;
+      precision(i, i) += 1.0 / (variance_ * (is_of_session ? square(kConstant) : 1.0));
+    }
     return precision;
   }
 
@@ -170,32 +172,78 @@ bool is_of_the_zero(const Belief& belief) {
   return change && change->kind == MisfitKind::Zero;
 }
 
-}  // namespace
-
-std::vector<Palpation> with_zeros_taken_back(std::vector<Palpation> palpations,
-                                             std::span<const ZeroChange> changes) {
-  for (std::size_t i = 0; i < palpations.size(); ++i) {
-    for (const ZeroChange& change : changes) {
-      if (is_since(change, palpations[i], i)) palpations[i].reading -= change.amount;
+/// Of readings of a session beside the nearest ones of those before it, over the closer half.
+double apart_by(const Surface& surface, std::span<const Palpation> palpations, int session) {
+  std::vector<std::pair<double, double>> apart;  // places, readings
+  for (const Palpation& one : palpations) {
+    if (!counts(one) || one.session != session) continue;
+    const Vec3 here = surface.position(one.where);
+    std::pair nearest(std::numeric_limits<double>::infinity(), 0.0);
+    for (const Palpation& other : palpations) {
+      if (!counts(other) || other.session >= session) continue;
+      nearest = std::min(nearest, {(surface.position(other.where) - here).squaredNorm(),
+                                   one.reading - other.reading});
     }
+    apart.push_back(nearest);
   }
-  return palpations;
+  std::ranges::sort(apart);
+  apart.resize((apart.size() + 1) / 2);
+  std::ranges::sort(apart, {}, [](const auto& pair) { return pair.second; });
+  return apart[apart.size() / 2].second;
 }
 
-std::vector<ZeroChange> zero_changes(std::span<const Palpation> palpations,
-                                     const std::function<Belief(std::vector<Palpation>)>& believe,
-                                     const Belief& first) {
+}  // namespace
+
+std::vector<Misfit> session_zeros(const Surface& surface, std::span<const Palpation> palpations) {
+  std::vector<Misfit> changes;
+  std::map<int, std::size_t> first_of;
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    if (counts(palpations[i])) first_of.try_emplace(palpations[i].session, i);
+  }
+  for (const auto& [session, number] : first_of) {
+    if (session == first_of.begin()->first) continue;
+    // Those before it have zeros of their own: taken from all, what is left is this one's.
+    std::vector<Palpation> others =
+        with_changes_taken_back(surface, {palpations.begin(), palpations.end()}, changes);
+    changes.push_back({.kind = MisfitKind::Zero,
+                       .from_batch = palpations[number].batch,
+                       .number = number,
+                       .session = session,
+                       .amount = apart_by(surface, others, session)});
+  }
+  return changes;
+}
+
+std::vector<Misfit> estimated_zeros(std::span<const Palpation> palpations, const Belief& belief,
+                                    std::vector<Misfit> changes) {
   const std::vector<std::size_t> numbers = in_time(palpations, kMost);
-  std::vector<ZeroChange> changes;
+  if (numbers.size() < kFewest) return changes;
+  // What is left of them: of a large zero itself the prior would take a part.
+  const std::vector<Palpation> without = with_changes_taken_back(
+      belief.prior().surface(), {palpations.begin(), palpations.end()}, changes);
+  const std::vector<Misfit> left = Steps(belief, without, numbers).estimated(changes);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes[i].amount += left[i].amount;
+    changes[i].stddev = left[i].stddev;
+  }
+  return changes;
+}
+
+std::vector<Misfit> zero_changes(std::span<const Palpation> palpations,
+                                 const std::function<Belief(std::vector<Palpation>)>& believe,
+                                 const Belief& first) {
+  const std::vector<std::size_t> numbers = in_time(palpations, kMost);
+  std::vector<Misfit> changes;
   Belief belief = first;
   while (numbers.size() >= kFewest && changes.size() < kMostChanges &&
          belief.noise_variance() > 0.0 && !belief.prior().has_slope()) {
     const Steps steps(belief, palpations, numbers);
-    const std::optional<ZeroChange> more = steps.another(changes);
+    const std::optional<Misfit> more = steps.another(changes);
     if (!more || !is_of_the_zero(belief)) return steps.estimated(std::move(changes));
     changes.push_back(*more);
     changes = steps.estimated(std::move(changes));
-    belief = believe(with_zeros_taken_back({palpations.begin(), palpations.end()}, changes));
+    belief = believe(with_changes_taken_back(first.prior().surface(),
+                                             {palpations.begin(), palpations.end()}, changes));
   }
   return changes;
 }

@@ -1,4 +1,4 @@
-/// A sensor's zero that moved while one touched, taken back.
+/// A sensor's zero that moved while one touched.
 #pragma once
 
 #include <functional>
@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "palpation/belief/belief.h"
-#include "palpation/exploration/conclusion.h"
+#include "palpation/certainty/misfit.h"
 
 namespace palpation {
-
-/// The readings, those since each change less what it added.
-std::vector<Palpation> with_zeros_taken_back(std::vector<Palpation> palpations,
-                                             std::span<const ZeroChange> changes);
 
 /// The changes that readings show by a field which is believed in them anew after each: a reading
 /// is then field + offset + noise, the offset normal, its standard deviation the field's, from some
@@ -22,8 +18,15 @@ std::vector<Palpation> with_zeros_taken_back(std::vector<Palpation> palpations,
 /// (changed_since). `palpations`: as they were
 /// made; `believe`: the belief of some. Nothing where readings have no noise, or a slope is
 /// modelled, which trades with a step.
-std::vector<ZeroChange> zero_changes(std::span<const Palpation> palpations,
-                                     const std::function<Belief(std::vector<Palpation>)>& believe,
-                                     const Belief& first);
+std::vector<Misfit> zero_changes(std::span<const Palpation> palpations,
+                                 const std::function<Belief(std::vector<Palpation>)>& believe,
+                                 const Belief& first);
+
+/// What the zero of each session differs by from that of those before it, at first sight; nothing
+/// where there is one session.
+std::vector<Misfit> session_zeros(const Surface& surface, std::span<const Palpation> palpations);
+/// The same by a field, and how sure that is. `palpations`: as they were made.
+std::vector<Misfit> estimated_zeros(std::span<const Palpation> palpations, const Belief& belief,
+                                    std::vector<Misfit> changes);
 
 }  // namespace palpation

@@ -32,11 +32,12 @@ struct Columns {
         noise_variance(find_column(table, "noise_variance")),
         batch(find_column(table, "batch")),
         kind(find_column(table, "kind")),
+        session(find_column(table, "session")),
         travel{find_column(table, "tx"), find_column(table, "ty"), find_column(table, "tz")} {}
 
   std::array<std::size_t, 3> position;
   std::size_t reading;
-  std::optional<std::size_t> noise_variance, batch, kind;
+  std::optional<std::size_t> noise_variance, batch, kind, session;
   std::array<std::optional<std::size_t>, 3> travel;
 };
 
@@ -83,6 +84,17 @@ TouchKind kind_at(const CsvTable& table, std::size_t row,
   fail_at_cell(table, row, *column, "must be stop, way, missed or empty");
 }
 
+/// Sessions by their names, numbered as they come.
+class Sessions {
+ public:
+  int number_of(std::string_view name) {
+    return numbers_.try_emplace(std::string(name), static_cast<int>(numbers_.size())).first->second;
+  }
+
+ private:
+  std::map<std::string, int> numbers_;
+};
+
 /// Zero stands for an unknown direction, as do three empty cells.
 Vec3 travel_at(const CsvTable& table, std::size_t row,
                const std::array<std::optional<std::size_t>, 3>& columns) {
@@ -126,6 +138,7 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
   const Columns columns(table);
   Landing landing(surface);
   Repeats repeats;
+  Sessions sessions;
   MeasurementsFile file;
   file.has_batches = columns.batch.has_value();
   file.palpations.reserve(table.row_count());
@@ -148,6 +161,8 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
                         .kind = kind,
                         .travel = travel_at(table, row, columns.travel),
                         .set_aside = set_aside_at(table, row)};
+    if (counts(palpation))
+      palpation.session = sessions.number_of(word_at(table, row, columns.session));
     if (landing.farthest_m() > farthest_m) farthest_row = row;
     if (counts(palpation)) {
       const bool exact = palpation.noise_variance == 0.0 ||

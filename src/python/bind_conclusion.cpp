@@ -48,6 +48,41 @@ py::tuple band(const Concluded& here) {
   return py::make_tuple(above_score(here, score), above_score(here, -score));
 }
 
+/// What of summary.json is in SI units here, and counted from 0.
+py::dict change_of(const Misfit& change) {
+  if (change.kind == MisfitKind::Tilted) {
+    const Vec3& slope = change.slope_per_m;
+    return py::dict("kind"_a = std::string(name_of(change.kind)),
+                    "slope_per_m"_a = py::make_tuple(slope.x(), slope.y(), slope.z()));
+  }
+  const Vec3& to = change.moved_m;
+  py::dict result("kind"_a = std::string(name_of(change.kind)), "batch"_a = change.from_batch,
+                  "reading"_a = change.number);
+  if (change.kind == MisfitKind::Gain) result["factor"] = 1.0 + change.amount;
+  if (change.kind == MisfitKind::Moved) result["moved_m"] = py::make_tuple(to.x(), to.y(), to.z());
+  if (change.kind != MisfitKind::Zero) return result;
+  result["amount"] = change.amount;
+  result["amount_sd"] = change.stddev;
+  return result;
+}
+
+py::list changes_of(const Conclusion& conclusion) {
+  py::list changes;
+  for (const SessionChange& session : session_changes(conclusion)) {
+    py::dict change = change_of(session.zero);
+    change["session"] = session.zero.session;
+    if (session.gain) {
+      change["factor"] = session.gain->mean;
+      change["factor_interval"] = py::make_tuple(session.gain->least, session.gain->most);
+    }
+    changes.append(change);
+  }
+  for (const Misfit& change : conclusion.evidence.taken_back) {
+    if (change.session == 0) changes.append(change_of(change));
+  }
+  return changes;
+}
+
 py::dict summary(const Concluded& here) {
   const Conclusion& all = here.conclusion;
   const Belief& belief = all.belief;
@@ -72,11 +107,7 @@ py::dict summary(const Concluded& here) {
     result["band_probability"] = certainty.probability;
     result["band_half_width_m"] = certainty.half_width_m;
   }
-  py::list zero_changes;
-  for (const ZeroChange& change : all.evidence.zero_changes)
-    zero_changes.append(py::dict("reading"_a = change.number, "batch"_a = change.batch,
-                                 "amount"_a = change.amount, "amount_sd"_a = change.stddev));
-  result["zero_changes"] = zero_changes;
+  result["taken_back"] = changes_of(all);
   if (all.lag) {
     result["lag_m"] = all.lag->value_m;
     result["lag_sd_m"] = all.lag->stddev_m;

@@ -37,7 +37,8 @@ py::dict dictionary_of(const Model& model) {
   const LevelRule& level = model.level;
   py::object known = py::none();
   if (level.known) known = py::float_(*level.known);
-  py::object least = py::none();
+  py::object least = py::none(), probability = py::none();
+  if (model.band) probability = py::float_(model.band->probability);
   if (model.contrast.least) least = py::float_(*model.contrast.least);
   return py::dict(
       "metric"_a = word_for<Metric>(field.metric, kMetrics),
@@ -51,7 +52,7 @@ py::dict dictionary_of(const Model& model) {
       "length_median_m"_a = field.kernel.length_median_m, "period_m"_a = field.kernel.period_m,
       "level"_a = known, "level_fraction"_a = level.fraction,
       "level_estimate"_a = word_for<LevelEstimate>(level.estimate, kEstimates),
-      "band_probability"_a = model.band.probability, "safe_start"_a = model.contrast.safe_start,
+      "band_probability"_a = probability, "safe_start"_a = model.contrast.safe_start,
       "transform"_a = word_for<ReadingScale>(model.contrast.scale, kTransforms),
       "min_contrast"_a = least);
 }
@@ -89,7 +90,10 @@ Model model_of(const py::kwargs& kwargs) {
   if (!given["level"].is_none()) model.level.known = given.number("level");
   model.level.fraction = given.number("level_fraction");
   model.level.estimate = given.choice<LevelEstimate>("level_estimate", kEstimates);
-  model.band.probability = given.number("band_probability");
+  if (given["band_probability"].is_none())
+    model.band.reset();
+  else
+    model.band->probability = given.number("band_probability");
   model.contrast.safe_start = given.truth("safe_start");
   model.contrast.scale = given.choice<ReadingScale>("transform", kTransforms);
   if (!given["min_contrast"].is_none()) model.contrast.least = given.number("min_contrast");

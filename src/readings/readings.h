@@ -14,6 +14,9 @@ namespace palpation {
 /// Of the palpations that count, in their order.
 std::vector<double> used_readings(std::span<const Palpation> palpations);
 
+/// How many readings were made before each, those that are one (Palpation::count) counted apart.
+std::vector<std::size_t> readings_before_each(std::span<const Palpation> palpations);
+
 /// Numbers of those that count, as they were made, a batch after the other; evenly thinned to at
 /// most so many.
 std::vector<std::size_t> in_time(std::span<const Palpation> palpations, std::size_t most);

@@ -27,17 +27,19 @@ std::vector<Palpation> merged_on_the_way(const Surface& surface,
     const Vec3 start = surface.position(one.where);
     const auto joins = [&](const Palpation& next) {
       return may_merge(one) && may_merge(next) && next.batch == one.batch &&
-             next.travel.dot(one.travel) > kSameDirection &&
+             next.session == one.session && next.travel.dot(one.travel) > kSameDirection &&
              (surface.position(next.where) - start).norm() <= within_m;
     };
     end = first + 1;
     while (end < palpations.size() && joins(palpations[end])) ++end;
     merged.push_back(one);
     if (end == first + 1) continue;
+    merged.back().count = 0;
     double precision = 0.0, offset = 0.0;
     Vec3 shift = Vec3::Zero();
     for (const Palpation& palpation : palpations.subspan(first, end - first)) {
       const double weight = 1.0 / variance_of(palpation);
+      merged.back().count += palpation.count;
       precision += weight;
       offset += weight * (palpation.reading - one.reading);
       shift += weight * (surface.position(palpation.where) - start);

@@ -101,7 +101,6 @@ const BoundKeys<Model>& model_keys() {
       Key::to("level.fraction", kAsIs, &Model::level, &LevelRule::fraction),
       Key::to("level.value", kAsIs, &Model::level, &LevelRule::known),
       estimate_key(),
-      Key::to("band.probability", kAsIs, &Model::band, &Band::probability),
       Key::to("plan.min_contrast", kAsIs, &Model::contrast, &Contrast::least),
       Key::to("plan.safe_start", kAsIs, &Model::contrast, &Contrast::safe_start),
   };

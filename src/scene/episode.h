@@ -56,7 +56,7 @@ struct Episode {
   std::optional<std::string> coarse_stop_reason{};
 
   const Conclusion& conclusion() const { return exploration.conclusion(); }
-  double band_probability() const { return conclusion().model.band.probability; }
+  double band_probability() const { return conclusion().model.band.value_or(Band{}).probability; }
   /// Why nothing more is to be touched.
   const std::string& stop_reason() const {
     return coarse_stop_reason ? *coarse_stop_reason : exploration.stop_reason();

@@ -61,9 +61,9 @@ void restate(Episode& episode) {
     episode.estimate = Region();
     if (exploration.conclusion().level) {
       row.level = level_in_readings(exploration.conclusion())->value;
-      if (!exploration.conclusion().tip_hides_all())
-        row.expected_error_m2 =
-            exploration.conclusion().certainty->expected.symmetric_difference_m2();
+      const std::optional<Certainty>& certainty = exploration.conclusion().certainty;
+      if (certainty && !exploration.conclusion().tip_hides_all())
+        row.expected_error_m2 = certainty->expected.symmetric_difference_m2();
       const Contour& contour = *exploration.conclusion().contour;
       episode.estimate = superlevel_region(exploration.surface(), contour.field, contour.level);
     }

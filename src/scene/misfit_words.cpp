@@ -1,18 +1,32 @@
 #include "scene/misfit_words.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
 
+constexpr std::size_t kSessionsTold = 5;
+constexpr double kTiltOver_m = 0.01;
+constexpr double kSeen = 2.0;         // standard deviations, of a session's zero
 constexpr double kChainsApart = 1.0;  // standard deviations: chance makes less of fifty draws
 
 std::string apart_words(double disagreement) {
   return "Two samplings of the outline have not come to one answer: their areas differ by " +
          fixed(disagreement, 1) +
          " standard deviations, so the band may be too narrow. More readings would settle it.";
+}
+
+std::string ordinal(int number) {
+  const bool is_teen = number % 100 / 10 == 1;
+  const char* end = is_teen || number % 10 > 3 || number % 10 == 0 ? "th"
+                    : number % 10 == 1                             ? "st"
+                    : number % 10 == 2                             ? "nd"
+                                                                   : "rd";
+  return std::to_string(number) + end;
 }
 
 std::string since_words(const Misfit& misfit) {
@@ -35,6 +49,18 @@ std::string standing_out_words(ReadingScale scale, double amount) {
   return (amount > 0.0 ? "stands out by " : "reads less by ") + reading_text(std::abs(amount));
 }
 
+std::string tilt_words(ReadingScale scale, const Vec3& slope_per_m) {
+  const double rise = slope_per_m.norm() * kTiltOver_m;
+  const Vec3 way = slope_per_m.normalized();
+  const std::string by = scale == ReadingScale::Log
+                             ? "become " + fixed(std::exp(rise), 2) + " times as high"
+                             : "rise by " + reading_text(rise);
+  return "Readings slope all over the tissue: they " + by + " for each 10 mm towards " + "(" +
+         fixed(way.x(), 2) + ", " + fixed(way.y(), 2) + ", " + fixed(way.z(), 2) + ")" +
+         ". That is taken from them; where the tissue or the sensor is known to slope, set "
+         "field.trend to linear.";
+}
+
 std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& misfit) {
   switch (misfit.kind) {
     case MisfitKind::Zero:
@@ -51,6 +77,8 @@ std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& m
              place_words(misfit.moved_m, 1) +
              ". Register it again and touch anew, or take the readings before or since out: the "
              "outline is of both.";
+    case MisfitKind::Tilted:
+      return tilt_words(scale, misfit.slope_per_m);
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
              standing_out_words(scale, misfit.amount) +
@@ -59,24 +87,86 @@ std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& m
   return "";
 }
 
-std::string zero_words(ReadingScale scale, const ZeroChange& change) {
-  return "From batch " + std::to_string(change.batch) + ", reading " +
-         std::to_string(change.number + 1) + ", on readings lie " +
-         raised_words(scale, change.amount) +
-         ", wherever they are: the sensor's zero has moved. That much is taken from "
-         "them; set it again.";
+/// Nothing where its zero and gain may be those of the one before.
+std::string session_words(ReadingScale scale, const SessionChange& session) {
+  const bool has_zero = std::abs(session.zero.amount) >= kSeen * session.zero.stddev;
+  const bool has_gain = session.gain && (session.gain->least > 1.0 || session.gain->most < 1.0);
+  if (!has_zero && !has_gain) return "";
+  std::string words = "The " + ordinal(session.zero.session + 1) +
+                      " session, which begins with reading " +
+                      std::to_string(session.zero.number + 1);
+  if (has_zero)
+    words +=
+        ", has a zero of its own: its readings lie " + raised_words(scale, session.zero.amount);
+  if (has_gain)
+    words += std::string(has_zero ? ", and" : " has a gain of its own:") +
+             " what stands out does so " + fixed(session.gain->mean, 2) + " times as much (" +
+             fixed(session.gain->least, 2) + " to " + fixed(session.gain->most, 2) + ")";
+  return words + ". That is taken from them.";
+}
+
+/// In a line, where there are many.
+std::vector<std::string> session_words(ReadingScale scale,
+                                       std::span<const SessionChange> sessions) {
+  std::vector<std::string> words;
+  for (const SessionChange& session : sessions) words.push_back(session_words(scale, session));
+  std::erase(words, "");
+  if (words.size() <= kSessionsTold) return words;
+  return {"Of " + std::to_string(sessions.size() + 1) + " sessions " +
+          std::to_string(words.size()) +
+          " have zeros or gains of their own, which are taken from their readings: taken_back of " +
+          "summary.json has them."};
+}
+
+std::string taken_back_words(ReadingScale scale, const Misfit& change) {
+  const std::string since = "From batch " + std::to_string(change.from_batch) + ", reading " +
+                            std::to_string(change.number + 1) + ", on ";
+  switch (change.kind) {
+    case MisfitKind::Gain:
+      return since + "what stands out does so " + fixed(1.0 + change.amount, 2) +
+             " times as much as before: the sensor or the contact has changed. Readings since then "
+             "are taken as they would have been; calibrate it again.";
+    case MisfitKind::Moved:
+      return since + "the tissue lies " + fixed(change.amount * 1e3, 1) +
+             " mm from where it lay, shifted by " + place_words(change.moved_m, 1) +
+             ", or its registration is off by that. Readings since then are taken to be of where "
+             "it lay before, and so is the outline; register it again.";
+    case MisfitKind::Tilted:
+      return tilt_words(scale, change.slope_per_m);
+    default:
+      return since + "readings lie " + raised_words(scale, change.amount) +
+             ", wherever they are: the sensor's zero has moved. That much is taken from "
+             "them; set it again.";
+  }
+}
+
+/// Where a model does not let them differ; else nothing.
+std::string sessions_as_one_words(const Conclusion& conclusion) {
+  int last = 0;
+  for (const Palpation& one : conclusion.palpations) last = std::max(last, one.session);
+  const auto is_of_session = [](const Misfit& change) { return change.session > 0; };
+  if (last == 0 || std::ranges::any_of(conclusion.evidence.taken_back, is_of_session)) return "";
+  return "Readings are of " + std::to_string(last + 1) +
+         " sessions, whose zeros are taken to be one: " +
+         (conclusion.model.field.is_noiseless()    ? "the field has no noise"
+          : conclusion.model.field.trend.is_linear ? "field.trend is linear, which trades with them"
+                                                   : "too few of them count to tell them apart") +
+         ".";
 }
 
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
-  std::vector<std::string> words;
-  for (const ZeroChange& change : conclusion.evidence.zero_changes)
-    words.push_back(zero_words(conclusion.scale(), change));
+  std::vector<std::string> words = session_words(conclusion.scale(), session_changes(conclusion));
+  for (const Misfit& change : conclusion.evidence.taken_back) {
+    if (change.session == 0) words.push_back(taken_back_words(conclusion.scale(), change));
+  }
+  words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion))
     words.push_back(words_of(conclusion.belief.prior().surface(), conclusion.scale(), misfit));
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
     words.push_back(apart_words(conclusion.outlines->disagreement));
+  std::erase(words, "");
   return words;
 }
 

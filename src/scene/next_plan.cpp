@@ -61,7 +61,9 @@ MeasurementsFile measured_on(const Scene& scene, const Surface& surface, const C
 
 NextPlan next_plan(const Scene& scene, const Surface& surface,
                    std::span<const Palpation> palpations) {
-  NextPlan plan{.episode = episode_from(scene.with("certainty", "laplace"), surface, palpations)};
+  const bool asks = scene.word("certainty") != "off";
+  NextPlan plan{.episode = episode_from(asks ? scene.with("certainty", "laplace") : scene, surface,
+                                        palpations)};
   const Choice choice = next_of(scene, surface, plan.episode);
   plan.episode.coarse_stop_reason = choice.stop_reason;
   plan.stops = with_wishes(scene, surface, choice.stops);

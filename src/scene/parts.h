@@ -15,8 +15,9 @@ struct TumourPart {
   double area_m2 = 0.0;                                ///< without its holes
   Vec2 centroid_m = Vec2::Zero();                      ///< of that area
   Vec2 least_m = Vec2::Zero(), most_m = Vec2::Zero();  ///< corners of its bounding box
-  Vec3 position_m = Vec3::Zero();          ///< on the tissue: of the vertex nearest to the centroid
-  double probability = 1.0;                ///< that it exists: of its surest place to be tumour
+  Vec3 position_m = Vec3::Zero();  ///< on the tissue: of the vertex nearest to the centroid
+  /// That it exists: of its surest place to be tumour; nothing where no certainty is asked for.
+  std::optional<double> probability{};
   bool touches_border = false;             ///< of the tissue, beyond which it may go on
   std::optional<PartContrast> contrast{};  ///< where parts have contrasts of their own
 };

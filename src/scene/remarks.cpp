@@ -55,7 +55,7 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
   }
   if (!exploration.conclusion().model.field.probe.screening) return remarks;
   if (const std::optional<FadingContact> fading =
-          fading_contact(exploration.surface(), exploration.conclusion().palpations))
+          fading_contact(exploration.surface(), readings_as_if_unchanged(exploration.conclusion())))
     remarks.push_back("Contact fades towards (" + fixed(fading->towards.x(), 2) + ", " +
                       fixed(fading->towards.y(), 2) + ", " + fixed(fading->towards.z(), 2) +
                       "): healthy tissue reads " + percent(fading->base_fall) +
@@ -145,8 +145,9 @@ double perimeter_m(const Region& region) {
 /// readings can be; nothing where its edge is not known.
 std::optional<double> over_reachable(const Episode& episode) {
   const std::optional<EdgeBelief>& edge = episode.conclusion().edge;
+  const std::optional<Certainty>& certainty = episode.conclusion().certainty;
   const double length_m = perimeter_m(episode.estimate);
-  if (!edge || length_m == 0.0) return std::nullopt;
+  if (!edge || !certainty || length_m == 0.0) return std::nullopt;
   const double contrast = std::abs(edge->profile().high - edge->profile().low),
                noise_sd = std::sqrt(edge->noise_variance());
   const ReferenceBound reachable =
@@ -157,8 +158,7 @@ std::optional<double> over_reachable(const Episode& episode) {
                        .fraction = episode.conclusion().model.level.fraction});
   const bool has_noise = noise_sd > kNoNoise * contrast;
   if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
-  return episode.conclusion().certainty->expected.symmetric_difference_m2() /
-         reachable.expected_error_m2;
+  return certainty->expected.symmetric_difference_m2() / reachable.expected_error_m2;
 }
 
 std::string saturation_words(const Saturation& saturation) {
@@ -196,9 +196,9 @@ Remarks level_remarks(const Exploration& exploration) {
   const Surface& surface = exploration.surface();
   const Conclusion& conclusion = exploration.conclusion();
   Remarks remarks;
-  if (const double share = conclusion.certainty->untouched_m2 / surface.area();
-      share > kMuchUntouched) {
-    remarks.push_back(percent(share) +
+  if (const std::optional<Certainty>& certainty = conclusion.certainty;
+      certainty && certainty->untouched_m2 > kMuchUntouched * surface.area()) {
+    remarks.push_back(percent(certainty->untouched_m2 / surface.area()) +
                       " of the tissue lies 8 mm or more from any reading: there nothing is sure.");
   }
   if (conclusion.tip_hides_all())
@@ -213,7 +213,7 @@ Remarks level_remarks(const Exploration& exploration) {
     remarks.push_back(remark + '.');
   const double plane = conclusion.belief.prior().has_slope()
                            ? 0.0
-                           : explained_by_plane(surface, conclusion.palpations);
+                           : explained_by_plane(surface, readings_as_if_unchanged(conclusion));
   if (plane > kMuchPlane)
     remarks.push_back(
         "A plane explains " + percent(plane) +
@@ -224,20 +224,20 @@ Remarks level_remarks(const Exploration& exploration) {
 Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>& parts) {
   if (parts.empty()) return {};
   Remarks remarks;
-  if (!conclusion.edge)
+  const std::optional<Certainty>& certainty = conclusion.certainty;
+  if (certainty && !conclusion.edge)
     remarks.push_back(
         "The level was not inferred from the tumour's edge: band, cut line and expected error are "
         "the field's alone, and not calibrated.");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string part =
         "Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size());
-    if (parts[i].probability < kSure)
-      remarks.push_back(part + " is tumour with probability " + percent(parts[i].probability) +
+    if (parts[i].probability && *parts[i].probability < kSure)
+      remarks.push_back(part + " is tumour with probability " + percent(*parts[i].probability) +
                         " only.");
     if (parts[i].touches_border)
       remarks.push_back(part + " reaches the border of the tissue, beyond which it may go on.");
   }
-  const std::optional<Certainty>& certainty = conclusion.certainty;
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   return remarks;
@@ -280,6 +280,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   if (conclusion.belief.site_count() == 0) return remarks;
   add(field_remarks(exploration));
   if (!conclusion.level) {
+    add(misfit_words(conclusion));
     remarks.push_back(no_level_words(exploration));
     return remarks;
   }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "palpation/exploration/model.h"
 #include "palpation/world/catalogue.h"
 #include "scene/bound_keys.h"
 
@@ -332,10 +333,11 @@ std::vector<SceneKey> make_scene_keys() {
       word("probe.world", names_of_worlds(), nullptr,
            "in place of tumours: what lies there, and what ails the sensor, drawn by the seed from "
            "a family of the catalogue, on flat tissue; its slope and contrasts, too"),
-      word("certainty", {"sampled", "laplace"}, "sampled",
+      word("certainty", {"sampled", "laplace", "off"}, "sampled",
            "of the boundary when all is felt: from outlines that are drawn, in seconds, or by "
-           "Laplace's approximation, which every plan goes by"),
-      number("band.probability", "", 0.01, 1.0 - 1e-6, kBound,
+           "Laplace's approximation, which every plan goes by; off: the boundary alone, without "
+           "band, cut line, probabilities and expected error"),
+      number("band.probability", "", 0.01, 1.0 - 1e-6, Band{}.probability,
              "probability that the whole true outline lies between the band's two curves"),
       number("band.cut_risk", "", 1e-6, 0.5, 0.05,
              "risk of the cut line: outside of it a place is tumour with at most this probability"),

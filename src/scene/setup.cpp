@@ -94,6 +94,18 @@ void leave_out_margin(const Scene& scene, const Surface& surface, std::vector<in
     scene.refuse_value("robot.margin_mm", "less: no tissue is left that far from its border");
 }
 
+/// What is stopped by, or told, has to be known.
+void check_certainty(const Scene& scene, const Plan& plan) {
+  if (scene.word("certainty") != "off") return;
+  const StopRule& stop = plan.stop;
+  for (const auto& [key, limit] : {std::pair{"plan.stop.expected_error_mm2", stop.error_m2},
+                                   {"plan.stop.band_mm", stop.band_m},
+                                   {"plan.stop.least_gain", stop.least_gain}}) {
+    if (limit > 0.0)
+      scene.refuse_value(key, "0, where certainty is off: nothing is known then to stop by");
+  }
+}
+
 /// Values in the reading's unit have no meaning beside logarithms.
 void check_logarithms(const Scene& scene, const Model& model) {
   if (model.contrast.scale == ReadingScale::Raw) return;
@@ -126,7 +138,10 @@ Model model_of(const Scene& scene) {
   Model model = bound(scene, model_keys());
   model.field = field_of(scene);
   if (scene.word("level.estimate") == "known") scene.value("level.value");
-  model.band.place_sd_m = place_uncertainty_m(scene) / kTwoSided95;
+  if (scene.word("certainty") != "off")
+    model.band = Band{scene.number("band.probability"), place_uncertainty_m(scene) / kTwoSided95};
+  else
+    model.band.reset();
   check_logarithms(scene, model);
   return model;
 }
@@ -135,6 +150,7 @@ Plan plan_of(const Scene& scene) {
   Plan plan = bound(scene, plan_keys());
   plan.acquisition = acquisition_of(scene);
   if (scene.word("plan.acquisition") != "auto") plan.aim.edge_share = 0.0;
+  check_certainty(scene, plan);
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "scene/modelled.h"
 #include "scene/parts.h"
 #include "scene/remarks.h"
 #include "scene/setup.h"
@@ -44,7 +45,7 @@ json part_json(const TumourPart& part, const Surface& surface) {
   json result = place_json(part);
   result["position_mm"] = {part.position_m.x() * kMm, part.position_m.y() * kMm,
                            part.position_m.z() * kMm};
-  result["probability"] = part.probability;
+  result["probability"] = maybe(part.probability);
   result["touches_border"] = part.touches_border;
   result["contrast_of_strongest"] =
       part.contrast ? json(part.contrast->of_strongest) : json(nullptr);
@@ -61,12 +62,13 @@ void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   for (const char* key : {"certainty", "area_interval_mm2", "expected_missed_mm2",
                           "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
     summary[key] = nullptr;
+  if (!episode.conclusion().model.band) summary["certainty"] = "off";
   const std::optional<Certainty>& certainty = episode.conclusion().certainty;
   if (!certainty || episode.conclusion().tip_hides_all()) return;
   const Surface& surface = episode.exploration.surface();
   const std::optional<OutlinePosterior>& outlines = episode.conclusion().outlines;
   summary["certainty"] = outlines ? "sampled" : "laplace";
-  if (outlines)
+  if (outlines && episode.conclusion().model.field.probe.indenter_radius_m == 0.0)
     summary["area_interval_mm2"] = {outlines->area_m2.least * kMm2, outlines->area_m2.most * kMm2};
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
@@ -101,6 +103,44 @@ json goal_json(const std::optional<GoalState>& goal) {
           {"touches_needed", goal->touches_needed}};
 }
 
+json change_json(const Misfit& change) {
+  if (change.kind == MisfitKind::Tilted) {
+    const Vec3 slope_per_mm = change.slope_per_m / kMm;
+    return {{"kind", name_of(change.kind)},
+            {"slope_per_mm", {slope_per_mm.x(), slope_per_mm.y(), slope_per_mm.z()}}};
+  }
+  json result = {
+      {"kind", name_of(change.kind)}, {"batch", change.from_batch}, {"reading", change.number + 1}};
+  if (change.kind == MisfitKind::Zero)
+    result.update({{"amount", change.amount}, {"amount_sd", change.stddev}});
+  if (change.kind == MisfitKind::Gain) result["factor"] = 1.0 + change.amount;
+  if (change.kind == MisfitKind::Moved) {
+    const Vec3 moved_mm = kMm * change.moved_m;
+    result["moved_mm"] = {moved_mm.x(), moved_mm.y(), moved_mm.z()};
+  }
+  return result;
+}
+
+json session_json(const SessionChange& session) {
+  json result = change_json(session.zero);
+  result["session"] = session.zero.session + 1;
+  if (session.gain) {
+    result["factor"] = session.gain->mean;
+    result["factor_interval"] = {session.gain->least, session.gain->most};
+  }
+  return result;
+}
+
+json taken_back_json(const Conclusion& conclusion) {
+  json changes = json::array();
+  for (const SessionChange& session : session_changes(conclusion))
+    changes.push_back(session_json(session));
+  for (const Misfit& change : conclusion.evidence.taken_back) {
+    if (change.session == 0) changes.push_back(change_json(change));
+  }
+  return changes;
+}
+
 }  // namespace
 
 json summary_of(const Episode& episode, const Scene& scene, std::vector<std::string> warnings) {
@@ -117,6 +157,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
       {"seed", scene.seed()},
       {"options", scene.complete()},
       {"computed", surface.computed()},
+      {"modelled", modelled(episode.conclusion())},
       {"vertices", surface.vertex_count()},
       {"measurements", episode.conclusion().palpations.size()},
       {"search_area_mm2", surface.area() * kMm2},
@@ -143,11 +184,8 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
     result["lag_sd_mm"] =
         episode.conclusion().lag ? json(episode.conclusion().lag->stddev_m * kMm) : json(nullptr);
   }
-  for (const ZeroChange& change : episode.conclusion().evidence.zero_changes)
-    result["zero_changes"].push_back({{"batch", change.batch},
-                                      {"reading", change.number + 1},
-                                      {"amount", change.amount},
-                                      {"amount_sd", change.stddev}});
+  if (json changes = taken_back_json(episode.conclusion()); !changes.empty())
+    result["taken_back"] = std::move(changes);
   const bool found = !episode.estimate.empty();
   const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
   result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;

@@ -19,8 +19,8 @@ std::string part_words(const TumourPart& part) {
                       place_words(part.position_m, 1);
   if (!part.polygon.holes.empty()) words += ", with " + counted(part.polygon.holes.size(), "hole");
   if (part.touches_border) words += ", reaching the border of the tissue";
-  if (part.probability < kSure)
-    words += ", tumour with probability " + percent(part.probability) + " only";
+  if (part.probability && *part.probability < kSure)
+    words += ", tumour with probability " + percent(*part.probability) + " only";
   if (part.contrast && part.contrast->stddev > 0.0)
     words += ", standing out by " + fixed(100.0 * part.contrast->of_strongest, 0) + " (sd " +
              fixed(100.0 * part.contrast->stddev, 0) +
@@ -104,8 +104,10 @@ std::string found_words(const Episode& episode) {
   std::string words = "Found " + counted(parts.size(), "stiff region") + " " + level + ", " +
                       fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in total:\n";
   for (const TumourPart& part : parts) words += part_words(part);
-  words +=
-      band_words(*episode.conclusion().certainty, episode.exploration.surface(), episode.cut_risk);
+  if (const std::optional<Certainty>& certainty = episode.conclusion().certainty)
+    words += band_words(*certainty, episode.exploration.surface(), episode.cut_risk);
+  else
+    words += "How sure that is was not asked (certainty off).\n";
   if (const std::optional<double> diameter_m = diameter_ruled_out_m(episode))
     words +=
         "No other tumour that stands out " +
@@ -159,7 +161,9 @@ std::string percent(double probability) {
 std::string fixed(double value, int digits) {
   std::array<char, 400> text{};
   std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
+  const bool is_zero =
+      std::string_view(text.data()).find_first_not_of("-0.") == std::string_view::npos;
+  return text.data() + (is_zero && text[0] == '-' ? 1 : 0);
 }
 
 std::string reading_text(double value) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "io/number_text.h"
 #include "palpation/base/error.h"
@@ -131,8 +132,25 @@ std::string session_in_words(const SessionState& state) {
   return words + open_words(state);
 }
 
+namespace {
+
+/// A folder is one session: zeros of their own, which others would have, are not kept.
+void check_session(const CsvTable& table) {
+  const std::optional<std::size_t> column = find_column(table, "session");
+  for (std::size_t row = 1; column && row < table.row_count(); ++row) {
+    if (table.cell(row, *column) != table.cell(0, *column))
+      fail_at_cell(table, row, *column,
+                   "is another session than " + in_quotes(table.cell(0, *column)) +
+                       " in the rows above: a folder is one session; several are for palpate "
+                       "boundary --measurements");
+  }
+}
+
+}  // namespace
+
 std::vector<ToldRow> read_told(const std::string& path) {
   const CsvTable table = read_csv(path);
+  check_session(table);
   std::vector<ToldRow> rows;
   for (std::size_t row = 0; row < table.row_count(); ++row)
     rows.push_back({table.line(row), told_in(table, row)});

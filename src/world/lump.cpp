@@ -71,6 +71,16 @@ void add(const Points& places, const Texture& texture, Field& field) {
   }
 }
 
+void add(const Points& places, const Tilt& tilt, Field& field) {
+  need(std::isfinite(tilt.height), "a tilt's height", "must be finite");
+  need(tilt.direction.allFinite() && !tilt.direction.isZero(0.0), "a tilt's direction",
+       "must be finite and not zero");
+  const Eigen::VectorXd along = places * tilt.direction.normalized();
+  const double least = along.minCoeff(), greatest = along.maxCoeff();
+  if (greatest > least)
+    field.array() += tilt.height * ((along.array() - least) / (greatest - least) - 0.5);
+}
+
 }  // namespace
 
 double profile_share(Profile profile, double depth_m, double greatest_depth_m, double slope_per_m,

@@ -1,19 +1,29 @@
-// What healthy tissue adds: its covariance against the kernel's, its draws against closed forms.
+// What healthy tissue adds: its covariance against the kernel's.
 #include "certainty/outline_background.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include "palpation/base/random.h"
 
 namespace palpation {
 namespace {
 
-constexpr double kMm = 1e-3, kLength_m = 6 * kMm;
+constexpr double kMm = 1e-3;
+constexpr std::array kLengths_m = {3.5 * kMm, 8 * kMm};
 
 struct Touched {
   std::vector<Vec2> places;
   std::vector<double> when;
+
+  BackgroundTerms terms(const Eigen::MatrixXd& steps = {}) const {
+    const std::vector<double> variance(places.size(), 1.0);
+    return background_terms({.places = places, .variance = variance, .when = when, .steps = steps});
+  }
 };
 
 Touched grid(int columns, int rows, double step_m) {
@@ -27,95 +37,77 @@ Touched grid(int columns, int rows, double step_m) {
   return touched;
 }
 
-TEST(BackgroundTerms, WavesAreASquaredExponentialField) {
-  const auto [places, when] = grid(9, 13, 4 * kMm);
-  const BackgroundTerms terms = background_terms(places, when);
-  const Eigen::MatrixXd waves = terms.of_readings.leftCols(terms.of_readings.cols() - 1);
-  const Eigen::MatrixXd covariance = waves * waves.transpose();
-  for (std::size_t a = 0; a < places.size(); a += 7) {
-    for (std::size_t b = 0; b < places.size(); b += 5) {
-      const double square = (places[a] - places[b]).squaredNorm() / (kLength_m * kLength_m);
-      // One term in a hundred of the spectrum is left out, and at a margin of 1.5 lengths an image
-      // of the place is felt from three lengths away: exp(-4.5).
-      EXPECT_NEAR(covariance(static_cast<int>(a), static_cast<int>(b)), std::exp(-0.5 * square),
-                  0.05);
+Eigen::MatrixXd covariance_of_waves(const BackgroundTerms& terms, std::size_t length) {
+  const auto waves =
+      terms.of_readings.middleCols(length == 0 ? 0 : terms.waves[0], terms.waves[length]);
+  return waves * waves.transpose();
+}
+
+TEST(BackgroundTerms, WavesAreSquaredExponentialFields) {
+  const Touched touched = grid(9, 13, 4 * kMm);
+  const std::vector<Vec2>& places = touched.places;
+  for (const std::size_t length : {0u, 1u}) {
+    const Eigen::MatrixXd covariance = covariance_of_waves(touched.terms(), length);
+    for (std::size_t a = 0; a < places.size(); ++a) {
+      for (std::size_t b = 0; b < places.size(); ++b) {
+        const double steps = (places[a] - places[b]).norm() / kLengths_m[length];
+        // What is left out is a covariance itself: nowhere more than the most at one place.
+        EXPECT_NEAR(covariance(static_cast<int>(a), static_cast<int>(b)),
+                    std::exp(-0.5 * steps * steps), 0.02 + 1e-9);
+      }
     }
   }
 }
 
+TEST(BackgroundTerms, WavesAreTheSameHoweverTissueLies) {
+  Random random(3);
+  Touched here, there;
+  const Eigen::Rotation2D<double> turn(0.7);
+  for (int i = 0; i < 150; ++i) {
+    here.places.push_back(kMm * Vec2(25.0 * random.uniform(), 50.0 * random.uniform()));
+    there.places.push_back(turn * here.places.back() + Vec2(0.3, -0.2));
+    here.when.push_back(i);
+  }
+  there.when = here.when;
+  for (const std::size_t length : {0u, 1u}) {
+    const Eigen::MatrixXd one = covariance_of_waves(here.terms(), length),
+                          other = covariance_of_waves(there.terms(), length);
+    EXPECT_LT((one - other).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(BackgroundTerms, StepsComeLast) {
+  Eigen::MatrixXd steps = Eigen::MatrixXd::Zero(6, 2);
+  steps(4, 0) = steps(5, 0) = steps(5, 1) = 1.0;
+  const BackgroundTerms terms = grid(2, 3, 4 * kMm).terms(steps);
+  EXPECT_EQ(terms.of_readings.cols(), terms.waves[0] + terms.waves[1] + 5);
+  EXPECT_EQ(terms.of_readings.rightCols(2), steps);
+}
+
 TEST(BackgroundTerms, DriftRisesByOneFromTheFirstBatchToTheLast) {
-  const auto [places, when] = grid(3, 5, 4 * kMm);
-  const Eigen::MatrixXd terms = background_terms(places, when).of_readings;
-  const Eigen::VectorXd drift = terms.col(terms.cols() - 1);
+  const Eigen::MatrixXd terms = grid(3, 5, 4 * kMm).terms().of_readings;
+  const Eigen::VectorXd drift = terms.rightCols(3).col(0);
   EXPECT_DOUBLE_EQ(drift[0], -0.5);
   EXPECT_DOUBLE_EQ(drift[7], 0.0);
   EXPECT_DOUBLE_EQ(drift[14], 0.5);
 }
 
+TEST(BackgroundTerms, TiltIsAPlaneHoweverTissueLies) {
+  const Touched here = grid(3, 5, 4 * kMm);
+  const Eigen::MatrixXd tilt = here.terms().of_readings.rightCols(2);
+  EXPECT_NEAR(tilt.colwise().sum().cwiseAbs().maxCoeff(), 0.0, 1e-12);
+  EXPECT_NEAR(tilt.squaredNorm(), 15.0, 1e-12);
+  Touched there = here;
+  for (Vec2& place : there.places) place = Eigen::Rotation2D<double>(0.7) * place + Vec2(0.3, -0.2);
+  const Eigen::MatrixXd turned = there.terms().of_readings.rightCols(2);
+  EXPECT_LT((turned * turned.transpose() - tilt * tilt.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(BackgroundTerms, OfLargeTissueAreLongerWavesAndNotMore) {
-  const auto [places, when] = grid(40, 40, 10 * kMm);
-  EXPECT_LE(background_terms(places, when).of_readings.cols(), 129);
+  EXPECT_LE(grid(40, 40, 10 * kMm).terms().of_readings.cols(), 259);
 }
 
-// The sd's prior, where readings tell nothing.
-TEST(OutlineBackground, IsDrawnFromItsPriorWhereReadingsTellNothing) {
-  const auto [places, when] = grid(6, 6, 4 * kMm);
-  BackgroundTerms terms = background_terms(places, when);
-  terms.median_sd = 0.2;
-  terms.drift_sd = 3.0;
-  OutlineBackground background(terms);
-  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(36);
-  Random random(5);
-  constexpr int kDraws = 4000;
-  double mean = 0.0, square = 0.0, drift = 0.0;
-  for (int i = 0; i < kDraws; ++i) {
-    background.draw(nothing, nothing, random);
-    const double z = std::log(background.waves_sd() / 0.2);
-    mean += z / kDraws;
-    square += z * z / kDraws;
-    // Waves at the same place cancel: what is left between first and last batch is not drift alone,
-    // but has its variance and theirs at the least.
-    drift += std::pow(background.at(35) - background.at(0), 2) / kDraws;
-  }
-  EXPECT_NEAR(mean, 0.0, 0.1);  // five standard errors of draws correlated over three
-  EXPECT_NEAR(square, 1.0, 0.15);
-  EXPECT_GT(drift, 8.0);
-}
-
-// All coefficients known but for noise: a wave of one term and a drift are told apart.
-TEST(OutlineBackground, FollowsWhatIsThere) {
-  auto [places, when] = grid(8, 8, 3 * kMm);
-  for (std::size_t i = 0; i < when.size(); ++i) when[i] = static_cast<double>((i * 29) % 64);
-  BackgroundTerms terms = background_terms(places, when);
-  terms.median_sd = 0.1;
-  terms.drift_sd = 0.5;
-  Random random(6);
-  Eigen::VectorXd truth(64), off(64);
-  for (int i = 0; i < 64; ++i) {
-    truth[i] = 0.3 * std::sin(150.0 * places[i].x()) + 0.4 * (when[i] / 63.0 - 0.5);
-    off[i] = truth[i] + 0.05 * random.normal();
-  }
-  OutlineBackground background(terms);
-  double square = 0.0, scatter = 0.0;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(64);
-  constexpr int kDraws = 200;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    background.draw(off, Eigen::VectorXd::Constant(64, 400.0), random);
-    for (int i = 0; i < 64; ++i) mean[i] += background.at(i) / kDraws;
-    scatter += std::pow(background.at(27) - truth[27], 2) / kDraws;
-  }
-  for (int i = 0; i < 64; ++i) square += std::pow(mean[i] - truth[i], 2) / 64.0;
-  EXPECT_LT(std::sqrt(square), 0.04);  // less than the noise: what is smooth is known better
-  EXPECT_LT(std::sqrt(scatter), 0.1);
-}
-
-TEST(OutlineBackground, AddsNothingWhereThereAreNoReadings) {
-  const OutlineBackground none;
-  EXPECT_TRUE(none.is_none());
-  EXPECT_EQ(none.at(3), 0.0);
-  EXPECT_EQ(none.log_density(), 0.0);
-  EXPECT_TRUE(OutlineBackground(background_terms({}, {})).is_none());
-}
+TEST(BackgroundTerms, AreNoneWithoutReadings) { EXPECT_TRUE(background_terms({}).is_none()); }
 
 }  // namespace
 }  // namespace palpation

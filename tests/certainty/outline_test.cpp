@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "certainty/outline_chain.h"
@@ -24,17 +25,28 @@ OutlineNodes rectangle(double width_m, double height_m, int nodes) {
   return outline;
 }
 
-/// Over and beside a rectangle of 8 by 8 mm, as its profile would feel them, with noise.
-OutlineReadings felt_around(const OutlineNodes& outline, int count, Random& random) {
+/// In a square from there on: 7 where a share of 2 is nothing, with noise.
+OutlineReadings felt_in(double from_mm, double size_mm, int count, double noise,
+                        const std::function<double(const Vec2& place)>& share, Random& random) {
   OutlineReadings readings;
   for (int i = 0; i < count; ++i) {
-    const Vec2 place = kMm * Vec2(-4.0 + 16.0 * random.uniform(), -4.0 + 16.0 * random.uniform());
-    const double share = 1.0 / (1.0 + std::exp(-1200.0 * depth_in(outline, place)));
+    const Vec2 place =
+        kMm * Vec2(from_mm + size_mm * random.uniform(), from_mm + size_mm * random.uniform());
     readings.places.push_back(place);
-    readings.reading.push_back(7.0 + 2.0 * share + 0.1 * random.normal());
-    readings.variance.push_back(0.01);
+    readings.reading.push_back(7.0 + 2.0 * share(place) + noise * random.normal());
+    readings.variance.push_back(noise * noise);
   }
   return readings;
+}
+
+double sigmoid_of(double steps) { return 1.0 / (1.0 + std::exp(-steps)); }
+
+/// Over and beside a rectangle of 8 by 8 mm, as its profile would feel them.
+OutlineReadings felt_around(const OutlineNodes& outline, int count, Random& random) {
+  const auto share = [&](const Vec2& place) {
+    return sigmoid_of(1200.0 * depth_in(outline, place));
+  };
+  return felt_in(-4.0, 16.0, count, 0.1, share, random);
 }
 
 OutlinePrior prior_of(const OutlineNodes& outline) {
@@ -107,6 +119,21 @@ TEST(ReadingLaw, HasEachShareAtOneDepth) {
 }
 
 // Shares of normal densities, by hand: at no bend 2/3 / .25^2 against 1/3 / .5^2.
+TEST(ReadingLaw, IsSteeperTowardsASide) {
+  OutlinePrior prior = prior_of(rectangle(8 * kMm, 8 * kMm, 32));
+  prior.middle = {0.1, 0.2};
+  prior.radius_m = 4 * kMm;
+  OutlineProfile profile = prior.median;
+  profile.lean = {0.4, 0.0};
+  const ReadingLaw law = law_of(profile, prior);
+  EXPECT_EQ(steepness_at(law, Vec2(0.1, 0.2)), 1.0);
+  EXPECT_NEAR(steepness_at(law, Vec2(0.104, 0.2)), std::exp(0.4 / std::sqrt(2.0)), 1e-12);
+  EXPECT_NEAR(steepness_at(law, Vec2(-0.9, 0.2)), std::exp(-0.4), 1e-4);
+  EXPECT_NEAR(steepness_at(law, Vec2(0.1, 0.9)), 1.0, 1e-12);  // neither of both sides
+  EXPECT_EQ(share_at(law, kMm, 2.0), share_at(law, 2 * kMm));
+  EXPECT_NEAR(depth_where(law, 0.7, 2.0), 0.5 * depth_where(law, 0.7), 1e-15);
+}
+
 TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheLessItIsBent) {
   OutlineProfile profile;
   EXPECT_NEAR(plateau_probability(profile), 8.0 / 9.0, 1e-12);
@@ -144,6 +171,22 @@ TEST(OutlineNodes, NodesAreEvenlySpacedFarFromTheOrigin) {
   EXPECT_NEAR(enclosed_area(line), 1e-4, 1e-15);
 }
 
+/// Of the readings in their order, as many after each.
+void add_changes(const std::vector<MisfitKind>& kinds, OutlineReadings& readings,
+                 OutlinePrior& prior) {
+  const std::size_t spans = kinds.size() + 1, count = readings.places.size();
+  for (std::size_t i = 0; i < count; ++i)
+    readings.epoch.push_back(static_cast<int>(i * spans / count));
+  for (int change = 0; change < static_cast<int>(kinds.size()); ++change) {
+    prior.epochs.push_back(prior.epochs.back());
+    prior.epochs.back().push_back(change);
+  }
+  prior.changes = kinds;
+  prior.median.moved_m.assign(kinds.size(), Vec2::Zero());
+  prior.median.log_gain.assign(kinds.size(), 0.0);
+  prior.gain_log_sd.assign(kinds.size(), 0.2);
+}
+
 TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   Random random(3);
   const OutlineNodes truth = rectangle(8 * kMm, 8 * kMm, 32);
@@ -151,14 +194,16 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   start.add({kMm * Vec2(-3.5, -3), kMm * Vec2(-2, -3.5), kMm * Vec2(-2, -2), kMm * Vec2(-3, -1.5)},
             1);
   OutlineReadings readings = felt_around(truth, 80, random);
-  readings.background = background_terms(readings.places, readings.reading);
+  OutlinePrior prior = prior_of(start);
+  add_changes({MisfitKind::Moved, MisfitKind::Gain}, readings, prior);
+  readings.background = background_terms(
+      {.places = readings.places, .variance = readings.variance, .when = readings.reading});
   readings.background.median_sd = 0.1;
-  const OutlinePrior prior = prior_of(start);
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
-  EXPECT_NE(chain.chain().background().at(0), 0.0);
+  EXPECT_NE(chain.chain().residuals().log_noise(), 0.0);
   const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile(),
-                           chain.chain().cuts(), &chain.chain().background());
+                           chain.chain().cuts(), &chain.chain().residuals());
   // Some 20,000 steps were taken: each adds and removes the same numbers.
   EXPECT_NEAR(chain.chain().log_density(), fresh.log_density(), 1e-9);
 }
@@ -187,12 +232,18 @@ TEST(OutlineChain, ItsDensityIsTheSameWhereverTheTissueLies) {
   Random random(7);
   const OutlineNodes outline = rectangle(8 * kMm, 6 * kMm, 28);
   OutlineReadings readings = felt_around(outline, 60, random);
+  const auto add_background = [&] {
+    readings.background = background_terms(
+        {.places = readings.places, .variance = readings.variance, .when = readings.reading});
+  };
+  add_background();
   const OutlinePrior prior = prior_of(outline);
   const double here = OutlineChain(readings, prior, outline, prior.median).log_density();
   OutlineNodes moved = outline;
   const Eigen::Rotation2D<double> turn(0.7);
   for (Vec2& place : moved.place) place = turn * place + Vec2(0.3, -0.2);
   for (Vec2& place : readings.places) place = turn * place + Vec2(0.3, -0.2);
+  add_background();
   EXPECT_NEAR(OutlineChain(readings, prior, moved, prior.median).log_density(), here, 1e-9);
 }
 
@@ -281,16 +332,11 @@ TEST(OutlineWalk, CutsAreDrawnFromTheirPriorWhereReadingsTellNothing) {
 TEST(OutlineWalk, FindsAHoleThatItsStartDoesNotKnow) {
   Random random(14);
   const OutlineNodes outline = rectangle(16 * kMm, 16 * kMm, 64);
-  OutlineReadings readings;
-  for (int i = 0; i < 150; ++i) {
-    const Vec2 place = kMm * Vec2(-3.0 + 22.0 * random.uniform(), -3.0 + 22.0 * random.uniform());
-    const double depth =
-        std::min(depth_in(outline, place), (place - kMm * Vec2(8, 8)).norm() - 4 * kMm);
-    readings.places.push_back(place);
-    readings.reading.push_back(7.0 + 2.0 / (1.0 + std::exp(-1200.0 * depth)) +
-                               0.2 * random.normal());
-    readings.variance.push_back(0.04);
-  }
+  const auto share = [&](const Vec2& place) {
+    const double from_hole = (place - kMm * Vec2(8, 8)).norm() - 4 * kMm;
+    return sigmoid_of(1200.0 * std::min(depth_in(outline, place), from_hole));
+  };
+  const OutlineReadings readings = felt_in(-3.0, 22.0, 150, 0.2, share, random);
   const OutlinePrior prior = prior_of(outline);
   OutlineWalk walk(readings, prior, outline, prior.median, 15);
   walk.settle(300);
@@ -308,14 +354,10 @@ TEST(OutlineWalk, FindsWhereAHillHasHalfOfItsHeight) {
   constexpr double kHalf_m = 6 * kMm;
   const double z2 = kHalf_m * kHalf_m / (std::cbrt(4.0) - 1.0);
   Random random(16);
-  OutlineReadings readings;
-  for (int i = 0; i < 200; ++i) {
-    const Vec2 place = kMm * Vec2(-20.0 + 40.0 * random.uniform(), -20.0 + 40.0 * random.uniform());
-    readings.places.push_back(place);
-    readings.reading.push_back(7.0 + 2.0 * std::pow(1.0 + place.squaredNorm() / z2, -1.5) +
-                               0.02 * random.normal());
-    readings.variance.push_back(0.0004);
-  }
+  const auto share = [&](const Vec2& place) {
+    return std::pow(1.0 + place.squaredNorm() / z2, -1.5);
+  };
+  const OutlineReadings readings = felt_in(-20.0, 40.0, 200, 0.02, share, random);
   std::vector<Vec2> circle;
   for (int i = 0; i < 40; ++i) {
     const double angle = 0.05 * std::numbers::pi * i;
@@ -339,6 +381,82 @@ TEST(OutlineWalk, FindsWhereAHillHasHalfOfItsHeight) {
   }
   EXPECT_GT(bent, 50);
   EXPECT_NEAR(radius_m / bent, kHalf_m, 0.25 * kMm);
+}
+
+// One side is twice as steep as the other: with one slope for both, the outline would lie off by
+// half a millimetre.
+TEST(OutlineWalk, FindsASlopeForEachSide) {
+  Random random(31);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  const auto share = [&](const Vec2& place) {
+    const double side = std::clamp((place.x() - 4 * kMm) / (4 * kMm), -1.0, 1.0);
+    return sigmoid_of(1000.0 * std::exp(0.35 * side) * depth_in(outline, place));
+  };
+  const OutlineReadings readings = felt_in(-4.0, 16.0, 300, 0.04, share, random);
+  OutlinePrior prior = prior_of(outline);
+  prior.middle = {4 * kMm, 4 * kMm};
+  prior.radius_m = 4 * kMm;
+  OutlineWalk walk(readings, prior, outline, prior.median, 32);
+  walk.settle(400);
+  const std::vector<OutlineDraw> draws = walk.draws(800, 100);
+  double ratio = 0.0, across = 0.0, left = 0.0;
+  for (const OutlineDraw& draw : draws) {
+    ratio += std::log(steepness_at(draw.law, kMm * Vec2(8, 4)) /
+                      steepness_at(draw.law, kMm * Vec2(0, 4))) /
+             100.0;
+    across += std::abs(draw.profile.lean.y()) / 100.0;
+    left += depth_in(draw.outline, kMm * Vec2(0, 4)) / 100.0;
+  }
+  EXPECT_NEAR(ratio, 0.7, 0.25);
+  EXPECT_LT(across, 0.15);
+  EXPECT_NEAR(left, 0.0, 0.2 * kMm);
+}
+
+// Tissue that moved once more than was taken back, and then a gain that changed.
+TEST(OutlineWalk, FindsWhatIsLeftOfChanges) {
+  Random random(21);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  OutlineReadings readings = felt_around(outline, 360, random);
+  OutlinePrior prior = prior_of(outline);
+  add_changes({MisfitKind::Moved, MisfitKind::Gain}, readings, prior);
+  const Vec2 moved = kMm * Vec2(1.0, -0.7);
+  for (std::size_t i = 0; i < readings.places.size(); ++i) {
+    if (readings.epoch[i] > 0) readings.places[i] -= moved;
+    if (readings.epoch[i] > 1) readings.reading[i] = 7.0 + 1.2 * (readings.reading[i] - 7.0);
+  }
+  OutlineWalk walk(readings, prior, outline, prior.median, 22);
+  walk.settle(400);
+  const std::vector<OutlineDraw> draws = walk.draws(800, 100);
+  Vec2 mean = Vec2::Zero();
+  double square = 0.0, gain = 0.0;
+  for (const OutlineDraw& draw : draws) {
+    mean += draw.profile.moved_m[0] / 100.0;
+    square += (draw.profile.moved_m[0] - moved).squaredNorm() / 200.0;
+    gain += std::exp(draw.profile.log_gain[1]) / 100.0;
+    EXPECT_EQ(draw.profile.log_gain[0], 0.0);  // that change was a move
+    EXPECT_EQ(draw.profile.moved_m[1], Vec2(0, 0));
+  }
+  EXPECT_LT(std::sqrt(square), 0.15 * kMm);
+  EXPECT_LT((mean - moved).norm(), 4.0 * std::sqrt(square));
+  EXPECT_NEAR(gain, 1.2, 0.04);
+}
+
+TEST(OutlineWalk, WhatIsLeftOfAMoveIsDrawnFromItsPriorWhereReadingsTellNothing) {
+  Random random(23);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  OutlineReadings readings = felt_around(outline, 40, random);
+  for (double& variance : readings.variance) variance = 1e12;
+  OutlinePrior prior = prior_of(outline);
+  prior.noise_log_sd = 0.01;
+  add_changes({MisfitKind::Moved}, readings, prior);
+  OutlineWalk walk(readings, prior, outline, prior.median, 24);
+  walk.settle(300);
+  double square = 0.0;
+  const std::vector<OutlineDraw> draws = walk.draws(6000, 2000);
+  for (const OutlineDraw& draw : draws) square += draw.profile.moved_m[0].squaredNorm() / 2000.0;
+  // Of two directions, 2 mm in each. Draws are correlated over some ten: a standard error of a
+  // tenth.
+  EXPECT_NEAR(std::sqrt(0.5 * square), 2 * kMm, 0.3 * kMm);
 }
 
 TEST(OutlineWalk, TheSameSeedDrawsTheSame) {

@@ -184,7 +184,7 @@ TEST(StopRule, RefusesWhatIsNone) {
   EXPECT_THROW(check(StopRule{.error_m2 = -1.0}), InvalidInput);
   EXPECT_THROW(check(StopRule{.band_m = std::nan("")}), InvalidInput);
   EXPECT_THROW(check(StopRule{.least_gain = 1.5}), InvalidInput);
-  EXPECT_THROW(check(Model{.band = {.probability = 1.0}}), InvalidInput);
+  EXPECT_THROW(check(Model{.band = Band{.probability = 1.0}}), InvalidInput);
 }
 
 }  // namespace

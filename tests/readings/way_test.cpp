@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "readings/readings.h"
 #include "readings/tissue.h"
 
 namespace palpation {
@@ -40,6 +41,9 @@ TEST(MergedOnTheWay, PutsNeighboursInTheirMiddleWithTheirPrecisionsAddedUp) {
   EXPECT_EQ(merged[3].reading, 8.0);
   EXPECT_EQ(merged[4].reading, 1.0);
   EXPECT_EQ(merged[5].reading, 2.0);
+  EXPECT_EQ(merged[0].count, 2);
+  EXPECT_EQ(merged[2].count, 1);
+  EXPECT_EQ(readings_before_each(merged), (std::vector<std::size_t>{0, 2, 4, 5, 6, 7}));
 }
 
 TEST(MergedOnTheWay, LeavesReadingsWithoutNoiseApart) {

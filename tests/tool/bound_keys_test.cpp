@@ -106,6 +106,7 @@ TEST(BoundKeys, WhatElseHasADefaultSetsNoSingleMember) {
                                        "robot.place_uncertainty_mm",
                                        "probe.kind",
                                        "probe.tumours",
+                                       "band.probability",
                                        "band.cut_risk",
                                        "error.arithmetic"};
   for (const std::string& path : others)

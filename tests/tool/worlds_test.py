@@ -22,9 +22,21 @@ class Worlds(InFolder):
         return path
 
     def summary(self, command, scene, *arguments):
-        run = palpate(command, scene, "--out", self.folder / "out", "--overwrite", "--quiet", *BRIEFLY, *arguments)
+        briefly = () if any(str(one).startswith("certainty=") for one in arguments) else BRIEFLY
+        run = palpate(command, scene, "--out", self.folder / "out", "--overwrite", "--quiet", *briefly, *arguments)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         return json.loads((self.folder / "out" / "summary.json").read_text())
+
+    def felt(self, touches, column, row_of):
+        """A file of touches anywhere on the tissue: row_of their number and the stiffness of a disk around a centre has the reading and the last column."""
+        path = self.folder / "felt.csv"
+        with open(path, "w") as file:
+            file.write(f"x,y,z,reading,{column}\n")
+            for touch in range(touches):
+                x, y = random.uniform(0, 25), random.uniform(0, 50)
+                reading, last = row_of(touch, lambda right, up: 1 + 2 / (1 + math.exp(-1.2 * (6 - math.hypot(x - right, y - up)))))
+                file.write(f"{x / 1e3},{y / 1e3},0,{reading},{last}\n")
+        return path
 
     def refused(self, scene, says):
         run = palpate("simulate", scene)
@@ -36,6 +48,13 @@ class Worlds(InFolder):
         one, again, other = (self.summary("simulate", scene, "--seed", seed)["error"] for seed in (3, 3, 4))
         self.assertEqual(one, again)
         self.assertNotEqual(one, other)
+
+    def test_without_a_goal_a_search_looks_for_another_tumour_like_it(self):
+        plane = {"plane": {"size_mm": [54, 49], "vertices": [75, 68]}}
+        scene = self.scene(surface=plane, probe={"world": "two", "noise": 0.01})
+        summary = self.summary("simulate", scene, "--seed", 45010, "--set", "certainty=laplace")
+        self.assertEqual(len(summary["parts"]), 2)
+        self.assertLess(summary["error"]["symmetric_difference_mm2"], 10)
 
     def test_a_world_stands_in_place_of_tumours(self):
         disk = {"shape": "disk", "centre_mm": [12, 25, 0], "radius_mm": 5}
@@ -95,24 +114,60 @@ class Worlds(InFolder):
     def test_a_zero_that_moves_is_taken_back_and_said(self):
         scene = self.scene(probe={"world": "sensor-shift", "noise": 0.05}, plan={"batches": 9})
         summary = self.summary("simulate", scene, "--seed", 11)
-        (change,) = summary["zero_changes"]
+        (change,) = summary["taken_back"]
         self.assertAlmostEqual(change["reading"], 41, delta=3)  # the catalogue's, after 40 stops
         said = f"From batch {change['batch']}, reading {change['reading']}, on readings lie {change['amount']:.3f} higher than before"
         self.assertTrue(any(words.startswith(said) for words in summary["warnings"]), summary["warnings"])
         self.assertLess(summary["error"]["symmetric_difference_mm2"], 20)
 
+    def test_tissue_that_moves_is_taken_back_and_said(self):
+        random.seed(3)
+
+        def moved(touch, stiffness):
+            return stiffness(*((12, 25) if touch < 60 else (15, 27))) + random.gauss(0, 0.06), touch // 10
+
+        felt = self.felt(120, "batch", moved)
+        summary = self.summary("boundary", self.scene(), "--measurements", felt, "--set", "certainty=sampled")
+        (change,) = summary["taken_back"]
+        self.assertEqual(change["kind"], "moved")
+        self.assertAlmostEqual(change["reading"], 61, delta=6)
+        right, up, out = change["moved_mm"]
+        self.assertLess(math.hypot(right - 3, up - 2, out), 1.5)
+        said = f"From batch {change['batch']}, reading {change['reading']}, on the tissue lies {math.hypot(right, up, out):.1f} mm from where it lay"
+        self.assertTrue(any(words.startswith(said) for words in summary["warnings"]), summary["warnings"])
+        self.assertLess(abs(summary["area_mm2"] - math.pi * 36), 3 * summary["expected_error_mm2"])
+
+    def test_sessions_have_zeros_and_gains_of_their_own(self):
+        random.seed(5)
+
+        def fastened_anew(touch, stiffness):
+            reading, day = (stiffness(12, 25), "monday") if touch < 60 else (5 + 1.1 * stiffness(12, 25), "tuesday")
+            return reading + random.gauss(0, 0.06), day
+
+        felt = self.felt(120, "session", fastened_anew)
+        summary = self.summary("boundary", self.scene(), "--measurements", felt, "--set", "certainty=sampled")
+        (change,) = summary["taken_back"]
+        self.assertEqual((change["session"], change["reading"]), (2, 61))
+        self.assertEqual(summary["modelled"][:2], ["level at the edge", "sessions"])
+        self.assertEqual(summary["modelled"][-1], "sampled certainty")
+        # Healthy tissue reads 1, and 5 + 1.1 on Tuesday.
+        self.assertAlmostEqual(change["amount"], 5.1, delta=3 * change["amount_sd"])
+        self.assertLess(change["amount_sd"], 0.1)
+        low, high = change["factor_interval"]
+        self.assertTrue(low < 1.1 < high and high - low < 0.2, change)
+        self.assertTrue(any(words.startswith("The 2nd session, which begins with reading 61, has a zero of its own") for words in summary["warnings"]), summary["warnings"])
+        least, most = summary["area_interval_mm2"]
+        self.assertTrue(least < math.pi * 36 < most, summary["area_interval_mm2"])
+
     def test_of_logarithms_a_zero_that_moves_is_a_factor(self):
         random.seed(1)
-        rows = ["x,y,z,reading,batch"]
-        for touch in range(100):
-            x, y = random.uniform(0, 25), random.uniform(0, 50)
-            stiff = 1 + 2 / (1 + math.exp(-1.2 * (6 - math.hypot(x - 12, y - 25))))
-            factor = 1.8 if touch >= 50 else 1
-            rows.append(f"{x / 1e3},{y / 1e3},0,{stiff * factor * math.exp(random.gauss(0, 0.03))},{touch // 10}")
-        felt = self.folder / "felt.csv"
-        felt.write_text("\n".join(rows) + "\n")
+
+        def raised(touch, stiffness):
+            return stiffness(12, 25) * (1.8 if touch >= 50 else 1) * math.exp(random.gauss(0, 0.03)), touch // 10
+
+        felt = self.felt(100, "batch", raised)
         summary = self.summary("boundary", self.scene(field={"transform": "log"}), "--measurements", felt)
-        (change,) = summary["zero_changes"]
+        (change,) = summary["taken_back"]
         self.assertAlmostEqual(change["amount"], math.log(1.8), delta=0.05)
         said = f"{math.exp(change['amount']):.2f} times as high as before"
         self.assertIn(said, " ".join(summary["warnings"]))

@@ -109,6 +109,15 @@ TEST(BackgroundField, OfAWaveSpansItsHeight) {
   EXPECT_NEAR(field.minCoeff(), -0.15, 1e-12);
 }
 
+TEST(BackgroundField, OfATiltRisesFromSideToSide) {
+  const Surface surface = tissue();
+  const Field field = background_field(
+      surface, std::vector<Background>{Tilt{.height = 0.8, .direction = Vec3(0.0, 2.0, 0.0)}});
+  EXPECT_NEAR(field[surface.nearest_vertex(kMiddle)], 0.0, 1e-12);
+  EXPECT_NEAR(field.maxCoeff(), 0.4, 1e-12);
+  EXPECT_NEAR(field.minCoeff(), -0.4, 1e-12);
+}
+
 // A sum of forty waves is normal with the sd asked for over many seeds: of 200 draws at one place
 // the sd is known to 5 %, four times which is allowed.
 TEST(BackgroundField, OfATextureHasItsStandardDeviation) {
@@ -129,6 +138,7 @@ TEST(BackgroundField, RefusesWhatHasNoWidth) {
   };
   EXPECT_THROW(made(Wave{.height = 0.3, .length_m = 0.0}), InvalidInput);
   EXPECT_THROW(made(Vessel{.height = 0.3}), InvalidInput);
+  EXPECT_THROW(made(Tilt{.height = 0.3, .direction = Vec3::Zero()}), InvalidInput);
   EXPECT_THROW(made(Texture{.sd = std::numeric_limits<double>::quiet_NaN()}), InvalidInput);
   EXPECT_THROW(
       Phantom(surface,

@@ -81,6 +81,10 @@ class EdgeBelief {
   /// sigmoid; less where the noise was learned with a field that could not follow the edge.
   double noise_variance() const { return noise_variance_; }
 
+  /// Of the readings, less what the outline's freedom costs: compares with that of another belief
+  /// of as many.
+  double log_evidence() const { return -price_; }
+
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.
   const Field& offset_sd() const { return offset_sd_; }

@@ -1,8 +1,9 @@
 /// What readings say that the model of one outline, one profile and one sensor does not.
 ///
-/// Each rival adds one term to the readings near their most probable explanation: y = model + h
-/// theta, theta normal. With C the readings' covariance and r what is left of them,
-/// the rival is weighed against none by its Bayes factor, the noise's scale integrated out,
+/// Each rival, tissue that moved to first order, adds one term to the readings near their most
+/// probable explanation: y = model + h theta, theta normal. With C the readings' covariance and r
+/// what is left of them, the rival is weighed against none by its Bayes factor, the noise's scale
+/// integrated out,
 ///
 ///     (r' C^-1 r / r' (C + h S h')^-1 r)^(n/2) (1 + h' C^-1 h S)^(-1/2),
 ///
@@ -12,7 +13,9 @@
 /// the rate of false alarms.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "palpation/belief/belief.h"
 
@@ -23,19 +26,34 @@ enum class MisfitKind {
   Gain,        ///< from some batch on what stands out does so by more or less
   Moved,       ///< from some batch on the tissue lies elsewhere, or the registration does
   WeakerPart,  ///< something stands out that the outline does not hold
+  Tilted,      ///< all readings rise to one side
 };
 
 /// Of a kind, the rival that explains the most.
 struct Misfit {
   MisfitKind kind = MisfitKind::Zero;
   double evidence = 0.0;  ///< nats: logarithm of the kind's mean Bayes factor
-  int from_batch = 0;     ///< Zero, Gain: the first batch that differs. Moved: when it did
+  int from_batch = 0;     ///< Zero, Gain, Moved: the first batch that differs
+  /// Zero, Gain, Moved: how many readings were made before the first that differs, those that the
+  /// belief takes as one (Palpation::count) counted apart.
+  std::size_t number = 0;
+  int session = 0;  ///< the first that differs, where sessions tell; 0: batch and number do
   /// Zero: by how much, in readings. Gain: the factor, less one. Moved: how far, metres.
   /// WeakerPart: its height above the profile there, in readings.
   double amount = 0.0;
+  double stddev = 0.0;                  ///< of the amount, where that was estimated
+  double low = 0.0;                     ///< Gain: what reads so is not changed by it
   Vec3 moved_m = Vec3::Zero();          ///< Moved: where to
   std::optional<SurfacePoint> where{};  ///< WeakerPart
+  Vec3 slope_per_m = Vec3::Zero();      ///< Tilted: readings per metre, and
+  Vec3 middle = Vec3::Zero();           ///< where it adds nothing
 };
+
+/// Whether it was made after that.
+bool is_since(const Misfit& change, const Made& made);
+
+/// "zero", "gain", "moved", "weaker", "tilt".
+std::string_view name_of(MisfitKind kind);
 
 /// What a kind's evidence must exceed, nats, so that a true model is doubted in so many runs at
 /// most, all kinds together. Throws InvalidInput unless that lies in (0, 1).
@@ -46,7 +64,8 @@ double surprising(double false_alarms = 0.02);
 /// registration did, by up to 6 mm, a zero that moved by up to a contrast, a gain of half to twice.
 /// Each kind is weighed by the mean, over eleven moments and over changes on a grid, all equally
 /// likely, of the readings' likelihood over that without a change, by the field that was learned as
-/// if there was none.
+/// if there was none. The moment is that of the likeliest change, to a reading where there are no
+/// more than 200.
 std::optional<Misfit> changed_since(const Belief& belief);
 
 }  // namespace palpation

@@ -15,6 +15,7 @@
 #include "palpation/belief/level.h"
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/expected_error.h"
+#include "palpation/certainty/misfit.h"
 
 namespace palpation {
 
@@ -23,6 +24,9 @@ struct OutlineOptions {
   double noise_log_sd = 0.0;  ///< of the belief's noise, as EdgeBelief::around has it
   std::uint64_t seed = 1;
   int draws = 200;
+  /// What changed while one touched and is taken back in the belief's readings, in time; what is
+  /// left of it is among the unknown.
+  std::vector<Misfit> changes{};
 };
 
 /// An expectation, and what holds 95 % of the draws.
@@ -30,6 +34,13 @@ struct DrawnNumber {
   double mean = 0.0;
   double least = 0.0;
   double most = 0.0;
+};
+
+/// Of a change of zero or gain once it was taken back.
+struct ChangeLeft {
+  Misfit change;
+  Level step;        ///< of the readings since, in the belief's units
+  DrawnNumber gain;  ///< by which what stands out does so since
 };
 
 struct OutlinePosterior {
@@ -40,7 +51,8 @@ struct OutlinePosterior {
                                  ///< from the boundary { depth = 0 } where it is farthest from it
   ExpectedError expected;        ///< of the region { depth >= 0 }: the mean over the draws
   DrawnNumber area_m2;
-  Level level;  ///< at the boundary of the largest part, in the belief's units
+  std::vector<ChangeLeft> left;  ///< of OutlineOptions::changes, those of zero and gain
+  Level level;                   ///< at the boundary of the largest part, in the belief's units
   /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not
   /// come to the same answer, and the draws say too little.
   double disagreement = 0.0;

@@ -38,14 +38,6 @@ struct WeakerPart {
   double contrast = 0.0;  ///< there, above healthy tissue, in readings
 };
 
-/// From some reading on the sensor's zero lies elsewhere: that much was taken back.
-struct ZeroChange {
-  int batch = 0;           ///< of that reading
-  std::size_t number = 0;  ///< of Conclusion::palpations
-  double amount = 0.0;     ///< that it added, reading units (on the scale that is modelled)
-  double stddev = 0.0;
-};
-
 /// Whether the readings tell of a tumour at all.
 struct Evidence {
   bool contrast_seen = false;
@@ -57,8 +49,9 @@ struct Evidence {
   std::vector<Palpation> standing_alone{};
   /// What was taken out of the boundary as too weak for a tumour.
   std::vector<WeakerPart> weaker{};
-  /// In the order in which they were found.
-  std::vector<ZeroChange> zero_changes{};
+  /// Zeros, gains and moves of the tissue, those of sessions first, in time;
+  /// numbers are those of Conclusion::palpations.
+  std::vector<Misfit> taken_back{};
 
   /// Whether level and boundary may be concluded.
   bool allows_boundary() const { return contrast_seen && !trend_is_missing; }
@@ -68,8 +61,8 @@ struct Conclusion {
   Model model;  ///< that it was concluded under
   /// The readings as they were made, with the reason where one is set aside.
   std::vector<Palpation> palpations;
-  /// Knows the same readings, less what a zero that moved added, where a lag is modelled at the
-  /// places where they belong, and those on the way that are next to each other as one.
+  /// Knows the same readings, without what changes did that are taken back, where a lag is modelled
+  /// at the places where they belong, and those on the way that are next to each other as one.
   Belief belief;
   /// The whole field: its variance is what touches are planned by.
   Marginals marginals;
@@ -93,7 +86,8 @@ struct Conclusion {
   /// The boundary: of the depth where `outlines` or `edge` know it, of the component else; what a
   /// round tip feels early is taken back. Nothing where there is no level.
   std::optional<Contour> contour;
-  /// How sure the boundary is; nothing where there is no level or no reading.
+  /// How sure the boundary is; nothing where there is no level or no reading, or the model has no
+  /// band.
   std::optional<Certainty> certainty;
 
   bool tip_hides_all() const { return contour && contour->tip_hides_all; }
@@ -101,6 +95,20 @@ struct Conclusion {
   /// its units, so that with ReadingScale::Log exp of a mean is a reading (its median).
   ReadingScale scale() const { return model.contrast.scale; }
 };
+
+/// The readings, without what changed while they were made (Evidence::taken_back), in the belief's
+/// units.
+std::vector<Palpation> readings_as_if_unchanged(const Conclusion& conclusion);
+
+/// How a session differs from the one before it.
+struct SessionChange {
+  Misfit zero;
+  std::optional<DrawnNumber> gain;  ///< what stands out does so as many times as much; where
+                                    ///< outlines were drawn
+};
+/// Of each but the first that is taken to have a zero of its own. With outlines these tell both;
+/// else the field tells the zero, and is too sure of it where it was learned from one plateau.
+std::vector<SessionChange> session_changes(const Conclusion& conclusion);
 
 /// The level in the readings' own unit, its standard deviation to first order.
 std::optional<Level> level_in_readings(const Conclusion& conclusion);
@@ -128,10 +136,12 @@ class ConclusionCache {
 
 /// Where nothing is felt yet, the prior's; a given level is known even then. Depends on the
 /// arguments alone; readings that could not be made (TouchKind::Missed) tell nothing. Reasons why
-/// readings are set aside that are this function's own are judged anew. With a seed the boundary's
-/// outlines are drawn (outline_posterior.h), which takes seconds and is honest about corners, horns
-/// and necks; else Laplace's approximation tells how sure it is. Throws InvalidInput as
-/// check(Model), Prior and BeliefOptions say, NumericalError where no field can be fitted.
+/// readings are set aside that are this function's own are judged anew. With a seed all is known
+/// that will be: a gain that changed and tissue that moved are taken back (Evidence::taken_back),
+/// and the boundary's outlines are drawn (outline_posterior.h), which takes seconds and is honest
+/// about corners, horns and necks; else Laplace's approximation tells how sure it is. Throws
+/// InvalidInput as check(Model), Prior and BeliefOptions say, NumericalError where no field can be
+/// fitted.
 Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
                     ConclusionCache* cache = nullptr,
                     std::optional<std::uint64_t> sampling_seed = std::nullopt);

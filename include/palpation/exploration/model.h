@@ -117,7 +117,8 @@ struct Band {
 struct Model {
   FieldModel field{};
   LevelRule level{};
-  Band band{};
+  /// Nothing: the boundary alone is asked for, no band, cut line, probabilities or expected error.
+  std::optional<Band> band = Band{};
   Contrast contrast{};
 
   bool needs_contrast() const { return contrast.safe_start && (field.learns() || !level.known); }

@@ -22,11 +22,12 @@ struct InitialDesign {
 struct Aim {
   /// The part of the batches that goes where it tells the most about the boundary (edge_belief.h),
   /// once one is seen and the level is inferred from its edge: half of it in the first batch, half
-  /// as much again in the last. The rest follows the acquisition, and finds what the boundary does
-  /// not know of: with more than this a second, small tumour is missed.
+  /// as much again in the last. The rest goes where another tumour as large as the largest found
+  /// could hide, until none could, and follows the acquisition then: with more than this a second,
+  /// small tumour is missed.
   double edge_share = 0.65;
   /// Wherever a disk as wide as this could still hide, the rest goes first, and grows as far as the
-  /// batches that are left need it; 0: no such goal.
+  /// batches that are left need it; 0: no such goal, and the edge gives up nothing.
   double undetected_diameter_m = 0.0;
   double probability = 0.95;  ///< with which such a disk is to be found
 

@@ -1,6 +1,7 @@
 /// One touch and what was felt.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 
@@ -25,6 +26,15 @@ struct Palpation {
   TouchKind kind = TouchKind::Stop;
   Vec3 travel = Vec3::Zero();  ///< unit direction of travel, or zero if unknown
   std::string set_aside{};     ///< why the reading is not used; empty if it is
+  int count = 1;               ///< readings that this is the mean of
+  int session = 0;             ///< in each the sensor may have a zero and a gain of its own
+};
+
+/// Of a palpation: when.
+struct Made {
+  int batch = 0;
+  std::size_t number = 0;  ///< readings that were made before it (Palpation::count)
+  int session = 0;
 };
 
 inline Palpation missed_at(const SurfacePoint& where) {

@@ -39,6 +39,8 @@ inline const std::string kOutlier = "outlier: contradicts the readings around it
 inline const std::string kBaseStep = "base step: its row lies apart from the rows around it";
 inline const std::string kStandsAlone =
     "stands alone: farther from all other readings than they from each other";  ///< Exploration's
+inline const std::string kBeyondTissue =
+    "beyond the tissue: where it was felt none lay before it moved";  ///< Exploration's
 
 /// As fine as anything is felt with a tip of 4.5 mm.
 inline constexpr double kShortLength_m = 0.0035;

@@ -56,7 +56,12 @@ struct Texture {
   double length_m = 0.004;  ///< of a squared exponential covariance
   std::uint64_t seed = 1;
 };
-using Background = std::variant<Wave, Vessel, Texture>;
+/// A plane: tissue that is thinner on one side, or a tool that is not upright.
+struct Tilt {
+  double height = 0.0;  ///< from one side of the tissue to the other, 0 half way
+  Vec3 direction = Vec3::UnitX();
+};
+using Background = std::variant<Wave, Vessel, Texture, Tilt>;
 
 /// At the vertices, all together. Throws InvalidInput unless heights and places are finite, lengths
 /// and widths positive, directions not zero and lines of a point at least.

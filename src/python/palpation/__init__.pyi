@@ -209,7 +209,7 @@ class Model:
         level: SupportsFloat | None = ...,
         level_fraction: SupportsFloat = ...,
         level_estimate: Literal["edge", "range"] = ...,
-        band_probability: SupportsFloat = ...,
+        band_probability: SupportsFloat | None = ...,
         safe_start: bool = ...,
         transform: Literal["none", "log"] = ...,
         min_contrast: SupportsFloat | None = ...,

@@ -1,0 +1,202 @@
+#include "certainty/outline_residuals.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+
+namespace palpation {
+namespace {
+
+constexpr double kWild = 0.01;  ///< part of the readings that tell nothing
+constexpr double kSdLogSd = 1.0;
+constexpr double kSdStep = 1.0;
+constexpr int kNoiseTries = 2;
+
+double half_square(double z) { return 0.5 * z * z; }
+
+double normal_density(double off, double square) {
+  return std::exp(-half_square(off) / square) / std::sqrt(2.0 * std::numbers::pi * square);
+}
+
+}  // namespace
+
+/// Of the readings that tell, over the noise's scale; and what of the log density depends on none.
+struct OutlineResiduals::Told {
+  Eigen::MatrixXd information;  ///< F' V^-1 F
+  Eigen::VectorXd weighed;      ///< F' V^-1 off
+  double square = 0.0;          ///< off' V^-1 off
+  int count = 0;
+  double log_constant = 0.0;
+};
+
+/// The log density by some scales, and the coefficients over their sds.
+struct OutlineResiduals::Marginal {
+  Eigen::LLT<Eigen::MatrixXd> precision;
+  Eigen::VectorXd sd, mean;
+  double log_density = 0.0;
+};
+
+OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<double>& variance,
+                                   const BackgroundTerms& terms, const ResidualPrior& prior,
+                                   double log_noise)
+    : terms_(&terms),
+      prior_(prior),
+      off_(std::move(off)),
+      variance_(variance),
+      scales_{log_noise, std::vector(terms.waves.size(), 0.0)} {
+  for (const double one : variance_) precision_.push_back(1.0 / one);
+  factor();
+}
+
+double OutlineResiduals::mixed_density(double off, double variance) const {
+  const double square = variance * std::exp(2.0 * scales_.log_noise);
+  return (1.0 - kWild) * normal_density(off, square) + kWild * prior_.wild_density;
+}
+
+double OutlineResiduals::lacking(std::size_t reading) const {
+  return std::log(mixed_density(0.0, variance_[reading]) /
+                  mixed_density(off_[reading], variance_[reading]));
+}
+
+void OutlineResiduals::consider(std::size_t reading, double off) {
+  change_.considered.emplace_back(reading, off);
+  if (!tells(reading)) return;
+  const double before = off_[reading],
+               precision = precision_[reading] * std::exp(-2.0 * scales_.log_noise);
+  change_.local -= 0.5 * precision * (off * off - before * before);
+  change_.pull.noalias() += (off - before) * columns_.col(static_cast<Eigen::Index>(reading));
+}
+
+double OutlineResiduals::change() const {
+  return change_.local + pull_.dot(change_.pull) + 0.5 * change_.pull.squaredNorm();
+}
+
+void OutlineResiduals::keep() {
+  for (const auto& [reading, off] : change_.considered) off_[reading] = off;
+  pull_ += change_.pull;
+  forget();
+}
+
+void OutlineResiduals::forget() {
+  change_.considered.clear();
+  change_.pull.setZero();
+  change_.local = 0.0;
+}
+
+OutlineResiduals::Told OutlineResiduals::told() const {
+  Told told{.information = terms_->information,
+            .weighed = Eigen::VectorXd::Zero(terms_->information.rows())};
+  for (std::size_t i = 0; i < off_.size(); ++i) {
+    if (tells(i)) {
+      ++told.count;
+      told.square += precision_[i] * off_[i] * off_[i];
+      told.log_constant +=
+          std::log(1.0 - kWild) + 0.5 * std::log(0.5 * precision_[i] / std::numbers::pi);
+    } else {
+      told.log_constant += std::log(kWild * prior_.wild_density);
+    }
+    if (terms_->is_none()) continue;
+    const auto row = terms_->of_readings.row(static_cast<Eigen::Index>(i));
+    if (tells(i)) {
+      told.weighed += precision_[i] * off_[i] * row.transpose();
+    } else {
+      told.information.noalias() -= 1.0 / variance_[i] * row.transpose() * row;
+    }
+  }
+  return told;
+}
+
+Eigen::VectorXd OutlineResiduals::sds(const std::vector<double>& log_sd) const {
+  Eigen::VectorXd sd(terms_->information.rows());
+  Eigen::Index first = 0;
+  for (std::size_t length = 0; length < log_sd.size(); ++length) {
+    sd.segment(first, terms_->waves[length])
+        .setConstant(terms_->median_sd * std::exp(log_sd[length]));
+    first += terms_->waves[length];
+  }
+  if (first < sd.size()) {
+    sd[first] = terms_->drift_sd;
+    sd.segment(first + 1, 2).setConstant(terms_->tilt_sd);
+  }
+  sd.tail(terms_->steps()) = terms_->step_sd;
+  return sd;
+}
+
+OutlineResiduals::Marginal OutlineResiduals::marginal_of(const Told& told,
+                                                         const ResidualScales& scales) const {
+  const double scale = std::exp(-2.0 * scales.log_noise);
+  Marginal marginal{.precision = {}, .sd = sds(scales.log_sd), .mean = {}};
+  double& sum = marginal.log_density;
+  sum = told.log_constant - 0.5 * scale * told.square - told.count * scales.log_noise -
+        half_square((scales.log_noise - prior_.log_noise) / prior_.noise_log_sd);
+  for (const double log_sd : scales.log_sd) sum -= half_square(log_sd / kSdLogSd);
+  if (terms_->is_none()) return marginal;
+  Eigen::MatrixXd precision =
+      scale * (marginal.sd.asDiagonal() * told.information * marginal.sd.asDiagonal());
+  precision.diagonal().array() += 1.0;
+  marginal.precision.compute(precision);
+  const Eigen::VectorXd pull = scale * marginal.sd.cwiseProduct(told.weighed);
+  marginal.mean = marginal.precision.solve(pull);
+  sum +=
+      0.5 * pull.dot(marginal.mean) - marginal.precision.matrixLLT().diagonal().array().log().sum();
+  return marginal;
+}
+
+double OutlineResiduals::log_density() const { return marginal_of(told(), scales_).log_density; }
+
+Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
+  const Told told = this->told();
+  Marginal now = marginal_of(told, scales_);
+  const auto move = [&](double& scale, double step) {
+    const double before = std::exchange(scale, scale + step * random.normal());
+    Marginal then = marginal_of(told, scales_);
+    if (std::log(random.uniform()) < then.log_density - now.log_density) {
+      now = std::move(then);
+    } else {
+      scale = before;
+    }
+  };
+  // Of a variance that so many readings tell.
+  const double noise_step = 1.7 / std::sqrt(told.count + 10.0);
+  for (int i = 0; i < kNoiseTries; ++i) move(scales_.log_noise, noise_step);
+  for (double& log_sd : scales_.log_sd) move(log_sd, kSdStep);
+  Eigen::VectorXd steps, noise = Eigen::Map<const Eigen::VectorXd>(
+                             off_.data(), static_cast<Eigen::Index>(off_.size()));
+  if (!terms_->is_none()) {
+    Eigen::VectorXd coefficients(now.mean.size());
+    for (double& one : coefficients) one = random.normal();
+    coefficients = now.sd.cwiseProduct(now.mean + now.precision.matrixU().solve(coefficients));
+    noise -= terms_->of_readings * coefficients;
+    steps = coefficients.tail(terms_->steps());
+  }
+  redraw_telling(noise, random);
+  factor();
+  return steps;
+}
+
+/// By the noise alone, which the background leaves.
+void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& random) {
+  for (std::size_t i = 0; i < off_.size(); ++i) {
+    const double mixed = mixed_density(noise[static_cast<Eigen::Index>(i)], variance_[i]);
+    const bool tells = random.uniform() * mixed > kWild * prior_.wild_density;
+    precision_[i] = tells ? 1.0 / variance_[i] : 0.0;
+  }
+}
+
+void OutlineResiduals::factor() {
+  const Told told = this->told();
+  const Marginal marginal = marginal_of(told, scales_);
+  columns_.resize(marginal.sd.size(), static_cast<Eigen::Index>(off_.size()));
+  if (!terms_->is_none()) {
+    const double scale = std::exp(-2.0 * scales_.log_noise);
+    const Eigen::Map<const Eigen::VectorXd> precision(precision_.data(), columns_.cols());
+    columns_ = marginal.sd.asDiagonal() * terms_->of_readings.transpose() *
+               (scale * precision).asDiagonal();
+    marginal.precision.matrixL().solveInPlace(columns_);
+  }
+  pull_ = columns_ * Eigen::Map<const Eigen::VectorXd>(off_.data(), columns_.cols());
+  change_ = {};
+  change_.pull = Eigen::VectorXd::Zero(pull_.size());
+}
+
+}  // namespace palpation

@@ -1,0 +1,90 @@
+/// How far readings are off an outline's profile, and how probable that is.
+///
+/// They are off by a background (outline_background.h), whose coefficients are integrated out, and
+/// by noise, which is normal but for a reading in a hundred, which tells nothing. With V the
+/// variances of those that tell, times a scale, and F S F' the background's covariance,
+///
+///     log p(off) = -1/2 off' V^-1 off + 1/2 |pull|^2 + ...,  pull = L^-1 S^(1/2) F' V^-1 off,
+///     L L' = 1 + S^(1/2) F' V^-1 F S^(1/2),
+///
+/// so that to weigh a few other residuals costs as many columns of L^-1 S^(1/2) F' V^-1, and an
+/// outline does not wait for its background to follow it.
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "certainty/outline_background.h"
+#include "palpation/base/random.h"
+
+namespace palpation {
+
+/// Of what the noise's standard deviations are multiplied by, in logarithms; and how probable a
+/// reading that tells nothing is, wherever it may lie.
+struct ResidualPrior {
+  double log_noise = 0.0;
+  double noise_log_sd = 1.0;
+  double wild_density = 1e-3;
+};
+
+struct ResidualScales {
+  double log_noise;
+  std::vector<double> log_sd;  ///< of the waves of each length, over its median
+};
+
+/// Residuals that are thought of instead, and what they change.
+struct ResidualChange {
+  std::vector<std::pair<std::size_t, double>> considered;
+  Eigen::VectorXd pull;
+  double local = 0.0;  ///< of the log density, but for the pull's part
+};
+
+class OutlineResiduals {
+ public:
+  /// All tell at first. `variance`: of each, the noise's beforehand, as the terms have it. These
+  /// must outlive it; without any there is no background.
+  OutlineResiduals(std::vector<double> off, const std::vector<double>& variance,
+                   const BackgroundTerms& terms, const ResidualPrior& prior, double log_noise);
+
+  /// What if this one was so far off: for `change`, until it is kept or forgotten.
+  void consider(std::size_t reading, double off);
+  /// Of the log density, by all that is considered.
+  double change() const;
+  void keep();
+  void forget();
+
+  /// Other scales and other readings that tell nothing, given all residuals: from their posterior,
+  /// by Metropolis' and Gibbs' steps. Returns the zero's steps, drawn with them.
+  Eigen::VectorXd redraw(Random& random);
+
+  double log_noise() const { return scales_.log_noise; }
+  bool tells(std::size_t reading) const { return precision_[reading] > 0.0; }
+  /// How much less probable a reading is, by itself, than one that fits: at most as one that tells
+  /// nothing.
+  double lacking(std::size_t reading) const;
+  /// Of the residuals and the scales.
+  double log_density() const;
+
+ private:
+  struct Told;
+  struct Marginal;
+
+  double mixed_density(double off, double variance) const;
+  Told told() const;
+  Eigen::VectorXd sds(const std::vector<double>& log_sd) const;
+  Marginal marginal_of(const Told& told, const ResidualScales& scales) const;
+  void redraw_telling(const Eigen::VectorXd& noise, Random& random);
+  void factor();
+
+  const BackgroundTerms* terms_;
+  ResidualPrior prior_;
+  std::vector<double> off_, variance_;
+  std::vector<double> precision_;  // over the noise's scale; 0 where a reading tells nothing
+  ResidualScales scales_;
+  Eigen::MatrixXd columns_;  // L^-1 S^(1/2) F' V^-1
+  Eigen::VectorXd pull_;
+  ResidualChange change_;
+};
+
+}  // namespace palpation

@@ -1,0 +1,62 @@
+#include "exploration/taken_back.h"
+
+#include "palpation/readings/screening.h"
+
+namespace palpation {
+namespace {
+
+/// A surface ends there: no farther off does rounding or a coarse border put a place.
+constexpr double kBeyond_m = 0.0005;
+
+void take_back(const Surface& surface, const Misfit& change, Palpation& palpation) {
+  if (palpation.kind == TouchKind::Missed) return;
+  if (change.kind == MisfitKind::Zero) palpation.reading -= change.amount;
+  if (change.kind == MisfitKind::Tilted)
+    palpation.reading -= change.slope_per_m.dot(surface.position(palpation.where) - change.middle);
+  if (change.kind == MisfitKind::Gain)
+    palpation.reading = change.low + (palpation.reading - change.low) / (1.0 + change.amount);
+  if (change.kind != MisfitKind::Moved) return;
+  const Vec3 lay = surface.position(palpation.where) - change.moved_m;
+  palpation.where = surface.project(lay);
+  const Vec3 off = lay - surface.position(palpation.where),
+             normal = surface.normal(palpation.where);
+  if ((off - off.dot(normal) * normal).norm() > kBeyond_m && palpation.set_aside.empty())
+    palpation.set_aside = kBeyondTissue;
+}
+
+constexpr std::ptrdiff_t kOneIn = 20;  ///< a moment is known to a few readings
+
+}  // namespace
+
+Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
+                         std::span<const Palpation> palpations) {
+  if (change.kind != MisfitKind::Zero && change.kind != MisfitKind::Gain) return change;
+  for (const Misfit& session : changes) {
+    if (session.session == 0) continue;
+    std::ptrdiff_t others = 0;
+    for (std::size_t i = 0; i < palpations.size(); ++i) {
+      const Made made{palpations[i].batch, i, palpations[i].session};
+      others += is_since(change, made) != is_since(session, made);
+    }
+    if (kOneIn * others > std::ssize(palpations)) continue;
+    change.session = session.session;
+    change.from_batch = session.from_batch;
+    change.number = session.number;
+    break;
+  }
+  return change;
+}
+
+std::vector<Palpation> with_changes_taken_back(const Surface& surface,
+                                               std::vector<Palpation> palpations,
+                                               std::span<const Misfit> changes) {
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    for (const Misfit& change : changes) {
+      const Made made{palpations[i].batch, i, palpations[i].session};
+      if (is_since(change, made)) take_back(surface, change, palpations[i]);
+    }
+  }
+  return palpations;
+}
+
+}  // namespace palpation

@@ -1,0 +1,42 @@
+/// A world in the making, and what it may be made of.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "palpation/base/random.h"
+#include "palpation/world/catalogue.h"
+#include "palpation/world/random_shape.h"
+#include "world/shape_curves.h"
+
+namespace palpation {
+
+/// Of all that is drawn at random for it.
+struct Draft {
+  Random& random;
+  const WorldArea& area;
+  DrawnWorld world{};
+
+  double between(double least, double most) { return uniform(random, least, most); }
+  /// So far from every side at least. Throws InvalidInput where tissue has no room for that.
+  Vec3 anywhere(double margin_m);
+  Vec3 direction();
+  Lump& add(Tumour outline);
+};
+
+Lump& add_shape(Draft& draft, ShapeFamily family);
+Lump& add_blob(Draft& draft);
+/// Of such a radius, metres.
+Lump& add_disk(Draft& draft, double least_m, double most_m);
+void add_ring(Draft& draft);
+/// Its centre lies on the longer side.
+void add_over_border(Draft& draft);
+/// Nodules of 9 mm, apart by 2 mm at least. Throws InvalidInput where they do not fit.
+void add_nodules(Draft& draft, int count);
+/// Of so much of a tumour's contrast.
+void add_vessel(Draft& draft, double height);
+void add_wave(Draft& draft, double height);
+/// Of 30 to 150 % of a tumour's contrast from side to side.
+void add_tilt(Draft& draft);
+
+}  // namespace palpation

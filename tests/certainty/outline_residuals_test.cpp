@@ -1,0 +1,162 @@
+// What readings are off by: its density against the readings' whole covariance, its draws against
+// their laws.
+#include "certainty/outline_residuals.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace palpation {
+namespace {
+
+constexpr double kMm = 1e-3;
+
+struct Readings {
+  std::vector<Vec2> places;
+  std::vector<double> when, off, variance;
+  BackgroundTerms terms;
+};
+
+/// In eight rows of eight, the rows made in turn, without residuals.
+Readings raster(double variance) {
+  Readings readings;
+  for (int i = 0; i < 64; ++i) {
+    readings.places.push_back(3 * kMm * Vec2(i % 8, i / 8));
+    readings.when.push_back((i * 29) % 64);
+  }
+  readings.off.assign(64, 0.0);
+  readings.variance.assign(64, variance);
+  Eigen::MatrixXd step = Eigen::MatrixXd::Zero(64, 1);
+  step.bottomRows(20).setOnes();
+  readings.terms = background_terms({.places = readings.places,
+                                     .variance = readings.variance,
+                                     .when = readings.when,
+                                     .steps = step});
+  readings.terms.median_sd = 0.1;
+  readings.terms.drift_sd = 0.5;
+  readings.terms.tilt_sd = 0.4;
+  readings.terms.step_sd[0] = 0.3;
+  return readings;
+}
+
+OutlineResiduals residuals_of(const Readings& readings, const ResidualPrior& prior = {}) {
+  return {readings.off, readings.variance, readings.terms, prior, prior.log_noise};
+}
+
+Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
+
+/// Of all residuals, by the covariance of noise and background, with scales of 1.
+double log_density_by_hand(const Readings& readings) {
+  const BackgroundTerms& terms = readings.terms;
+  Eigen::VectorXd sd = Eigen::VectorXd::Constant(terms.of_readings.cols(), terms.median_sd);
+  sd[sd.size() - 4] = terms.drift_sd;
+  sd.segment(sd.size() - 3, 2).setConstant(terms.tilt_sd);
+  sd[sd.size() - 1] = terms.step_sd[0];
+  Eigen::MatrixXd covariance = as_vector(readings.variance).asDiagonal();
+  const Eigen::MatrixXd added = terms.of_readings * sd.asDiagonal();
+  covariance += added * added.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::VectorXd off = as_vector(readings.off);
+  return -0.5 * off.dot(factor.solve(off)) - factor.matrixLLT().diagonal().array().log().sum() -
+         0.5 * static_cast<double>(off.size()) * std::log(2.0 * std::numbers::pi) +
+         static_cast<double>(off.size()) * std::log(0.99);
+}
+
+TEST(OutlineResiduals, HaveTheDensityOfNoiseAndBackgroundTogether) {
+  Readings readings = raster(0.01);
+  Random random(1);
+  for (double& off : readings.off) off = 0.2 * random.normal();
+  EXPECT_NEAR(residuals_of(readings).log_density(), log_density_by_hand(readings), 1e-9);
+}
+
+TEST(OutlineResiduals, AreWeighedFewAtATimeAsAllTogether) {
+  Readings readings = raster(0.01);
+  Random random(2);
+  OutlineResiduals residuals = residuals_of(readings);
+  for (int round = 0; round < 40; ++round) {
+    const double before = residuals.log_density();
+    Readings next = readings;
+    for (int i = 0; i < 5; ++i) {
+      const auto reading = static_cast<std::size_t>((round * 13 + i * 11) % 64);
+      next.off[reading] = 0.2 * random.normal();
+      residuals.consider(reading, next.off[reading]);
+    }
+    EXPECT_NEAR(residuals.change(), log_density_by_hand(next) - log_density_by_hand(readings),
+                1e-8);
+    if (round % 2 == 0) {
+      residuals.forget();
+      EXPECT_EQ(residuals.log_density(), before);
+    } else {
+      residuals.keep();
+      readings = next;
+    }
+    EXPECT_EQ(residuals.change(), 0.0);
+    EXPECT_NEAR(residuals.log_density(), log_density_by_hand(readings), 1e-8);
+  }
+}
+
+TEST(OutlineResiduals, OfReadingsThatTellNothingDoNotMatter) {
+  Readings readings = raster(0.01);
+  readings.off[9] = 40.0;
+  readings.off[17] = -300.0;
+  OutlineResiduals residuals = residuals_of(readings);
+  Random random(3);
+  for (int i = 0; i < 5; ++i) residuals.redraw(random);
+  EXPECT_FALSE(residuals.tells(9));
+  EXPECT_FALSE(residuals.tells(17));
+  int telling = 0;
+  for (std::size_t i = 0; i < 64; ++i) telling += residuals.tells(i);
+  EXPECT_GE(telling, 58);
+  residuals.consider(9, 0.7);
+  EXPECT_EQ(residuals.change(), 0.0);
+}
+
+// Without a background and with the noise known, a reading tells nothing as often as Bayes' rule
+// says.
+TEST(OutlineResiduals, AReadingTellsNothingAsOftenAsItShould) {
+  const ResidualPrior prior{.noise_log_sd = 1e-9, .wild_density = 0.1};
+  Readings readings{
+      .places = {}, .when = {}, .off = {0.38, 0.0}, .variance = {0.01, 0.01}, .terms = {}};
+  OutlineResiduals residuals = residuals_of(readings, prior);
+  Random random(4);
+  double nothing = 0.0;
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < kDraws; ++i) {
+    residuals.redraw(random);
+    nothing += residuals.tells(0) ? 0.0 : 1.0 / kDraws;
+  }
+  const double wild = 0.01 * 0.1, normal = 0.99 * std::exp(-0.5 * 3.8 * 3.8) /
+                                           (0.1 * std::sqrt(2.0 * std::numbers::pi));
+  EXPECT_NEAR(nothing, wild / (wild + normal), 0.014);  // four standard errors
+}
+
+// The scale of a noise that is known up to it, by n residuals: that of a variance's posterior.
+TEST(OutlineResiduals, LearnTheNoise) {
+  Readings readings;
+  Random random(5);
+  for (int i = 0; i < 200; ++i) readings.off.push_back(0.3 * random.normal());
+  readings.variance.assign(200, 0.01);
+  OutlineResiduals residuals = residuals_of(readings, {.wild_density = 1e-6});
+  double mean = 0.0, square = 0.0;
+  constexpr int kDraws = 4000;
+  for (int i = 0; i < 100 + kDraws; ++i) {
+    residuals.redraw(random);
+    if (i < 100) continue;
+    mean += residuals.log_noise() / kDraws;
+    square += residuals.log_noise() * residuals.log_noise() / kDraws;
+  }
+  const double told = as_vector(readings.off).squaredNorm() / 200.0;
+  EXPECT_NEAR(mean, 0.5 * std::log(told / 0.01), 0.01);
+  EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0 / std::sqrt(400.0), 0.006);
+}
+
+}  // namespace
+}  // namespace palpation
