@@ -250,13 +250,15 @@ Learned learn(const Prior& prior, std::span<const Palpation> palpations,
   std::vector<double> readings;
   for (const Site& site : sites) readings.push_back(merge(site, 1.0).mean);
   const NoiseAlone alone = noise_alone(prior, sites, readings);
-  const double range = range_of(alone, prior, readings);
+  // Around a plane, readings leave less than they were rounded by.
+  const double rounding_sd = std::sqrt(rounding_variance(palpations));
+  const double range = std::max(range_of(alone, prior, readings), rounding_sd);
   Objective objective{Likelihood(prior, sites),
                       options,
                       {options.length_m.value_or(0.0), options.signal_sd.value_or(0.0),
                        options.noise_sd.value_or(0.0)},
                       static_cast<double>(used_readings(palpations).size()),
-                      std::max(kLeastNoise * range, std::sqrt(rounding_variance(palpations))),
+                      std::max(kLeastNoise * range, rounding_sd),
                       {}};
   const Search search = search_of(objective, prior, start, range);
   const double at_start = climb_from_both(objective, search);

@@ -49,8 +49,9 @@ double squares(const EdgeFit& fit, const EdgeData& data) {
 /// The same fit where all noise variances are `times` as large.
 EdgeFit refitted(const EdgeFit& fit, double times, EdgeData& data,
                  const Eigen::MatrixXd& prior_covariance, const ProfilePrior& prior) {
-  data.variance *= times;
+  data = with_noise(times, std::move(data));
   EdgeFit next = fit_edge_belief(data, prior_covariance, prior);
+  next.log_evidence += data.log_scatter;
   next.scatter = fit.scatter * times;
   return next;
 }
@@ -141,8 +142,8 @@ std::optional<EdgeBelief> EdgeBelief::around(const Belief& belief, const Margina
     const bool more = told.size() > made->parts_.size();
     if (std::ranges::none_of(told, &OwnPart::plateau)) break;
     std::optional<EdgeBelief> next = fitted(task, told, free->profile_.low);
-    if (!next || next->price_ > made->price_ + kUnlikely) break;
-    const bool is_clear = next->price_ < made->price_ - kUnlikely;
+    if (!next || next->price() > made->price() + kUnlikely) break;
+    const bool is_clear = next->price() < made->price() - kUnlikely;
     next->weaker_ = made->weaker_;
     made = is_clear ? std::move(next) : either(*std::move(made), *std::move(next));
     if (!more || !is_clear) break;
@@ -178,8 +179,15 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   for (const Start& start : starts) {
     const EdgeFit edge = with_scatter(start.edge, start.data, start.prior_covariance, profile,
                                       noise_is_learned, least_variance);
-    Fit fit{start.correction, profile, task.fraction,  touch_variance * edge.scatter,
-            start.data,       edge,    start.distance, plateaus,
+    Fit fit{start.correction,
+            profile,
+            task.fraction,
+            touch_variance * edge.scatter,
+            start.data,
+            edge,
+            start.distance,
+            plateaus,
+            start.edge.log_evidence,
             start.weight};
     fit.depth = fit.depth_at_vertices();
     made.fits_.push_back(std::make_shared<const Fit>(std::move(fit)));
@@ -187,15 +195,20 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   if (parts.size() > 1) made.name_parts(parts);
   made.mix();
   made.survey_boundary();
-  made.price_ =
-      price_of_freedom(surface, made.depth_, shape, readings) - starts.front().edge.log_evidence;
+  made.freedom_ = price_of_freedom(surface, made.depth_, shape, readings);
   return made;
 }
 
+double EdgeBelief::log_evidence() const { return most_likely().edge.log_evidence - freedom_; }
+
+/// Minus log evidence by the field's noise, which all that are compared share, and what freedom
+/// costs.
+double EdgeBelief::price() const { return freedom_ - most_likely().log_evidence; }
+
 /// Two explanations, each as likely as its price says.
 EdgeBelief EdgeBelief::either(EdgeBelief one, EdgeBelief other) {
-  if (other.price_ < one.price_) std::swap(one, other);
-  const double odds = std::exp(one.price_ - other.price_);
+  if (other.price() < one.price()) std::swap(one, other);
+  const double odds = std::exp(one.price() - other.price());
   std::vector<std::shared_ptr<const Fit>> fits;
   for (const EdgeBelief* belief : {&one, &other}) {
     for (const std::shared_ptr<const Fit>& fit : belief->fits_) {

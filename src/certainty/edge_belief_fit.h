@@ -17,6 +17,7 @@ struct EdgeBelief::Fit {
   EdgeFit edge;
   Field distance_m;       ///< of each vertex from the first boundary, signed
   std::vector<int> part;  ///< that each vertex is nearest to
+  double log_evidence;    ///< by the field's noise; that by its own is the edge's
   double weight = 1.0;    ///< posterior probability of its kind of outline
   Field depth{};          ///< at the vertices
 

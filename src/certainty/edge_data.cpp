@@ -9,10 +9,12 @@
 #include "belief/sites.h"
 #include "certainty/depth.h"
 #include "palpation/boundary/level_set.h"
+#include "readings/rounding.h"
 
 namespace palpation {
 namespace {
 
+constexpr double kRounding = 1e-13;
 constexpr double kDeep_m = 0.008;
 /// Of what is merged far from the boundary: something else that stands out there is still seen.
 constexpr double kCell_m = 0.004;
@@ -55,7 +57,9 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
                   .depth_m = Eigen::VectorXd::Zero(count),
                   .part = {},
                   .made = {},
-                  .log_scatter = data.log_scatter};
+                  .log_scatter = data.log_scatter,
+                  .scatter_squares = data.scatter_squares,
+                  .scatter_freedom = data.scatter_freedom};
   for (Eigen::Index row = 0; row < count; ++row) {
     const std::vector<std::size_t>& together = rows[static_cast<std::size_t>(row)];
     double precisions = 0.0;
@@ -74,8 +78,11 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
     for (const std::size_t i : together) {
       const auto at = static_cast<Eigen::Index>(i);
       const double off = data.reading[at] - merged.reading[row];
-      merged.log_scatter -= 0.5 * (off * off / data.variance[at] + std::log(data.variance[at]));
+      const double square = off * off / data.variance[at];
+      merged.log_scatter -= 0.5 * (square + std::log(data.variance[at]));
+      merged.scatter_squares += square;
     }
+    merged.scatter_freedom += static_cast<double>(together.size()) - 1.0;
     merged.variance[row] = 1.0 / precisions;
     merged.places.push_back(data.places[together.front()]);
     merged.part.push_back(data.part[together.front()]);
@@ -101,6 +108,27 @@ EdgeData gathered_for_edge(const Belief& belief) {
     data.reading[i] = merged.mean;
     data.variance[i] = merged.variance;
   }
+  return data;
+}
+
+double log_evidence_without_edge(const Belief& belief) {
+  const EdgeData data = gathered_for_edge(belief);
+  const auto count = static_cast<double>(data.reading.size());
+  const Eigen::VectorXd precision = data.variance.cwiseInverse();
+  const double mean = precision.dot(data.reading) / precision.sum();
+  const double squares = precision.dot((data.reading.array() - mean).square().matrix());
+  const double least =
+                   std::max(rounding_variance(belief.palpations()), std::pow(kRounding * mean, 2)),
+               scale = std::max(squares / count, least * precision.minCoeff());
+  return -0.5 * (data.variance.array().log().sum() + count * std::log(scale) + squares / scale) -
+         std::log(count);
+}
+
+EdgeData with_noise(double times, EdgeData data) {
+  data.variance *= times;
+  data.log_scatter +=
+      0.5 * (data.scatter_squares * (1.0 - 1.0 / times) - data.scatter_freedom * std::log(times));
+  data.scatter_squares /= times;
   return data;
 }
 

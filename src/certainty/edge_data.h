@@ -14,6 +14,14 @@ inline constexpr Eigen::Index kMany = 300;
 /// One reading per place, of those that are used; depths are still to be measured.
 EdgeData gathered_for_edge(const Belief& belief);
 
+/// Of the same readings as one plateau and noise of which nothing is known but how many readings
+/// each is the mean of, as EdgeBelief::log_evidence is: without what depends on their number alone,
+/// less Schwarz's price of two constants.
+double log_evidence_without_edge(const Belief& belief);
+
+/// The same with noise of so many times the variance.
+EdgeData with_noise(double times, EdgeData data);
+
 /// Signed distances of the vertices and of the readings from { field = level }; false where there
 /// is no boundary.
 bool measure_depths(const Layout& layout, const Field& field, double level,

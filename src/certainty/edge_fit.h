@@ -41,8 +41,8 @@ struct EdgeData {
   std::vector<int> part;                ///< that each is nearest to
   std::vector<std::vector<Made>> made;  ///< of the readings of each
   /// Log likelihood of what was merged about its means: with it, evidence of data that were merged
-  /// otherwise compares.
-  double log_scatter = 0.0;
+  /// otherwise compares. Its squares over the noise variance, and how many of them are free.
+  double log_scatter = 0.0, scatter_squares = 0.0, scatter_freedom = 0.0;
 };
 
 struct ProfilePrior {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "exploration/taken_back.h"
-#include "exploration/tilt.h"
+#include "exploration/tilt_search.h"
 #include "exploration/zero_changes.h"
 
 namespace palpation {
@@ -48,15 +48,12 @@ bool joined(Misfit& change, const Misfit& rest) {
   }
 }
 
+/// Behind those that it was found without.
 void add_change(const Misfit& change, std::span<const Palpation> palpations,
                 std::vector<Misfit>& changes) {
   const Misfit more = as_of_its_session(change, changes, palpations);
-  if (std::ranges::any_of(changes, [&](Misfit& earlier) { return joined(earlier, more); })) return;
-  const auto is_later = [&](const Misfit& other) {
-    return other.session == 0 &&
-           std::pair(other.from_batch, other.number) > std::pair(more.from_batch, more.number);
-  };
-  changes.insert(std::ranges::find_if(changes, is_later), more);
+  if (std::ranges::none_of(changes, [&](Misfit& earlier) { return joined(earlier, more); }))
+    changes.push_back(more);
 }
 
 Believed believed_with_one_zero(const Surface& surface, const Model& model,
@@ -148,103 +145,18 @@ std::optional<Misfit> change_to_take_back(const Model& model, const Known& known
 
 }  // namespace
 
-namespace {
-
-/// So often a slope is found again in what the edge without it leaves.
-constexpr int kTiltRounds = 3;
-
-/// The readings without a slope, and how probable they are: by an edge, or, where none is left, as
-/// noise alone.
-struct Tilted {
-  Misfit tilt;
-  Known known;
-  double log_evidence = 0.0;
-};
-
-class TiltSearch {
- public:
-  TiltSearch(const Surface& surface, const Model& model, std::span<const Palpation> felt,
-             ConclusionCache& apart)
-      : surface_(surface), model_(model), felt_(felt.begin(), felt.end()), apart_(apart) {}
-
-  /// A field with a slope of its own is the first to ask.
-  void ask_field(const std::vector<Palpation>& readings) {
-    Model sloped = model_;
-    sloped.field.trend.is_linear = true;
-    const Believed believed = believe(surface_, sloped, readings, apart_);
-    if (!believed.belief.prior().has_slope()) return;
-    sharpen(tried(tilt_of(believed.belief), log_evidence_of_plane(believed.belief)));
-  }
-
-  /// What an edge leaves is the next.
-  void ask_edge(const EdgeBelief& edge, std::span<const Palpation> readings) {
-    if (const std::optional<Misfit> tilt = tilt_left(surface_, edge, readings))
-      sharpen(tried(*tilt, -std::numeric_limits<double>::infinity()));
-  }
-
-  std::optional<Tilted>& best() { return best_; }
-
- private:
-  Tilted tried(const Misfit& tilt, double log_evidence_without_edge) {
-    Known known =
-        known_by(surface_, model_,
-                 believed_with_one_zero(surface_, model_,
-                                        with_changes_taken_back(surface_, felt_, {&tilt, 1}),
-                                        apart_, apart_));
-    const double log_evidence =
-        known.boundary.edge ? known.boundary.edge->log_evidence() : log_evidence_without_edge;
-    return {tilt, std::move(known), log_evidence};
-  }
-
-  void sharpen(Tilted tilted) {
-    for (int round = 0; round < kTiltRounds && tilted.known.boundary.edge; ++round) {
-      std::vector<Misfit> changes = tilted.known.believed.evidence.taken_back;
-      changes.insert(changes.begin(), tilted.tilt);
-      const std::optional<Misfit> more = tilt_left(
-          surface_, *tilted.known.boundary.edge, with_changes_taken_back(surface_, felt_, changes));
-      if (!more) break;
-      Tilted next = tried(tilt_together(tilted.tilt, *more), tilted.log_evidence);
-      if (!(next.log_evidence > tilted.log_evidence)) break;
-      tilted = std::move(next);
-    }
-    if (!best_ || tilted.log_evidence > best_->log_evidence) best_ = std::move(tilted);
-  }
-
-  const Surface& surface_;
-  const Model& model_;
-  std::vector<Palpation> felt_;
-  ConclusionCache& apart_;
-  std::optional<Tilted> best_;
-};
-
-/// A slope is taken back where that makes the readings more probable than an edge alone does, by
-/// more than chance and the freedom to choose it (Schwarz's, of two numbers).
-Known known_without_tilt(const Surface& surface, const Model& model,
-                         const std::vector<Palpation>& felt, ConclusionCache& cache,
-                         ConclusionCache& apart) {
-  Known flat = known_by(surface, model, believed_with_one_zero(surface, model, felt, cache, apart));
-  if (model.field.trend.is_linear || model.field.is_noiseless() || !flat.boundary.edge) return flat;
-  const std::vector<Palpation> readings =
-      with_changes_taken_back(surface, felt, flat.believed.evidence.taken_back);
-  TiltSearch search(surface, model, felt, apart);
-  if (may_be_tilted(surface, readings)) search.ask_field(readings);
-  search.ask_edge(*flat.boundary.edge, readings);
-  const double needed =
-      surprising() + std::log(static_cast<double>(flat.believed.belief.site_count()));
-  std::optional<Tilted>& tilted = search.best();
-  if (!tilted || !(tilted->log_evidence - flat.boundary.edge->log_evidence() > needed)) return flat;
-  std::vector<Misfit>& changes = tilted->known.believed.evidence.taken_back;
-  changes.insert(changes.begin(), tilted->tilt);
-  return std::move(tilted->known);
-}
-
-}  // namespace
-
 Known known_as_if_unchanged(const Surface& surface, const Model& model,
                             const std::vector<Palpation>& felt, ConclusionCache& cache,
                             bool is_last) {
   ConclusionCache apart;
-  Known known = known_without_tilt(surface, model, felt, cache, apart);
+  const KnownOf known_of = [&](const std::vector<Palpation>& palpations) {
+    return known_by(surface, model,
+                    believed_with_one_zero(surface, model, palpations, apart, apart));
+  };
+  Known known = without_tilt(
+      surface, model, felt,
+      known_by(surface, model, believed_with_one_zero(surface, model, felt, cache, apart)),
+      known_of);
   std::vector<Misfit> changes = known.believed.evidence.taken_back;
   std::vector<Palpation> readings = with_changes_taken_back(surface, felt, changes);
   const auto take_back = [&] {

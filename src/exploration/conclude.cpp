@@ -104,6 +104,11 @@ std::vector<SessionChange> session_changes(const Conclusion& conclusion) {
   for (const Misfit& change : conclusion.evidence.taken_back) {
     if (change.session == 0 || change.kind != MisfitKind::Zero) continue;
     SessionChange& session = sessions.emplace_back(change);
+    for (const Misfit& gain : conclusion.evidence.taken_back) {
+      const double factor = 1.0 + gain.amount;
+      if (gain.kind == MisfitKind::Gain && gain.session == change.session)
+        session.gain = {factor, factor, factor};
+    }
     if (!conclusion.outlines) continue;
     for (const ChangeLeft& left : conclusion.outlines->left) {
       if (left.change.session != change.session) continue;
@@ -118,6 +123,14 @@ std::vector<SessionChange> session_changes(const Conclusion& conclusion) {
     }
   }
   return sessions;
+}
+
+std::vector<Misfit> other_changes(const Conclusion& conclusion) {
+  std::vector<Misfit> others = conclusion.evidence.taken_back;
+  std::erase_if(others, [](const Misfit& change) { return change.session > 0; });
+  std::ranges::stable_sort(
+      others, {}, [](const Misfit& change) { return std::pair(change.from_batch, change.number); });
+  return others;
 }
 
 std::vector<Palpation> readings_as_if_unchanged(const Conclusion& conclusion) {

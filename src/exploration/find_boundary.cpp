@@ -114,8 +114,9 @@ namespace {
 /// And those that sessions may be, until readings tell: what a gain differs by is drawn, too. In
 /// time.
 std::vector<Misfit> with_gains_of_sessions(std::vector<Misfit> changes) {
-  std::vector<Misfit> gains;
+  // A slope is of all readings, and the outlines' background has its rest.
   std::erase_if(changes, [](const Misfit& one) { return one.kind == MisfitKind::Tilted; });
+  std::vector<Misfit> gains;
   std::vector<int> known;  // sessions of which a gain was taken back
   for (const Misfit& change : changes) {
     if (change.kind == MisfitKind::Gain) known.push_back(change.session);

@@ -7,17 +7,18 @@
 #include <vector>
 
 #include "base/sigmoid.h"
+#include "exploration/parallel_planes.h"
 #include "readings/readings.h"
 #include "readings/robust.h"
 
 namespace palpation {
 namespace {
 
-/// Of how the readings differ.
-constexpr double kLeastPlane = 0.15;
 constexpr Eigen::Index kFewestOnPlane = 15;
 /// Of weighing: no fit changes by a hundredth after.
 constexpr int kWeighings = 5;
+/// Of parallel planes: each costs a conclusion.
+constexpr int kPairs = 2;
 
 struct Plane {
   Vec3 slope_per_m = Vec3::Zero();
@@ -58,11 +59,22 @@ Plane plane_through(const Eigen::MatrixXd& places, const Eigen::VectorXd& values
   return plane;
 }
 
-Eigen::MatrixXd places_of(const Surface& surface, std::span<const Palpation> palpations) {
-  Eigen::MatrixXd places(static_cast<Eigen::Index>(palpations.size()), 3);
-  for (Eigen::Index row = 0; row < places.rows(); ++row)
-    places.row(row) = surface.position(palpations[static_cast<std::size_t>(row)].where).transpose();
-  return places;
+/// Of those that count: where, rows, and what.
+struct Used {
+  Eigen::MatrixXd places;
+  Eigen::VectorXd values;
+};
+
+Used used_of(const Surface& surface, std::span<const Palpation> palpations) {
+  const Eigen::Index count = std::ranges::count_if(palpations, counts);
+  Used used{Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+  Eigen::Index row = 0;
+  for (const Palpation& one : palpations) {
+    if (!counts(one)) continue;
+    used.places.row(row) = surface.position(one.where).transpose();
+    used.values[row++] = one.reading;
+  }
+  return used;
 }
 
 Misfit as_change(const Surface& surface, const Vec3& slope_per_m) {
@@ -73,53 +85,42 @@ Misfit as_change(const Surface& surface, const Vec3& slope_per_m) {
 
 }  // namespace
 
-bool may_be_tilted(const Surface& surface, std::span<const Palpation> palpations) {
-  return explained_by_plane(surface, palpations) > kLeastPlane;
+double tilt_price(Eigen::Index readings) {
+  return surprising() + std::log(static_cast<double>(readings));
 }
 
-/// Coordinates of the metric need not be those of space: what the slope adds at the readings'
-/// places is a plane in space, or nearly one.
-Misfit tilt_of(const Belief& sloped) {
-  const std::vector<Palpation> palpations = sloped.palpations(),
-                               without = sloped.detrended_palpations();
-  Eigen::VectorXd added(static_cast<Eigen::Index>(palpations.size()));
-  for (Eigen::Index row = 0; row < added.size(); ++row) {
-    const auto i = static_cast<std::size_t>(row);
-    added[row] = palpations[i].reading - without[i].reading;
-  }
-  const Surface& surface = sloped.prior().surface();
-  return as_change(surface, plane_through(places_of(surface, palpations), added).slope_per_m);
+std::vector<Misfit> tilts_of_planes(const Surface& surface, std::span<const Palpation> palpations) {
+  const auto [places, values] = used_of(surface, palpations);
+  if (values.size() < kFewestOnPlane) return {};
+  const Eigen::Matrix<double, 3, 2> axes = main_axes(places);
+  const std::vector<Eigen::Vector2d> slopes =
+      slopes_of_parallel_planes(places * axes, values, tilt_price(values.size()), kPairs);
+  if (slopes.empty()) return {};
+  std::vector<Misfit> tilts = {as_change(surface, plane_through(places, values).slope_per_m)};
+  for (const Eigen::Vector2d& slope : slopes) tilts.push_back(as_change(surface, axes * slope));
+  return tilts;
 }
 
 std::optional<Misfit> tilt_left(const Surface& surface, const EdgeBelief& edge,
                                 std::span<const Palpation> palpations) {
   const EdgeProfile& profile = edge.profile();
-  std::vector<Palpation> used;
-  std::ranges::copy_if(palpations, std::back_inserter(used), counts);
-  Eigen::VectorXd left(static_cast<Eigen::Index>(used.size()));
+  auto [places, left] = used_of(surface, palpations);
   if (left.size() < kFewestOnPlane) return std::nullopt;
-  for (Eigen::Index row = 0; row < left.size(); ++row) {
-    const Palpation& one = used[static_cast<std::size_t>(row)];
+  Eigen::Index row = 0;
+  for (const Palpation& one : palpations) {
+    if (!counts(one)) continue;
     const double depth_m = surface.interpolate(edge.depth(), one.where) + profile.shift_m;
-    left[row] = one.reading - profile.low -
-                (profile.high - profile.low) * sigmoid(profile.slope_per_m * depth_m);
+    left[row++] -=
+        profile.low + (profile.high - profile.low) * sigmoid(profile.slope_per_m * depth_m);
   }
-  const Plane plane = plane_through(places_of(surface, used), left);
-  const double chance = surprising() + std::log(static_cast<double>(used.size()));
-  if (!(plane.gain > chance)) return std::nullopt;
+  const Plane plane = plane_through(places, left);
+  if (!(plane.gain > tilt_price(left.size()))) return std::nullopt;
   return as_change(surface, plane.slope_per_m);
 }
 
 Misfit tilt_together(Misfit one, const Misfit& other) {
   one.slope_per_m += other.slope_per_m;
   return one;
-}
-
-double log_evidence_of_plane(const Belief& sloped) {
-  const std::vector<double> flat = used_readings(sloped.detrended_palpations());
-  const auto count = static_cast<double>(flat.size());
-  const double variance = std::max(std::pow(spread_of(flat).sd, 2), sloped.noise_variance());
-  return -0.5 * count * (1.0 + std::log(variance)) - 0.5 * std::log(count);
 }
 
 }  // namespace palpation

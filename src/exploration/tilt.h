@@ -4,18 +4,21 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/misfit.h"
 
 namespace palpation {
 
-/// Whether a plane explains so much of the readings that one must ask whether tissue slopes: a
-/// tumour on one side looks alike.
-bool may_be_tilted(const Surface& surface, std::span<const Palpation> palpations);
+/// Nats by which a slope must make so many readings more probable: more than chance does, and the
+/// freedom to choose it (Schwarz's, of two numbers).
+double tilt_price(Eigen::Index readings);
 
-/// The slope that a field with one has found, as what it adds to the readings.
-Misfit tilt_of(const Belief& sloped);
+/// Slopes that tissue may have: that of a plane through all readings, which is robust, and those of
+/// two plateaus that slope alike (parallel_planes.h). None for fewer than fifteen readings, or
+/// where two level plateaus are as probable.
+std::vector<Misfit> tilts_of_planes(const Surface& surface, std::span<const Palpation> palpations);
 
 /// The slope of what an edge leaves of the readings, where that explains more of it than chance.
 std::optional<Misfit> tilt_left(const Surface& surface, const EdgeBelief& edge,
@@ -23,9 +26,5 @@ std::optional<Misfit> tilt_left(const Surface& surface, const EdgeBelief& edge,
 
 /// Both: what one of them leaves is the other.
 Misfit tilt_together(Misfit one, const Misfit& other);
-
-/// Of the readings as a plane and noise of which nothing is known, as EdgeBelief::log_evidence is:
-/// without what depends on their number alone, less Schwarz's price of a constant.
-double log_evidence_of_plane(const Belief& sloped);
 
 }  // namespace palpation

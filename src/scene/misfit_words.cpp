@@ -158,9 +158,8 @@ std::string sessions_as_one_words(const Conclusion& conclusion) {
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   std::vector<std::string> words = session_words(conclusion.scale(), session_changes(conclusion));
-  for (const Misfit& change : conclusion.evidence.taken_back) {
-    if (change.session == 0) words.push_back(taken_back_words(conclusion.scale(), change));
-  }
+  for (const Misfit& change : other_changes(conclusion))
+    words.push_back(taken_back_words(conclusion.scale(), change));
   words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion))
     words.push_back(words_of(conclusion.belief.prior().surface(), conclusion.scale(), misfit));

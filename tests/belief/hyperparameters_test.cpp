@@ -219,6 +219,19 @@ TEST(Learn, NeedsTwoPlaces) {
   EXPECT_THROW(learn(Prior(tissue, Metric::Chart, {}), one, {}, {}), InvalidInput);
 }
 
+TEST(Learn, TakesReadingsThatLieOnAPlaneToTheirLastDigit) {
+  const Surface tissue = plane(41, 41);
+  std::vector<Palpation> rising;
+  for (int i = 0; i < 16; ++i)
+    rising.push_back(touch(tissue, 41 * (i / 4) + i % 4, 7.0 + 0.01 * (i % 4)));
+  const Prior level(tissue, Metric::Chart, {});
+  const Learned learned =
+      learn(level.with(level.kernel(), {}, Slope{.sd = {1.0, 1.0, 0.0}}), rising, {}, {});
+  const double rounding_sd = 0.01 / std::sqrt(12.0);
+  EXPECT_GE(learned.values.noise_sd, 0.999 * rounding_sd);
+  EXPECT_TRUE(std::isfinite(learned.values.signal_sd));
+}
+
 TEST(Learn, TakesNoNoiseForLessThanTheStepOfTheReadings) {
   const Surface tissue = plane(41, 41);
   std::vector<Palpation> alike;

@@ -169,6 +169,24 @@ TEST(Sessions, ThatTakeTurnsChangeInTimeTogether) {
   EXPECT_NEAR(static_cast<double>(gain.number), 50.0, 12.0);
 }
 
+TEST(TakenBack, AGainIsOfReadingsWithoutTheZeroThatMovedLater) {
+  const World world = [](const Vec3& place, int i) {
+    const double gained = 7.0 + (stiffness(place) - 7.0) * (i >= 40 ? 0.5 : 1.0);
+    return gained + (i >= 70 ? 3.0 : 0.0);
+  };
+  const Surface surface = tissue();
+  const std::vector<Palpation> as_felt = felt(surface, world, 1),
+                               as_it_is = felt(surface, sound, 1);
+  const std::vector<Palpation> taken_back = readings_as_if_unchanged(concluded(world, 1, 1));
+  double off = 0.0;
+  for (std::size_t i = 0; i < taken_back.size(); ++i) {
+    const double noise = as_it_is[i].reading - stiffness(surface.position(as_it_is[i].where)),
+                 is = stiffness(surface.position(as_felt[i].where));
+    off += std::abs(taken_back[i].reading - is) - std::abs(noise);
+  }
+  EXPECT_LT(off / kReadings, kNoise);
+}
+
 TEST(Sessions, AreOneToAFieldWithASlope) {
   const Surface surface = tissue();
   std::vector<Palpation> palpations = felt_in_sessions(surface, {0.0, 1.0, 2.0}, 1);

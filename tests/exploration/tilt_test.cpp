@@ -24,6 +24,7 @@ Surface tissue() {
 struct Sloping {
   double contrast = 2.0;
   Vec3 middle{0.012, 0.022, 0.0};
+  double radius_m = kRadius_m;
   Vec3 slope_per_m = Vec3::Zero();
 };
 
@@ -35,7 +36,7 @@ Conclusion concluded(const Surface& surface, const Sloping& world, std::uint64_t
   for (int i = 0; i < 120; ++i) {
     const int vertex = random.below(surface.vertex_count());
     const Vec3 place = surface.vertex(vertex);
-    const double depth_m = kRadius_m - (place - world.middle).norm();
+    const double depth_m = world.radius_m - (place - world.middle).norm();
     const double stiff = world.contrast / (1.0 + std::exp(-1400.0 * depth_m));
     palpations.push_back(
         {.where = surface.at_vertex(vertex),
@@ -70,6 +71,39 @@ TEST(Tilt, OfHealthyTissueIsNoTumour) {
     ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u) << seed;
     EXPECT_EQ(conclusion.evidence.taken_back.front().kind, MisfitKind::Tilted);
   }
+}
+
+/// Along the slope or against it, the tissue's half that is stiff is a step.
+TEST(Tilt, IsToldFromTissueThatIsStiffOnOneSide) {
+  const Surface surface = tissue();
+  const double truth_m2 = 0.5 * 0.025 * 0.04;
+  for (const double steepness : {-100.0, 40.0, 100.0}) {
+    const Sloping world{.middle = {0.0125, 1.02, 0.0},
+                        .radius_m = 1.0,
+                        .slope_per_m = steepness * Vec3(0.0, 1.0, 0.0)};
+    const Conclusion conclusion = concluded(surface, world, 1, 1);
+    ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u) << steepness;
+    EXPECT_LT((conclusion.evidence.taken_back.front().slope_per_m - world.slope_per_m).norm(), 15.0)
+        << steepness;
+    ASSERT_TRUE(conclusion.outlines) << steepness;
+    EXPECT_NEAR(conclusion.outlines->area_m2.mean, truth_m2, 0.05 * truth_m2) << steepness;
+  }
+}
+
+TEST(Tilt, IsAllWhereReadingsLieOnAPlane) {
+  const Surface surface = tissue();
+  const Vec3 slope_per_m(10.0, 0.0, 0.0);
+  std::vector<Palpation> palpations;
+  for (int i = 0; i < 16; ++i) {
+    const Vec3 place(0.002 + 0.001 * (i % 4), 0.002 + 0.001 * (i / 4), 0.0);
+    palpations.push_back(
+        {.where = surface.project(place), .reading = 7.0 + slope_per_m.dot(place)});
+  }
+  const Conclusion conclusion =
+      conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, palpations);
+  EXPECT_FALSE(conclusion.level);
+  ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u);
+  EXPECT_LT((conclusion.evidence.taken_back.front().slope_per_m - slope_per_m).norm(), 0.01);
 }
 
 TEST(Tilt, IsNotATumourOnOneSide) {

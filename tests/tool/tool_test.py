@@ -56,7 +56,7 @@ class Tool(InFolder):
         tilted = [f"{x / 1000},{y / 1000},0,{7 + 0.1 * x + dice.gauss(0, 0.1)}" for x in range(2, 20, 2) for y in range(2, 20, 2)]
         for rows, words in ((healthy[:-1] + ["0.017,0.017,0,9"], "One reading, 9.000 at (17.0, 17.0, 0.0) mm"),
                             ([row.rsplit(",", 1)[0] + ",7" for row in healthy], "all 36 readings are equal, 7.000, to the last digit"),
-                            (tilted, "Readings slope all over the tissue: they rise by 1."),
+                            (tilted, "Readings slope all over the tissue: they rise by 0.99"),
                             (healthy + healthy[:5], "5 rows repeat earlier ones, place and reading alike to every digit, and are set aside: line 38 repeats line 2")):
             measured = self.write("odd.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
             result = palpate("boundary", scene, "--measurements", measured)

@@ -81,9 +81,9 @@ class EdgeBelief {
   /// sigmoid; less where the noise was learned with a field that could not follow the edge.
   double noise_variance() const { return noise_variance_; }
 
-  /// Of the readings, less what the outline's freedom costs: compares with that of another belief
-  /// of as many.
-  double log_evidence() const { return -price_; }
+  /// Of the readings, by noise as large as they scatter about the profile, less what the outline's
+  /// freedom costs: compares with that of another belief of as many.
+  double log_evidence() const;
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.
@@ -125,6 +125,7 @@ class EdgeBelief {
   void mix();
   void survey_boundary();
   const Fit& most_likely() const { return *fits_.front(); }
+  double price() const;
 
   Surface surface_;
   std::vector<std::shared_ptr<const Fit>> fits_;  // the most likely first
@@ -136,8 +137,8 @@ class EdgeBelief {
   Field offset_sd_;
   double expected_error_m2_ = 0.0;
   double noise_log_sd_ = 0.0;
-  double price_ = 0.0;  // minus log evidence, and what the outline's freedom costs
-  double turn_ = 0.0;   // of the standardized offset along the boundary, on the unit sphere
+  double freedom_ = 0.0;  // what the outline's costs, nats
+  double turn_ = 0.0;     // of the standardized offset along the boundary, on the unit sphere
 };
 
 }  // namespace palpation

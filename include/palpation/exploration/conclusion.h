@@ -49,8 +49,8 @@ struct Evidence {
   std::vector<Palpation> standing_alone{};
   /// What was taken out of the boundary as too weak for a tumour.
   std::vector<WeakerPart> weaker{};
-  /// Zeros, gains and moves of the tissue, those of sessions first, in time;
-  /// numbers are those of Conclusion::palpations.
+  /// Slope, zeros, gains and moves of the tissue, in the order in which they were found: each is
+  /// of readings without those before it. Numbers are those of Conclusion::palpations.
   std::vector<Misfit> taken_back{};
 
   /// Whether level and boundary may be concluded.
@@ -109,6 +109,9 @@ struct SessionChange {
 /// Of each but the first that is taken to have a zero of its own. With outlines these tell both;
 /// else the field tells the zero, and is too sure of it where it was learned from one plateau.
 std::vector<SessionChange> session_changes(const Conclusion& conclusion);
+
+/// What else was taken back, in time.
+std::vector<Misfit> other_changes(const Conclusion& conclusion);
 
 /// The level in the readings' own unit, its standard deviation to first order.
 std::optional<Level> level_in_readings(const Conclusion& conclusion);

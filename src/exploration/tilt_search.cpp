@@ -1,0 +1,96 @@
+#include "exploration/tilt_search.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "certainty/edge_data.h"
+#include "exploration/taken_back.h"
+#include "exploration/tilt.h"
+
+namespace palpation {
+namespace {
+
+/// So often a slope is found again in what the edge without it leaves.
+constexpr int kTiltRounds = 3;
+
+/// The readings without a slope, and how probable they are: by an edge, or, where none is left, as
+/// noise alone.
+struct Tilted {
+  Misfit tilt;
+  Known known;
+  double log_evidence = 0.0;
+};
+
+class TiltSearch {
+ public:
+  TiltSearch(const Surface& surface, const std::vector<Palpation>& felt, const KnownOf& known_of)
+      : surface_(surface), felt_(felt), known_of_(known_of) {}
+
+  /// Planes through all readings are the first to ask.
+  void ask_planes(std::span<const Palpation> readings) {
+    for (const Misfit& tilt : tilts_of_planes(surface_, readings)) sharpen(tried(tilt));
+  }
+
+  /// What an edge leaves is the next.
+  void ask_edge(const EdgeBelief& edge, std::span<const Palpation> readings) {
+    if (const std::optional<Misfit> tilt = tilt_left(surface_, edge, readings))
+      sharpen(tried(*tilt));
+  }
+
+  std::optional<Tilted>& best() { return best_; }
+
+ private:
+  /// An edge that is no more probable than noise alone is none.
+  Tilted tried(const Misfit& tilt) const {
+    Known known = known_of_(with_changes_taken_back(surface_, felt_, {&tilt, 1}));
+    std::optional<EdgeBelief>& edge = known.boundary.edge;
+    const double without_edge = log_evidence_without_edge(known.believed.belief);
+    const double with_edge = edge ? edge->log_evidence() : without_edge;
+    if (with_edge > without_edge + surprising()) return {tilt, std::move(known), with_edge};
+    edge.reset();
+    known.boundary.level.reset();
+    known.believed.evidence.contrast_seen = false;
+    return {tilt, std::move(known), without_edge};
+  }
+
+  void sharpen(Tilted tilted) {
+    for (int round = 0; round < kTiltRounds && tilted.known.boundary.edge; ++round) {
+      std::vector<Misfit> changes = tilted.known.believed.evidence.taken_back;
+      changes.insert(changes.begin(), tilted.tilt);
+      const std::optional<Misfit> more = tilt_left(
+          surface_, *tilted.known.boundary.edge, with_changes_taken_back(surface_, felt_, changes));
+      if (!more) break;
+      Tilted next = tried(tilt_together(tilted.tilt, *more));
+      if (!(next.log_evidence > tilted.log_evidence)) break;
+      tilted = std::move(next);
+    }
+    if (!best_ || tilted.log_evidence > best_->log_evidence) best_ = std::move(tilted);
+  }
+
+  const Surface& surface_;
+  const std::vector<Palpation>& felt_;
+  const KnownOf& known_of_;
+  std::optional<Tilted> best_;
+};
+
+}  // namespace
+
+Known without_tilt(const Surface& surface, const Model& model, const std::vector<Palpation>& felt,
+                   Known flat, const KnownOf& known_of) {
+  if (model.field.trend.is_linear || model.field.is_noiseless() || !flat.boundary.edge) return flat;
+  const std::vector<Palpation> readings =
+      with_changes_taken_back(surface, felt, flat.believed.evidence.taken_back);
+  TiltSearch search(surface, felt, known_of);
+  search.ask_planes(readings);
+  search.ask_edge(*flat.boundary.edge, readings);
+  const double needed =
+      flat.boundary.edge->log_evidence() + tilt_price(flat.believed.belief.site_count());
+  std::optional<Tilted>& tilted = search.best();
+  if (!tilted || !(tilted->log_evidence > needed)) return flat;
+  std::vector<Misfit>& changes = tilted->known.believed.evidence.taken_back;
+  changes.insert(changes.begin(), tilted->tilt);
+  return std::move(tilted->known);
+}
+
+}  // namespace palpation
