@@ -20,6 +20,8 @@ constexpr double kDisagree = 1.0;
 constexpr int kVerticesAtOnce = 256;
 constexpr double kLeastSpread_m = 1e-6;
 constexpr int kFewestDraws = 20;
+/// Of its contrast: who reaches so much of it has all but reached its plateau.
+constexpr double kNearPlateau = 0.9;
 
 using Draws = std::vector<OutlineDraw>;
 
@@ -73,8 +75,12 @@ double share_inside(double depth_m, double width_m) {
   return std::clamp(depth_m / width_m + 0.5, 0.0, 1.0);
 }
 
-/// How deep each of the places lies in the drawn boundary, and the level there, of the first part.
-std::pair<Eigen::RowVectorXf, double> depths_of(const OutlineDraw& draw, const Points2& places) {
+struct DrawnBoundary {
+  Eigen::RowVectorXf depths;  ///< of places
+  double level;               ///< of the first part
+  bool reaches_plateau;       ///< the same
+};
+DrawnBoundary boundary_of(const OutlineDraw& draw, const Points2& places) {
   const OutlinePieces pieces(draw.outline);
   Eigen::RowVectorXf depths(places.rows());
   std::vector<int> part_of(static_cast<std::size_t>(places.rows()));
@@ -93,11 +99,10 @@ std::pair<Eigen::RowVectorXf, double> depths_of(const OutlineDraw& draw, const P
     depths[i] = static_cast<float>(depth);
     part_of[i] = part;
   }
-  std::vector<double> share;  // of the contrast, at the boundary of each part
+  std::vector<double> reached, share;  // of the contrast of each part, and that at its boundary
   for (const auto& [depth_m, place] : deepest) {
-    const double height =
-        draw.has_plateau ? 1.0 : share_at(draw.law, depth_m, steepness_at(draw.law, place));
-    share.push_back(height * share_at(draw.law, 0.0));
+    reached.push_back(share_at(draw.law, depth_m, steepness_at(draw.law, place)));
+    share.push_back((draw.has_plateau ? 1.0 : reached.back()) * share_at(draw.law, 0.0));
   }
   if (!draw.has_plateau) {
     for (Eigen::Index i = 0; i < places.rows(); ++i) {
@@ -105,21 +110,25 @@ std::pair<Eigen::RowVectorXf, double> depths_of(const OutlineDraw& draw, const P
       depths[i] -= static_cast<float>(depth_where(draw.law, share[part_of[i]], steepness));
     }
   }
-  return {depths, draw.law.low + draw.law.contrast.front() * share.front()};
+  return {depths, draw.law.low + draw.law.contrast.front() * share.front(),
+          draw.has_plateau && reached.front() >= kNearPlateau};
 }
 
 struct DrawnBoundaries {
   Eigen::MatrixXf depths;  ///< rows are draws, columns vertices
   std::vector<double> levels;
+  std::vector<double> reach_plateau;  ///< 1 of those that do, else 0
 };
 DrawnBoundaries boundaries_at(const Surface& surface, const Draws& draws) {
   DrawnBoundaries all{{static_cast<Eigen::Index>(draws.size()), surface.vertex_count()},
+                      std::vector(draws.size(), 0.0),
                       std::vector(draws.size(), 0.0)};
   for_ranges(static_cast<int>(draws.size()), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
-      const auto [depths, level] = depths_of(draws[i], surface.chart().uv);
-      all.depths.row(i) = depths;
-      all.levels[i] = level;
+      const DrawnBoundary one = boundary_of(draws[i], surface.chart().uv);
+      all.depths.row(i) = one.depths;
+      all.levels[i] = one.level;
+      all.reach_plateau[i] = one.reaches_plateau;
     }
   });
   return all;
@@ -245,7 +254,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   const std::optional<OutlineStart> start = outline_start(belief, edge, options);
   if (!start) return std::nullopt;
   const auto [draws, disagreement] = drawn(*start, options);
-  const auto [depths, levels] = boundaries_at(surface, draws);
+  const auto [depths, levels, reach_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = {},
                              .spread = {},
                              .farthest = {},
@@ -253,6 +262,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .area_m2 = {},
                              .left = left_of(options.changes, draws),
                              .level = mean_and_sd(levels),
+                             .plateau_probability = mean_and_sd(reach_plateau).value,
                              .disagreement = disagreement};
   add_depths(depths, posterior);
   add_areas(surface, depths, posterior);

@@ -77,9 +77,7 @@ py::list changes_of(const Conclusion& conclusion) {
     }
     changes.append(change);
   }
-  for (const Misfit& change : conclusion.evidence.taken_back) {
-    if (change.session == 0) changes.append(change_of(change));
-  }
+  for (const Misfit& change : other_changes(conclusion)) changes.append(change_of(change));
   return changes;
 }
 
@@ -96,8 +94,8 @@ py::dict summary(const Concluded& here) {
       "transform"_a = all.scale() == ReadingScale::Log ? "log" : "none",
       "tip_hides_all"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
       "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
-      "expected_untouched_m2"_a = py::none(), "band_probability"_a = py::none(),
-      "band_half_width_m"_a = py::none());
+      "expected_untouched_m2"_a = py::none(), "plateau_probability"_a = py::none(),
+      "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
   if (all.certainty && !all.tip_hides_all()) {
     const Certainty& certainty = *all.certainty;
     result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();
@@ -107,6 +105,7 @@ py::dict summary(const Concluded& here) {
     result["band_probability"] = certainty.probability;
     result["band_half_width_m"] = certainty.half_width_m;
   }
+  if (all.outlines) result["plateau_probability"] = all.outlines->plateau_probability;
   result["taken_back"] = changes_of(all);
   if (all.lag) {
     result["lag_m"] = all.lag->value_m;

@@ -8,19 +8,20 @@
 #include "certainty/contrast.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
-#include "palpation/certainty/reference_bound.h"
 #include "palpation/readings/screening.h"
 #include "readings/contact.h"
 #include "readings/readings.h"
 #include "readings/saturation.h"
 #include "scene/misfit_words.h"
 #include "scene/parts.h"
+#include "scene/reachable.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
 
 constexpr std::size_t kPlacesNamed = 3;
+constexpr double kLikely = 0.5;
 constexpr double kMuchUntouched = 0.05;  // of the tissue
 constexpr double kMuchPlane =
     0.5;  // of the readings' variance; a tumour over one half of the tissue gives three quarters
@@ -30,7 +31,6 @@ constexpr int kManySites = 1000;    // would be cheaper by reduced rank, if anyt
 /// better than a guess.
 constexpr double kLargeShare = 0.25;
 constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
-constexpr double kNoNoise = 1e-3;  // of the contrast: so little does not limit what they reach
 
 /// How many readings were set aside for a reason, and where the first of them are.
 std::string set_aside_words(const Exploration& exploration, const std::string& reason) {
@@ -128,39 +128,6 @@ std::string standing_alone_words(const Surface& surface, const std::vector<Palpa
                             " out if " + (is_one ? "it is a fault." : "they are faults."));
 }
 
-double perimeter_m(const Region& region) {
-  double sum = 0.0;
-  const auto add = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      sum += (ring[(i + 1) % ring.size()] - ring[i]).norm();
-  };
-  for (const PolygonWithHoles& polygon : region.polygons()) {
-    add(polygon.outer);
-    for (const Ring& hole : polygon.holes) add(hole);
-  }
-  return sum;
-}
-
-/// How many times as wrong the boundary is expected to be as one of that length by that many
-/// readings can be; nothing where its edge is not known.
-std::optional<double> over_reachable(const Episode& episode) {
-  const std::optional<EdgeBelief>& edge = episode.conclusion().edge;
-  const std::optional<Certainty>& certainty = episode.conclusion().certainty;
-  const double length_m = perimeter_m(episode.estimate);
-  if (!edge || !certainty || length_m == 0.0) return std::nullopt;
-  const double contrast = std::abs(edge->profile().high - edge->profile().low),
-               noise_sd = std::sqrt(edge->noise_variance());
-  const ReferenceBound reachable =
-      reference_bound({.perimeter_m = length_m,
-                       .slope_per_m = edge->profile().slope_per_m,
-                       .noise = noise_sd / contrast,
-                       .readings = episode.conclusion().belief.site_count(),
-                       .fraction = episode.conclusion().model.level.fraction});
-  const bool has_noise = noise_sd > kNoNoise * contrast;
-  if (!has_noise || !(reachable.expected_error_m2 > 0.0)) return std::nullopt;
-  return certainty->expected.symmetric_difference_m2() / reachable.expected_error_m2;
-}
-
 std::string saturation_words(const Saturation& saturation) {
   return std::to_string(saturation.count) + " readings are exactly " +
          reading_text(saturation.value) + ", the " + (saturation.is_upper ? "greatest" : "least") +
@@ -211,9 +178,11 @@ Remarks level_remarks(const Exploration& exploration) {
   for (const std::string& remark :
        remarks_on_level_set(surface, contour.field, contour.level).words())
     remarks.push_back(remark + '.');
-  const double plane = conclusion.belief.prior().has_slope()
-                           ? 0.0
-                           : explained_by_plane(surface, readings_as_if_unchanged(conclusion));
+  const bool knows_slope =
+      conclusion.belief.prior().has_slope() ||
+      std::ranges::count(conclusion.evidence.taken_back, MisfitKind::Tilted, &Misfit::kind) > 0;
+  const double plane =
+      knows_slope ? 0.0 : explained_by_plane(surface, readings_as_if_unchanged(conclusion));
   if (plane > kMuchPlane)
     remarks.push_back(
         "A plane explains " + percent(plane) +
@@ -238,6 +207,14 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
     if (parts[i].touches_border)
       remarks.push_back(part + " reaches the border of the tissue, beyond which it may go on.");
   }
+  if (conclusion.outlines && conclusion.outlines->plateau_probability < kLikely)
+    remarks.push_back(
+        "The stiff region does not level off towards its middle (that it has a "
+        "plateau is " +
+        percent(conclusion.outlines->plateau_probability) +
+        " probable): its boundary is drawn at " + percent(conclusion.model.level.fraction) +
+        " of the height that it reaches, and something buried deep, or healthy tissue "
+        "that stiffens by and by, feels alike.");
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   return remarks;

@@ -59,8 +59,9 @@ json part_json(const TumourPart& part, const Surface& surface) {
 /// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is
 /// known of a boundary.
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
-  for (const char* key : {"certainty", "area_interval_mm2", "expected_missed_mm2",
-                          "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
+  for (const char* key :
+       {"certainty", "area_interval_mm2", "plateau_probability", "expected_missed_mm2",
+        "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
     summary[key] = nullptr;
   if (!episode.conclusion().model.band) summary["certainty"] = "off";
   const std::optional<Certainty>& certainty = episode.conclusion().certainty;
@@ -70,6 +71,7 @@ void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   summary["certainty"] = outlines ? "sampled" : "laplace";
   if (outlines && episode.conclusion().model.field.probe.indenter_radius_m == 0.0)
     summary["area_interval_mm2"] = {outlines->area_m2.least * kMm2, outlines->area_m2.most * kMm2};
+  if (outlines) summary["plateau_probability"] = outlines->plateau_probability;
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
   summary["expected_extra_mm2"] = certainty->expected.extra_m2 * kMm2;
@@ -135,9 +137,7 @@ json taken_back_json(const Conclusion& conclusion) {
   json changes = json::array();
   for (const SessionChange& session : session_changes(conclusion))
     changes.push_back(session_json(session));
-  for (const Misfit& change : conclusion.evidence.taken_back) {
-    if (change.session == 0) changes.push_back(change_json(change));
-  }
+  for (const Misfit& change : other_changes(conclusion)) changes.push_back(change_json(change));
   return changes;
 }
 
