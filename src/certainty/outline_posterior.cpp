@@ -20,8 +20,8 @@ constexpr double kDisagree = 1.0;
 constexpr int kVerticesAtOnce = 256;
 constexpr double kLeastSpread_m = 1e-6;
 constexpr int kFewestDraws = 20;
-/// Of its contrast: who reaches so much of it has all but reached its plateau.
-constexpr double kNearPlateau = 0.9;
+/// Of what is felt where it is deepest: what reaches so much of that half way there levels off.
+constexpr double kLevel = 0.9;
 
 using Draws = std::vector<OutlineDraw>;
 
@@ -78,7 +78,7 @@ double share_inside(double depth_m, double width_m) {
 struct DrawnBoundary {
   Eigen::RowVectorXf depths;  ///< of places
   double level;               ///< of the first part
-  bool reaches_plateau;       ///< the same
+  bool has_plateau;           ///< the same
 };
 DrawnBoundary boundary_of(const OutlineDraw& draw, const Points2& places) {
   const OutlinePieces pieces(draw.outline);
@@ -104,6 +104,8 @@ DrawnBoundary boundary_of(const OutlineDraw& draw, const Points2& places) {
     reached.push_back(share_at(draw.law, depth_m, steepness_at(draw.law, place)));
     share.push_back((draw.has_plateau ? 1.0 : reached.back()) * share_at(draw.law, 0.0));
   }
+  const auto& [deepest_m, middle] = deepest.front();
+  const double half_way = share_at(draw.law, 0.5 * deepest_m, steepness_at(draw.law, middle));
   if (!draw.has_plateau) {
     for (Eigen::Index i = 0; i < places.rows(); ++i) {
       const double steepness = steepness_at(draw.law, places.row(i).transpose());
@@ -111,13 +113,13 @@ DrawnBoundary boundary_of(const OutlineDraw& draw, const Points2& places) {
     }
   }
   return {depths, draw.law.low + draw.law.contrast.front() * share.front(),
-          draw.has_plateau && reached.front() >= kNearPlateau};
+          half_way >= kLevel * reached.front()};
 }
 
 struct DrawnBoundaries {
   Eigen::MatrixXf depths;  ///< rows are draws, columns vertices
   std::vector<double> levels;
-  std::vector<double> reach_plateau;  ///< 1 of those that do, else 0
+  std::vector<double> has_plateau;  ///< 1 of those that have one, else 0
 };
 DrawnBoundaries boundaries_at(const Surface& surface, const Draws& draws) {
   DrawnBoundaries all{{static_cast<Eigen::Index>(draws.size()), surface.vertex_count()},
@@ -128,7 +130,7 @@ DrawnBoundaries boundaries_at(const Surface& surface, const Draws& draws) {
       const DrawnBoundary one = boundary_of(draws[i], surface.chart().uv);
       all.depths.row(i) = one.depths;
       all.levels[i] = one.level;
-      all.reach_plateau[i] = one.reaches_plateau;
+      all.has_plateau[i] = one.has_plateau;
     }
   });
   return all;
@@ -254,7 +256,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   const std::optional<OutlineStart> start = outline_start(belief, edge, options);
   if (!start) return std::nullopt;
   const auto [draws, disagreement] = drawn(*start, options);
-  const auto [depths, levels, reach_plateau] = boundaries_at(surface, draws);
+  const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = {},
                              .spread = {},
                              .farthest = {},
@@ -262,7 +264,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .area_m2 = {},
                              .left = left_of(options.changes, draws),
                              .level = mean_and_sd(levels),
-                             .plateau_probability = mean_and_sd(reach_plateau).value,
+                             .plateau_probability = mean_and_sd(has_plateau).value,
                              .disagreement = disagreement};
   add_depths(depths, posterior);
   add_areas(surface, depths, posterior);

@@ -12,6 +12,9 @@ namespace palpation {
 namespace {
 
 constexpr double kStep_m = 0.001;
+/// Readings so near a part are of it: what has half the contrast reads just the level, and may lie
+/// a hair outside. Two standard deviations of how far off a first boundary may be.
+constexpr double kBeside_m = 0.002;
 
 int corner_at(const Surface& surface, const SurfacePoint& place) {
   Eigen::Index corner = 0;
@@ -64,7 +67,10 @@ OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& f
   OwnParts felt;
   for (std::vector<int>& vertices : superlevel_parts(surface, depth, 0.0)) {
     const bool is_felt = std::ranges::any_of(data.places, [&](const SurfacePoint& place) {
-      return std::ranges::binary_search(vertices, corner_at(surface, place));
+      const Vec3 at = surface.position(place);
+      return std::ranges::any_of(vertices, [&](int vertex) {
+        return (surface.vertex(vertex) - at).squaredNorm() < kBeside_m * kBeside_m;
+      });
     });
     if (is_felt) felt.push_back({.vertices = std::move(vertices)});
   }

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "certainty/edge_data.h"
 #include "exploration/taken_back.h"
 #include "exploration/tilt_search.h"
 #include "exploration/zero_changes.h"
@@ -96,6 +97,18 @@ Known known_by(const Surface& surface, const Model& model, Believed believed) {
 /// So often a gain or a move is taken back, some of them in two steps.
 constexpr int kMostTakenBack = 8;
 
+/// Slow waves of healthy tissue have no edge.
+void weigh_against_waves(Known& known) {
+  const std::optional<EdgeBelief>& edge = known.boundary.edge;
+  Evidence& evidence = known.believed.evidence;
+  if (!edge || !evidence.of_smooth_field) return;
+  const double of_field =
+      log_evidence_without_edge(known.believed.belief) + *evidence.of_smooth_field;
+  if (edge->log_evidence() > of_field + surprising()) return;
+  evidence.of_edge = edge->log_odds_over_waves();
+  if (*evidence.of_edge < -surprising()) known.boundary = {};
+}
+
 /// Of readings in the tumour, and of others.
 constexpr int kFewestAtEdge = 3;
 
@@ -176,6 +189,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     add_change(*change, readings, changes);
     take_back();
   }
+  if (is_last) weigh_against_waves(known);
   return known;
 }
 

@@ -78,16 +78,20 @@ class TiltSearch {
 
 Known without_tilt(const Surface& surface, const Model& model, const std::vector<Palpation>& felt,
                    Known flat, const KnownOf& known_of) {
-  if (model.field.trend.is_linear || model.field.is_noiseless() || !flat.boundary.edge) return flat;
+  const bool is_by_edge = !model.level.known && model.level.estimate == LevelEstimate::Edge;
+  if (!is_by_edge || model.field.trend.is_linear || model.field.is_noiseless() ||
+      flat.believed.belief.site_count() == 0)
+    return flat;
   const std::vector<Palpation> readings =
       with_changes_taken_back(surface, felt, flat.believed.evidence.taken_back);
   TiltSearch search(surface, felt, known_of);
   search.ask_planes(readings);
-  search.ask_edge(*flat.boundary.edge, readings);
-  const double needed =
-      flat.boundary.edge->log_evidence() + tilt_price(flat.believed.belief.site_count());
+  if (flat.boundary.edge) search.ask_edge(*flat.boundary.edge, readings);
+  const double level = flat.boundary.edge ? flat.boundary.edge->log_evidence()
+                                          : log_evidence_without_edge(flat.believed.belief);
   std::optional<Tilted>& tilted = search.best();
-  if (!tilted || !(tilted->log_evidence > needed)) return flat;
+  const double price = tilt_price(flat.believed.belief.site_count());
+  if (!tilted || !(tilted->log_evidence > level + price)) return flat;
   std::vector<Misfit>& changes = tilted->known.believed.evidence.taken_back;
   changes.insert(changes.begin(), tilted->tilt);
   return std::move(tilted->known);

@@ -8,6 +8,7 @@
 #include "certainty/contrast.h"
 #include "palpation/base/error.h"
 #include "palpation/boundary/level_set.h"
+#include "palpation/certainty/misfit.h"
 #include "palpation/readings/screening.h"
 #include "readings/contact.h"
 #include "readings/readings.h"
@@ -209,12 +210,14 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
   }
   if (conclusion.outlines && conclusion.outlines->plateau_probability < kLikely)
     remarks.push_back(
-        "The stiff region does not level off towards its middle (that it has a "
-        "plateau is " +
+        "The stiff region rises up to its middle (that it levels off is " +
         percent(conclusion.outlines->plateau_probability) +
-        " probable): its boundary is drawn at " + percent(conclusion.model.level.fraction) +
-        " of the height that it reaches, and something buried deep, or healthy tissue "
-        "that stiffens by and by, feels alike.");
+        " probable): how stiff its core is was not felt, and something buried deep, or "
+        "healthy tissue that stiffens by and by, feels alike.");
+  if (conclusion.evidence.of_edge && *conclusion.evidence.of_edge < surprising())
+    remarks.push_back(
+        "Healthy tissue that waves slowly makes the readings as probable as an edge does: what was "
+        "found may be no tumour.");
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   return remarks;

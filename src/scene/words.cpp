@@ -137,6 +137,26 @@ std::string weaker_words(const Exploration& exploration) {
   return "what stands out by less is " + words;
 }
 
+namespace {
+
+/// Where the field is highest, and why that is no tumour.
+std::string slow_wave_words(const Exploration& exploration) {
+  const Conclusion& conclusion = exploration.conclusion();
+  Eigen::Index highest = 0;
+  const double most = as_reading(conclusion.scale(), conclusion.component.mean.maxCoeff(&highest)),
+               least = as_reading(conclusion.scale(), conclusion.component.mean.minCoeff());
+  return "Nothing found that has an edge: readings rise by " + reading_text(most - least) +
+         ", most around " +
+         place_words(exploration.surface().vertex(static_cast<int>(highest)), 1) +
+         ", as slowly as healthy tissue may, and a tumour's edge makes them less probable by a "
+         "factor of e^" +
+         fixed(-*conclusion.evidence.of_edge, 0) +
+         ". Where a tumour may lie so deep, level.estimate range draws where half of that is "
+         "reached.";
+}
+
+}  // namespace
+
 std::string no_level_words(const Exploration& exploration) {
   if (exploration.conclusion().evidence.trend_is_missing) return kTooFewForTrend;
   if (!exploration.conclusion().evidence.weaker.empty())
@@ -146,6 +166,7 @@ std::string no_level_words(const Exploration& exploration) {
     return "Nothing found: all " + std::to_string(readings.size()) + " readings are equal, " +
            reading_text(as_reading(exploration.conclusion().scale(), readings.front())) +
            ", to the last digit, as if the sensor were stuck.";
+  if (exploration.conclusion().evidence.of_edge) return slow_wave_words(exploration);
   return kNoContrast;
 }
 

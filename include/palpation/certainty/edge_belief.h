@@ -84,6 +84,10 @@ class EdgeBelief {
   /// Of the readings, by noise as large as they scatter about the profile, less what the outline's
   /// freedom costs: compares with that of another belief of as many.
   double log_evidence() const;
+  /// By how much more probable the readings are with this edge than without one: log odds, with
+  /// healthy tissue that waves more slowly than an edge rises in both. Waves and noise are as
+  /// probable as they can be made, and the outline's freedom has its price.
+  double log_odds_over_waves() const;
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.

@@ -53,8 +53,7 @@ struct OutlinePosterior {
   DrawnNumber area_m2;
   std::vector<ChangeLeft> left;  ///< of OutlineOptions::changes, those of zero and gain
   Level level;                   ///< at the boundary of the largest part, in the belief's units
-  /// That the largest part has a plateau, and reaches nine tenths of it. Where it has none it is as
-  /// high as it is where it is deepest.
+  /// That the largest part levels off: reaches nine tenths half way to where it is deepest.
   double plateau_probability = 1.0;
   /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not
   /// come to the same answer, and the draws say too little.

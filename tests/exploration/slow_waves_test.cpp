@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+#include "palpation/base/random.h"
+#include "palpation/exploration/conclusion.h"
+#include "palpation/geometry/make_plane.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kNoise = 0.05;
+
+Surface tissue() {
+  Random random(0);
+  return Surface(make_plane({.size_m = {0.04, 0.05}, .columns = 41, .rows = 51}, random));
+}
+
+using Stiffness = std::function<double(const Vec3& place)>;
+
+double disk(const Vec3& place) {
+  return 2.0 / (1.0 + std::exp(-1200.0 * (0.007 - (place - Vec3(0.018, 0.022, 0.0)).norm())));
+}
+
+double wave(const Vec3& place) {
+  return std::sin(2.0 * M_PI * (place.x() + 0.5 * place.y()) / 0.06);
+}
+
+double bowl(const Vec3& place) { return 3000.0 * (place - Vec3(0.022, 0.02, 0.0)).squaredNorm(); }
+
+Conclusion concluded(const Surface& surface, const Stiffness& stiffness, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Palpation> palpations;
+  for (int i = 0; i < 120; ++i) {
+    const int vertex = random.below(surface.vertex_count());
+    palpations.push_back(
+        {.where = surface.at_vertex(vertex),
+         .reading = 7.0 + stiffness(surface.vertex(vertex)) + kNoise * random.normal(),
+         .batch = i / 15});
+  }
+  return conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, palpations, nullptr, 1);
+}
+
+TEST(SlowWaves, OfHealthyTissueAreNoTumour) {
+  const Surface surface = tissue();
+  for (const Stiffness& healthy : {Stiffness(wave), Stiffness(bowl)}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      const Conclusion conclusion = concluded(surface, healthy, seed);
+      EXPECT_FALSE(conclusion.level) << seed;
+      EXPECT_TRUE(conclusion.evidence.contrast_seen) << seed;
+      ASSERT_TRUE(conclusion.evidence.of_edge) << seed;
+      EXPECT_LT(*conclusion.evidence.of_edge, -surprising()) << seed;
+    }
+  }
+}
+
+TEST(SlowWaves, HideNoTumour) {
+  const Surface surface = tissue();
+  for (const Stiffness& background :
+       {Stiffness(wave), Stiffness(bowl), Stiffness([](const Vec3&) { return 0.0; })}) {
+    const Conclusion conclusion = concluded(
+        surface, [&](const Vec3& place) { return disk(place) + 0.3 * background(place); }, 1);
+    ASSERT_TRUE(conclusion.edge);
+    EXPECT_GT(conclusion.edge->log_odds_over_waves(), 10.0);
+    ASSERT_TRUE(conclusion.outlines);
+    EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, M_PI * 49.0, 25.0);
+  }
+}
+
+}  // namespace
+}  // namespace palpation
