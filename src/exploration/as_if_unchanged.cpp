@@ -42,7 +42,8 @@ bool joined(Misfit& change, const Misfit& rest) {
       change.amount = (1.0 + change.amount) * (1.0 + rest.amount) - 1.0;
       return true;
     default:
-      if (change.session == 0) return false;  // all steps of the zero are estimated at once
+      // All steps of the zero are estimated at once, some of them as two at one moment.
+      if (change.session == 0 && change.number != rest.number) return false;
       change.amount += rest.amount;
       change.stddev = rest.stddev;
       return true;

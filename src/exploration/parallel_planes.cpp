@@ -11,7 +11,7 @@ namespace palpation {
 namespace {
 
 constexpr Eigen::Index kFewest = 10;
-constexpr Eigen::Index kMost = 400;  ///< of which all are used: a slope needs no more
+constexpr std::size_t kMost = 400;  ///< of which all are used: a slope needs no more
 constexpr int kRounds = 30;
 /// What rises over the tissue, of how the readings differ: with a tumour it is no more than all.
 constexpr std::array kRises = {-1.0, -0.5, 0.0, 0.5, 1.0};
@@ -112,7 +112,7 @@ Fit fitted(const Data& data, const Eigen::Vector2d& first_slope, bool are_level)
   return fit;
 }
 
-/// Every so many of them, from 0 to 1 each.
+/// Every so many of them, from 0 to 1 each, whatever order they come in.
 struct Scaled {
   Data data;
   Eigen::Vector2d extent;
@@ -120,8 +120,13 @@ struct Scaled {
 };
 
 Scaled scaled(const Eigen::MatrixX2d& places, const Eigen::VectorXd& values) {
-  const Eigen::Index step = (values.size() + kMost - 1) / kMost;
-  const auto some = Eigen::seq(Eigen::Index{0}, values.size() - 1, step);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size())), some;
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Eigen::Index i) {
+    return std::array{places(i, 0), places(i, 1), values[i]};
+  });
+  const std::size_t step = (order.size() + kMost - 1) / kMost;
+  for (std::size_t i = 0; i < order.size(); i += step) some.push_back(order[i]);
   Scaled made{{places(some, Eigen::all), values(some)}, {}, {}};
   const Eigen::RowVector2d corner = places.colwise().minCoeff();
   made.extent = (places.colwise().maxCoeff() - corner).transpose();

@@ -1,4 +1,6 @@
 // What was not found, and how large it would have had to be to be found.
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "exploration/search_goal.h"
@@ -10,6 +12,13 @@ namespace {
 
 constexpr std::size_t kMostTouchesCounted = 1000;
 
+/// Nothing that is as large as the tissue needs to be ruled out.
+std::optional<double> ruled_out_m(const Episode& episode, double probability) {
+  const std::optional<double> diameter_m = diameter_ruled_out_m(episode.conclusion(), probability);
+  const double disk_m2 = 0.25 * std::numbers::pi * std::pow(diameter_m.value_or(0.0), 2);
+  return disk_m2 < episode.exploration.surface().area() ? diameter_m : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<double> readings_that_count(const Exploration& exploration) {
@@ -19,7 +28,7 @@ std::vector<double> readings_that_count(const Exploration& exploration) {
 double scatter(const Exploration& exploration) { return scatter_of(exploration.conclusion()); }
 
 std::optional<double> diameter_ruled_out_m(const Episode& episode) {
-  return palpation::diameter_ruled_out_m(episode.conclusion(), episode.band_probability());
+  return ruled_out_m(episode, episode.band_probability());
 }
 
 std::optional<GoalState> goal_state(const Episode& episode) {
@@ -32,7 +41,7 @@ std::optional<GoalState> goal_state(const Episode& episode) {
   return GoalState{
       .diameter_m = aim.undetected_diameter_m,
       .probability = aim.probability,
-      .undetected_m = palpation::diameter_ruled_out_m(conclusion, aim.probability),
+      .undetected_m = ruled_out_m(episode, aim.probability),
       .touches_needed = stops_to_goal(conclusion, aim, all, kMostTouchesCounted).size()};
 }
 

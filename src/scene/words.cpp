@@ -76,7 +76,7 @@ std::string nothing_words(const Episode& episode) {
                 ", four times the scatter of the readings' logarithms, or more"
           : "by four times the readings' scatter, " + reading_text(4.0 * noise_sd) + ", or more";
   if (!diameter_m)
-    return "So few readings cannot rule out any tumour that stands out " + contrast + ".\n";
+    return "These readings cannot rule out any tumour that stands out " + contrast + ".\n";
   return "No tumour that stands out " + contrast + " is wider than " + fixed(*diameter_m * 1e3, 1) +
          " mm, with probability " + percent(episode.band_probability()) +
          " wherever it might be.\n";

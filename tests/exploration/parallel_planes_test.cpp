@@ -58,6 +58,16 @@ TEST(ParallelPlanes, FollowUnitsOfPlacesAndReadings) {
   EXPECT_LT((there.front() - 1e-9 * here.front()).norm(), 1e-15);
 }
 
+TEST(ParallelPlanes, AreTheSameInWhateverOrderReadingsCome) {
+  const auto [places, values] = felt(0.3, {60.0, 20.0}, 3, 1000);
+  const std::vector<Eigen::Vector2d> here = slopes_of_parallel_planes(places, values, kNeeded, 1),
+                                     there = slopes_of_parallel_planes(
+                                         places.colwise().reverse(), values.reverse(), kNeeded, 1);
+  ASSERT_EQ(here.size(), 1u);
+  ASSERT_EQ(there.size(), 1u);
+  EXPECT_EQ(here.front(), there.front());
+}
+
 TEST(ParallelPlanes, AreNotAskedOfFewReadingsNorOfLikeOnes) {
   const auto [places, values] = felt(0.3, {60.0, 20.0}, 3, 9);
   EXPECT_TRUE(slopes_of_parallel_planes(places, values, kNeeded, 1).empty());
