@@ -10,8 +10,7 @@
 namespace palpation {
 namespace {
 
-/// Of waves that are slower than an edge: from the longer ones of the outlines' background on, to
-/// as long as tissue is wide.
+/// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
 /// How high they may be, of how the readings spread, and how large the noise, of what it was taken
 /// for: standard deviations.
@@ -37,7 +36,7 @@ double log_density(const Rows& rows, const Eigen::MatrixXd& waves, double noise)
 
 }  // namespace
 
-double EdgeBelief::log_odds_over_waves() const {
+EdgeOdds EdgeBelief::odds_over_waves() const {
   const Fit& fit = most_likely();
   const Eigen::Index count = fit.data.reading.size();
   const Eigen::VectorXd off_edge = fit.edge.covariance.reconstructedMatrix() * fit.edge.pull;
@@ -48,6 +47,7 @@ double EdgeBelief::log_odds_over_waves() const {
   const double spread = std::sqrt(off_mean.squaredNorm() / static_cast<double>(count));
   const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(count, count, spread * spread);
 
+  EdgeOdds odds;
   double with_edge = -std::numeric_limits<double>::infinity(), without = with_edge;
   for (const double length_m : kLengths_m) {
     const Prior waves(surface_, fit.correction.metric(),
@@ -58,11 +58,16 @@ double EdgeBelief::log_odds_over_waves() const {
       const Eigen::MatrixXd raised = std::pow(height * spread, 2) * of_waves;
       for (const double noise : kNoises) {
         with_edge = std::max(with_edge, log_density({fit.data, off_edge, edge}, raised, noise));
-        without = std::max(without, log_density({fit.data, off_mean, constant}, raised, noise));
+        const double waves_alone = log_density({fit.data, off_mean, constant}, raised, noise);
+        if (waves_alone > without) {
+          without = waves_alone;
+          odds.wave_length_m = length_m;
+        }
       }
     }
   }
-  return with_edge - freedom_ - without;
+  odds.log_odds = with_edge - freedom_ - without;
+  return odds;
 }
 
 }  // namespace palpation

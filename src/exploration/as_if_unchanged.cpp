@@ -98,7 +98,10 @@ Known known_by(const Surface& surface, const Model& model, Believed believed) {
 /// So often a gain or a move is taken back, some of them in two steps.
 constexpr int kMostTakenBack = 8;
 
-/// Slow waves of healthy tissue have no edge.
+/// That is slower than a tumour is wide.
+constexpr double kSlowWave_m = 0.018;
+
+/// Slow waves of healthy tissue have no edge. Shorter ones may be tumours in tissue that waves.
 void weigh_against_waves(Known& known) {
   const std::optional<EdgeBelief>& edge = known.boundary.edge;
   Evidence& evidence = known.believed.evidence;
@@ -106,8 +109,9 @@ void weigh_against_waves(Known& known) {
   const double of_field =
       log_evidence_without_edge(known.believed.belief) + *evidence.of_smooth_field;
   if (edge->log_evidence() > of_field + surprising()) return;
-  evidence.of_edge = edge->log_odds_over_waves();
-  if (*evidence.of_edge < -surprising()) known.boundary = {};
+  const EdgeOdds odds = edge->odds_over_waves();
+  evidence.of_edge = odds.log_odds;
+  if (odds.log_odds < -surprising() && odds.wave_length_m >= kSlowWave_m) known.boundary = {};
 }
 
 /// Of readings in the tumour, and of others.

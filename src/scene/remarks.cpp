@@ -216,8 +216,8 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
         "healthy tissue that stiffens by and by, feels alike.");
   if (conclusion.evidence.of_edge && *conclusion.evidence.of_edge < surprising())
     remarks.push_back(
-        "Healthy tissue that waves slowly makes the readings as probable as an edge does: what was "
-        "found may be no tumour.");
+        "Healthy tissue that waves explains the readings no worse than the edge that was found: it "
+        "may be no tumour, or a tumour may lie elsewhere.");
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   return remarks;

@@ -63,7 +63,7 @@ TEST(SlowWaves, HideNoTumour) {
     const Conclusion conclusion = concluded(
         surface, [&](const Vec3& place) { return disk(place) + 0.3 * background(place); }, 1);
     ASSERT_TRUE(conclusion.edge);
-    EXPECT_GT(conclusion.edge->log_odds_over_waves(), 10.0);
+    EXPECT_GT(conclusion.edge->odds_over_waves().log_odds, 10.0);
     ASSERT_TRUE(conclusion.outlines);
     EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, M_PI * 49.0, 25.0);
   }

@@ -56,6 +56,11 @@ struct PartContrast {
   double stddev = 0.0;        ///< of that; 0: taken for the same
 };
 
+struct EdgeOdds {
+  double log_odds = 0.0;
+  double wave_length_m = 0.0;  ///< of the likeliest waves without an edge
+};
+
 class EdgeBelief {
  public:
   /// Around the boundary { mean = first_level } of the belief's field, for the first level that
@@ -84,10 +89,10 @@ class EdgeBelief {
   /// Of the readings, by noise as large as they scatter about the profile, less what the outline's
   /// freedom costs: compares with that of another belief of as many.
   double log_evidence() const;
-  /// By how much more probable the readings are with this edge than without one: log odds, with
-  /// healthy tissue that waves more slowly than an edge rises in both. Waves and noise are as
-  /// probable as they can be made, and the outline's freedom has its price.
-  double log_odds_over_waves() const;
+  /// By how much more probable the readings are with this edge than without one, with healthy
+  /// tissue that waves over 8 mm or more in both. Waves and noise are as probable as they can be
+  /// made, and the outline's freedom has its price.
+  EdgeOdds odds_over_waves() const;
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.

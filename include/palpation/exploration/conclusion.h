@@ -44,9 +44,10 @@ struct Evidence {
   /// Nats by which a smooth field, with what it has learned, makes the readings more probable than
   /// noise alone; nothing where it was not learned.
   std::optional<double> of_smooth_field{};
-  /// Nats by which an edge makes them more probable than healthy tissue alone that waves slowly
-  /// (EdgeBelief::log_odds_over_waves); asked at the end, where a smooth field explains them as
-  /// well. Where it is clearly less probable, there is no level: no tumour was felt.
+  /// Nats by which an edge makes them more probable than healthy tissue alone that waves
+  /// (EdgeBelief::odds_over_waves); asked at the end, where a smooth field explains them as
+  /// well. Where it is clearly less probable, and waves that are slower than a tumour is wide
+  /// explain the most, there is no level: no tumour was felt.
   std::optional<double> of_edge{};
   bool trend_is_missing = false;  ///< a trend is modelled, but too few places are touched yet to
                                   ///< tell a tumour from a tilt
