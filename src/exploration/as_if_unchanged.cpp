@@ -98,8 +98,8 @@ Known known_by(const Surface& surface, const Model& model, Believed believed) {
 /// So often a gain or a move is taken back, some of them in two steps.
 constexpr int kMostTakenBack = 8;
 
-/// That is slower than a tumour is wide.
-constexpr double kSlowWave_m = 0.018;
+/// That is slower than a tumour of 4 cm2 is wide.
+constexpr double kSlowWave_m = 0.0225;
 
 /// Slow waves of healthy tissue have no edge. Shorter ones may be tumours in tissue that waves.
 void weigh_against_waves(Known& known) {
