@@ -298,14 +298,23 @@ TEST(OutlineWalk, WithoutReadingsTheSlopeIsDrawnFromItsPrior) {
   EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0, 0.12);
 }
 
+/// Around a square, all of them noise, so that what is drawn is drawn from its prior.
+struct TellingNothing {
+  OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  OutlineReadings readings;
+  OutlinePrior prior = prior_of(outline);
+
+  explicit TellingNothing(std::uint64_t seed) {
+    Random random(seed);
+    readings = felt_around(outline, 40, random);
+    for (double& variance : readings.variance) variance = 1e12;
+    prior.noise_log_sd = 0.01;  // else all that noise is doubted
+  }
+};
+
 // Readings that tell nothing: cuts come and go as their prior has them, by whatever steps.
 TEST(OutlineWalk, CutsAreDrawnFromTheirPriorWhereReadingsTellNothing) {
-  Random random(12);
-  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
-  OutlineReadings readings = felt_around(outline, 40, random);
-  for (double& variance : readings.variance) variance = 1e12;
-  OutlinePrior prior = prior_of(outline);
-  prior.noise_log_sd = 0.01;  // else all that noise is doubted
+  auto [outline, readings, prior] = TellingNothing(12);
   OutlineWalk walk(readings, prior, outline, prior.median, 13);
   walk.settle(200);
   double present = 0.0, log_radius = 0.0, square = 0.0, length_m = 0.0;
@@ -442,12 +451,7 @@ TEST(OutlineWalk, FindsWhatIsLeftOfChanges) {
 }
 
 TEST(OutlineWalk, WhatIsLeftOfAMoveIsDrawnFromItsPriorWhereReadingsTellNothing) {
-  Random random(23);
-  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
-  OutlineReadings readings = felt_around(outline, 40, random);
-  for (double& variance : readings.variance) variance = 1e12;
-  OutlinePrior prior = prior_of(outline);
-  prior.noise_log_sd = 0.01;
+  auto [outline, readings, prior] = TellingNothing(23);
   add_changes({MisfitKind::Moved}, readings, prior);
   OutlineWalk walk(readings, prior, outline, prior.median, 24);
   walk.settle(300);
