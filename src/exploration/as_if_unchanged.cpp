@@ -104,13 +104,12 @@ constexpr double kSlowWave_m = 0.0225;
 /// Slow waves of healthy tissue have no edge. Shorter ones may be tumours in tissue that waves.
 void weigh_against_waves(Known& known) {
   const std::optional<EdgeBelief>& edge = known.boundary.edge;
-  Evidence& evidence = known.believed.evidence;
-  if (!edge || !evidence.of_smooth_field) return;
-  const double of_field =
-      log_evidence_without_edge(known.believed.belief) + *evidence.of_smooth_field;
+  const std::optional<double>& of_smooth_field = known.believed.of_smooth_field;
+  if (!edge || !of_smooth_field) return;
+  const double of_field = log_evidence_without_edge(known.believed.belief) + *of_smooth_field;
   if (edge->log_evidence() > of_field + surprising()) return;
   const EdgeOdds odds = edge->odds_over_waves();
-  evidence.of_edge = odds.log_odds;
+  known.believed.evidence.of_edge = odds.log_odds;
   if (odds.log_odds < -surprising() && odds.wave_length_m >= kSlowWave_m) known.boundary = {};
 }
 

@@ -165,8 +165,10 @@ Believed believe(const Surface& surface, const Model& model, std::vector<Palpati
   Evidence evidence{.contrast_seen = !model.needs_contrast(),
                     .trend_is_missing = lacks_trend(field, fit.field.belief)};
   const auto result = [&] {
-    if (field.learns()) evidence.of_smooth_field = fit.field.signal_evidence;
-    return Believed{std::move(all), std::move(fit.field.belief), fit.lag, std::move(evidence)};
+    std::optional<double> of_smooth_field;
+    if (field.learns()) of_smooth_field = fit.field.signal_evidence;
+    return Believed{std::move(all), std::move(fit.field.belief), fit.lag, std::move(evidence),
+                    of_smooth_field};
   };
   if (all.empty() || evidence.trend_is_missing) return result();
   const std::vector<Palpation> flat =

@@ -15,6 +15,9 @@ struct Believed {
   Belief belief;
   std::optional<Lag> lag;
   Evidence evidence;
+  /// Nats by which the field, with what it has learned, makes the readings more probable than noise
+  /// alone; nothing where it was not learned.
+  std::optional<double> of_smooth_field{};
 };
 
 /// The readings as they were made, with the reasons why some are set aside.

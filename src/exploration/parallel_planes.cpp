@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -70,7 +71,7 @@ void improve(const Data& data, bool are_level, Fit& fit) {
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double on_high = 0.0, on_planes = 0.0, values_squared = 0.0;
   fit.log_likelihood = 0.0;
-  const double height = (1.0 - kElsewhere) / std::sqrt(2.0 * M_PI * fit.variance);
+  const double height = (1.0 - kElsewhere) / std::sqrt(2.0 * std::numbers::pi * fit.variance);
   for (Eigen::Index i = 0; i < data.values.size(); ++i) {
     Planes low, high;
     low << 1.0, 0.0, data.places.row(i).transpose();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 
 #include "palpation/base/random.h"
 #include "palpation/exploration/conclusion.h"
@@ -25,7 +26,7 @@ double disk(const Vec3& place) {
 }
 
 double wave(const Vec3& place) {
-  return std::sin(2.0 * M_PI * (place.x() + 0.5 * place.y()) / 0.06);
+  return std::sin(2.0 * std::numbers::pi * (place.x() + 0.5 * place.y()) / 0.06);
 }
 
 double bowl(const Vec3& place) { return 3000.0 * (place - Vec3(0.022, 0.02, 0.0)).squaredNorm(); }
@@ -65,7 +66,7 @@ TEST(SlowWaves, HideNoTumour) {
     ASSERT_TRUE(conclusion.edge);
     EXPECT_GT(conclusion.edge->odds_over_waves().log_odds, 10.0);
     ASSERT_TRUE(conclusion.outlines);
-    EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, M_PI * 49.0, 25.0);
+    EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 49.0, 25.0);
   }
 }
 

@@ -41,10 +41,7 @@ struct WeakerPart {
 /// Whether the readings tell of a tumour at all.
 struct Evidence {
   bool contrast_seen = false;
-  /// Nats by which a smooth field, with what it has learned, makes the readings more probable than
-  /// noise alone; nothing where it was not learned.
-  std::optional<double> of_smooth_field{};
-  /// Nats by which an edge makes them more probable than healthy tissue alone that waves
+  /// Nats by which an edge makes the readings more probable than healthy tissue alone that waves
   /// (EdgeBelief::odds_over_waves); asked at the end, where a smooth field explains them as
   /// well. Where it is clearly less probable, and waves that are slower than a tumour is wide
   /// explain the most, there is no level: no tumour was felt.
