@@ -246,8 +246,12 @@ std::pair<Misfit, std::size_t> closer_look(const ChangedField& field, Misfit mov
 
 }  // namespace
 
+bool is_background(const Misfit& change) {
+  return change.kind == MisfitKind::Tilted || change.kind == MisfitKind::Waves;
+}
+
 bool is_since(const Misfit& change, const Made& made) {
-  if (change.kind == MisfitKind::Tilted) return true;
+  if (is_background(change)) return true;
   if (change.session > 0) return made.session >= change.session;
   return std::pair(made.batch, made.number) >= std::pair(change.from_batch, change.number);
 }

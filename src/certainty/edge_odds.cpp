@@ -1,73 +1,108 @@
-// Whether there is an edge at all, or healthy tissue that waves slowly.
+// Whether there is an edge at all, or healthy tissue that waves slowly, or both.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include "certainty/edge_belief_fit.h"
 #include "certainty/edge_data.h"
+#include "certainty/wave_evidence.h"
 
 namespace palpation {
 namespace {
 
 /// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
-/// How high they may be, of how the readings spread, and how large the noise, of what it was taken
-/// for: standard deviations.
-constexpr std::array kHeights = {0.0, 0.1, 0.3, 1.0, 3.0};
-constexpr std::array kNoises = {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0};
 
-/// Normal readings, less what is expected of them.
-struct Rows {
-  const EdgeData& data;
-  const Eigen::VectorXd& off;
-  const Eigen::MatrixXd& covariance;  ///< without waves and noise
-};
+double spread_of(const Eigen::VectorXd& values) {
+  return std::sqrt((values.array() - values.mean()).square().mean());
+}
 
-double log_density(const Rows& rows, const Eigen::MatrixXd& waves, double noise) {
-  const EdgeData data = with_noise(noise * noise, rows.data);
-  Eigen::MatrixXd covariance = rows.covariance + waves;
-  covariance.diagonal() += data.variance;
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-  if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
-  return data.log_scatter - 0.5 * rows.off.dot(factor.solve(rows.off)) -
-         factor.matrixLLT().diagonal().array().log().sum();
+/// Without an edge: one plateau, of which nothing is known.
+Rows without_edge(const Rows& rows, const Eigen::VectorXd& readings) {
+  const Eigen::Index count = readings.size();
+  const double spread = spread_of(readings);
+  return {rows.data, readings.array() - readings.mean(),
+          Eigen::MatrixXd::Constant(count, count, spread * spread)};
+}
+
+SlowWaves waves_of(const Prior& correction, double length_m, const EdgeData& data) {
+  return {correction.surface(), correction.metric(), length_m, data.places};
+}
+
+WavesFound likeliest(std::vector<WavesFound> found) {
+  return *std::ranges::max_element(found, {}, &WavesFound::log_density);
 }
 
 }  // namespace
 
-EdgeOdds EdgeBelief::odds_over_waves() const {
-  const Fit& fit = most_likely();
-  const Eigen::Index count = fit.data.reading.size();
-  const Eigen::VectorXd off_edge = fit.edge.covariance.reconstructedMatrix() * fit.edge.pull;
-  Eigen::MatrixXd edge = fit.edge.covariance.reconstructedMatrix();
-  edge.diagonal() -= fit.edge.scatter * fit.data.variance;
-  const double mean = fit.data.reading.mean();
-  const Eigen::VectorXd off_mean = fit.data.reading.array() - mean;
-  const double spread = std::sqrt(off_mean.squaredNorm() / static_cast<double>(count));
-  const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(count, count, spread * spread);
+/// About the fit's edge and the readings as they were before waves were taken from them.
+struct EdgeBelief::InWaves {
+  Rows rows;
+  Eigen::VectorXd readings;
 
+  InWaves(const Surface& surface, const Fit& fit, const Field& taken_back)
+      : readings(fit.data.reading) {
+    Eigen::MatrixXd covariance = fit.edge.covariance.reconstructedMatrix();
+    rows = {fit.data, covariance * fit.edge.pull, covariance};
+    rows.covariance.diagonal() -= fit.edge.scatter * fit.data.variance;
+    if (taken_back.size() == 0) return;
+    for (Eigen::Index i = 0; i < readings.size(); ++i) {
+      const double wave =
+          surface.interpolate(taken_back, fit.data.places[static_cast<std::size_t>(i)]);
+      rows.off[i] += wave;
+      readings[i] += wave;
+    }
+  }
+};
+
+EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
+  const Fit& fit = most_likely();
+  const InWaves here(surface_, fit, taken_back);
+  const double spread = spread_of(here.readings);
+  const WithWaves edge(here.rows, spread), none(without_edge(here.rows, here.readings), spread);
   EdgeOdds odds;
-  double with_edge = -std::numeric_limits<double>::infinity(), without = with_edge;
+  double with_edge = edge.level(), without = none.level();
   for (const double length_m : kLengths_m) {
-    const Prior waves(surface_, fit.correction.metric(),
-                      Kernel{.family = KernelFamily::Matern52, .length_m = length_m},
-                      Constant{.sd = 0.0});
-    const Eigen::MatrixXd of_waves = waves.covariance(fit.data.places, fit.data.places);
-    for (const double height : kHeights) {
-      const Eigen::MatrixXd raised = std::pow(height * spread, 2) * of_waves;
-      for (const double noise : kNoises) {
-        with_edge = std::max(with_edge, log_density({fit.data, off_edge, edge}, raised, noise));
-        const double waves_alone = log_density({fit.data, off_mean, constant}, raised, noise);
-        if (waves_alone > without) {
-          without = waves_alone;
-          odds.wave_length_m = length_m;
-        }
-      }
+    const SlowWaves waves = waves_of(fit.correction, length_m, fit.data);
+    with_edge = std::max(with_edge, likeliest(edge.of(waves.terms())).log_density);
+    const double waves_alone = likeliest(none.of(waves.terms())).log_density;
+    if (waves_alone > without) {
+      without = waves_alone;
+      odds.wave_length_m = length_m;
     }
   }
   odds.log_odds = with_edge - freedom_ - without;
   return odds;
+}
+
+EdgeInWaves EdgeBelief::in_slow_waves(const Field& taken_back) const {
+  const Fit& fit = most_likely();
+  const InWaves here(surface_, fit, taken_back);
+  const WithWaves edge(here.rows, spread_of(here.readings));
+  EdgeInWaves found{.log_evidence_level = edge.level() - freedom_};
+  std::vector<double> densities;
+  WavesFound most;
+  for (const double one_m : kSlowLengths_m) {
+    for (WavesFound& one : edge.of(waves_of(fit.correction, one_m, fit.data).terms())) {
+      densities.push_back(one.log_density);
+      if (!(one.log_density > most.log_density)) continue;
+      found.scale = {one_m, one.height};
+      most = std::move(one);
+    }
+  }
+  if (most.coefficients.size() == 0) {  // no noise makes the covariance positive definite
+    found.log_evidence = found.log_evidence_level;
+    found.waves = Field::Zero(surface_.vertex_count());
+    return found;
+  }
+  double mean = 0.0;
+  for (const double one : densities)
+    mean += std::exp(one - most.log_density) / static_cast<double>(densities.size());
+  found.log_evidence = most.log_density + std::log(mean) - freedom_;
+  found.waves = waves_of(fit.correction, found.scale.length_m, fit.data)
+                    .at_vertices(most.height * most.coefficients);
+  return found;
 }
 
 }  // namespace palpation

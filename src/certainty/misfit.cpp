@@ -181,7 +181,8 @@ void weigh_parts(const Explained& rows, const Layout& layout, Kind& weaker) {
 }  // namespace
 
 std::string_view name_of(MisfitKind kind) {
-  constexpr std::array<std::string_view, 5> kNames = {"zero", "gain", "moved", "weaker", "tilt"};
+  constexpr std::array<std::string_view, 6> kNames = {"zero",   "gain", "moved",
+                                                      "weaker", "tilt", "waves"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

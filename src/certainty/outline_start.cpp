@@ -7,6 +7,7 @@
 #include <span>
 
 #include "certainty/edge_data.h"
+#include "certainty/slow_waves.h"
 #include "palpation/boundary/level_set.h"
 #include "palpation/geometry/chart_place.h"
 
@@ -73,9 +74,17 @@ Eigen::VectorXd step_sd_of(std::span<const Misfit> changes, double range) {
   return Eigen::Map<const Eigen::VectorXd>(sd.data(), static_cast<Eigen::Index>(sd.size()));
 }
 
+/// What each adds; no columns where there are none.
+Eigen::MatrixXd slow_waves_of(const Layout& layout, const std::optional<WaveScale>& waves,
+                              std::span<const SurfacePoint> places) {
+  if (!waves || places.empty()) return {};
+  return waves->sd * SlowWaves(layout.surface(), layout.metric(), waves->length_m, places).terms();
+}
+
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
-                                  std::span<const Misfit> changes,
+                                  const OutlineOptions& options,
                                   std::vector<std::vector<int>>& epochs) {
+  const std::vector<Misfit>& changes = options.changes;
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
   EdgeData data = gathered_for_edge(belief);
@@ -94,7 +103,9 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   OutlineReadings readings;
   std::vector<double> when;
   std::vector<std::vector<int>> before;
+  std::vector<SurfacePoint> in_order;
   for (const std::size_t i : order) {
+    in_order.push_back(data.places[i]);
     const auto row = static_cast<Eigen::Index>(i);
     readings.places.push_back(places[i]);
     readings.reading.push_back(data.reading[row]);
@@ -104,10 +115,12 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
     when.push_back(batches / static_cast<double>(data.made[i].size()));
     before.push_back(changes_before(changes, data.made[i]));
   }
-  readings.background = background_terms({.places = readings.places,
-                                          .variance = readings.variance,
-                                          .when = when,
-                                          .steps = steps_of(changes, before)});
+  readings.background =
+      background_terms({.places = readings.places,
+                        .variance = readings.variance,
+                        .when = when,
+                        .slow_waves = slow_waves_of(layout, options.slow_waves, in_order),
+                        .steps = steps_of(changes, before)});
   readings.epoch = epochs_of(before, epochs);
   readings.background.step_sd = step_sd_of(changes, range);
   readings.background.median_sd = kWaves * range;
@@ -195,7 +208,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   const std::vector<std::vector<Vec2>> lines = lines_of(surface, edge.depth());
   if (lines.empty() || !(range > 0.0)) return std::nullopt;
   OutlineStart start;
-  start.readings = readings_in_plane(belief, edge, range, changes, start.prior.epochs);
+  start.readings = readings_in_plane(belief, edge, range, options, start.prior.epochs);
   start.outline = outline_from(lines, start.readings.places);
   while (!is_simple(start.outline)) {
     if (start.outline.loops.size() == 1) return std::nullopt;

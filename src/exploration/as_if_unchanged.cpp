@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "certainty/edge_data.h"
+#include "exploration/background_search.h"
 #include "exploration/taken_back.h"
-#include "exploration/tilt_search.h"
 #include "exploration/zero_changes.h"
 
 namespace palpation {
@@ -106,9 +106,12 @@ void weigh_against_waves(Known& known) {
   const std::optional<EdgeBelief>& edge = known.boundary.edge;
   const std::optional<double>& of_smooth_field = known.believed.of_smooth_field;
   if (!edge || !of_smooth_field) return;
+  const std::vector<Misfit>& changes = known.believed.evidence.taken_back;
+  const auto waves = std::ranges::find(changes, MisfitKind::Waves, &Misfit::kind);
   const double of_field = log_evidence_without_edge(known.believed.belief) + *of_smooth_field;
-  if (edge->log_evidence() > of_field + surprising()) return;
-  const EdgeOdds odds = edge->odds_over_waves();
+  if (waves == changes.end() && edge->log_evidence() > of_field + surprising()) return;
+  const EdgeOdds odds =
+      edge->odds_over_waves(waves == changes.end() ? Field() : waves->background.waves);
   known.believed.evidence.of_edge = odds.log_odds;
   if (odds.log_odds < -surprising() && odds.wave_length_m >= kSlowWave_m) known.boundary = {};
 }
@@ -118,9 +121,11 @@ constexpr int kFewestAtEdge = 3;
 
 /// Less of a move is left to the outlines' sampling (outline_model.cpp).
 constexpr double kLeastMove_m = 0.0005;
+/// Farther than moves are tried (changed_since.cpp), by a step.
+constexpr double kFarthestMove_m = 0.008;
 
 bool is_change(const Misfit& misfit) {
-  return misfit.kind != MisfitKind::WeakerPart && misfit.kind != MisfitKind::Tilted;
+  return misfit.kind != MisfitKind::WeakerPart && !is_background(misfit);
 }
 
 /// Whether those before it and those since feel an edge: of healthy tissue alone nothing tells
@@ -135,29 +140,72 @@ bool is_felt_on_both_sides(const Misfit& move, double level, std::span<const Pal
       felt, [](const auto& side) { return std::ranges::min(side) >= kFewestAtEdge; });
 }
 
-/// Of the readings that count with it and without.
-bool makes_the_outline_likelier(const Misfit& move, const Surface& surface, const Model& model,
-                                std::vector<Palpation> readings) {
+/// By an edge, of the readings that count in all these versions of the same.
+std::vector<double> log_evidences(const Surface& surface, const Model& model,
+                                  std::vector<std::vector<Palpation>> versions) {
+  std::vector<double> evidences;
+  for (std::vector<Palpation>& version : versions) {
+    for (std::size_t i = 0; i < version.size(); ++i) {
+      for (const std::vector<Palpation>& other : versions) {
+        if (version[i].set_aside.empty()) version[i].set_aside = other[i].set_aside;
+      }
+    }
+  }
   ConclusionCache apart;
-  const auto evidence_of = [&](std::vector<Palpation> palpations) {
+  for (std::vector<Palpation>& version : versions) {
     const Known known =
-        known_by(surface, model, believe(surface, model, std::move(palpations), apart));
-    return known.boundary.edge ? known.boundary.edge->log_evidence()
-                               : -std::numeric_limits<double>::infinity();
-  };
-  std::vector<Palpation> moved = with_changes_taken_back(surface, readings, {&move, 1});
-  for (std::size_t i = 0; i < moved.size(); ++i) readings[i].set_aside = moved[i].set_aside;
-  return evidence_of(std::move(moved)) - evidence_of(std::move(readings)) > surprising();
+        known_by(surface, model, believe(surface, model, std::move(version), apart));
+    evidences.push_back(known.boundary.edge ? known.boundary.edge->log_evidence()
+                                            : -std::numeric_limits<double>::infinity());
+  }
+  return evidences;
 }
 
-/// The strongest, unless it is of the zero: what of that can be taken back was.
+bool makes_the_outline_likelier(const Misfit& move, const Surface& surface, const Model& model,
+                                const std::vector<Palpation>& readings) {
+  const std::vector<double> evidences = log_evidences(
+      surface, model, {readings, with_changes_taken_back(surface, readings, {&move, 1})});
+  return evidences[1] - evidences[0] > surprising();
+}
+
+/// What a conclusion does not explain, the strongest first; of each kind once.
+std::vector<Misfit> all_misfits(const Model& model, const std::optional<EdgeBelief>& edge,
+                                const Belief& belief, std::span<const Palpation> readings) {
+  std::vector<Misfit> found;
+  if (edge) found = edge->misfits();
+  // A move is found by the field, which knows how far, or else by the edge, to first order.
+  std::optional<Misfit> move = changed_since(belief);
+  if (move && move->kind != MisfitKind::Moved) move.reset();
+  const auto by_edge = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
+  if (by_edge != found.end()) {
+    if (!move) move = *by_edge;
+    found.erase(by_edge);
+  }
+  if (edge && move && move->amount >= kLeastMove_m && move->amount <= kFarthestMove_m &&
+      is_felt_on_both_sides(*move, edge->level().value, readings) &&
+      makes_the_outline_likelier(*move, belief.prior().surface(), model,
+                                 {readings.begin(), readings.end()}))
+    found.push_back(*move);
+  std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
+  return found;
+}
+
+/// The strongest, unless it is of the zero: what of that can be taken back was. A gain passes for a
+/// move and a move for a gain: of both the one without which the readings are more probable.
 std::optional<Misfit> change_to_take_back(const Model& model, const Known& known,
-                                          std::span<const Palpation> readings) {
-  const std::vector<Misfit> found =
-      misfits_of(model, known.boundary.edge, known.believed.belief, readings);
-  const auto change = std::ranges::find_if(found, is_change);
-  if (change == found.end() || change->kind == MisfitKind::Zero) return std::nullopt;
-  return *change;
+                                          const std::vector<Palpation>& readings) {
+  std::vector<Misfit> found =
+      all_misfits(model, known.boundary.edge, known.believed.belief, readings);
+  std::erase_if(found, [](const Misfit& misfit) { return !is_change(misfit); });
+  if (found.empty() || found.front().kind == MisfitKind::Zero) return std::nullopt;
+  std::erase_if(found, [](const Misfit& change) { return change.kind == MisfitKind::Zero; });
+  if (found.size() == 1) return found.front();
+  const Surface& surface = known.believed.belief.prior().surface();
+  std::vector<std::vector<Palpation>> without;
+  for (const Misfit& change : found)
+    without.push_back(with_changes_taken_back(surface, readings, {&change, 1}));
+  const std::vector<double> evidences = log_evidences(surface, model, std::move(without));
+  return found[std::ranges::max_element(evidences) - evidences.begin()];
 }
 
 }  // namespace
@@ -170,7 +218,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     return known_by(surface, model,
                     believed_with_one_zero(surface, model, palpations, apart, apart));
   };
-  Known known = without_tilt(
+  Known known = without_background(
       surface, model, felt,
       known_by(surface, model, believed_with_one_zero(surface, model, felt, cache, apart)),
       known_of);
@@ -199,22 +247,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
 
 std::vector<Misfit> misfits_of(const Model& model, const std::optional<EdgeBelief>& edge,
                                const Belief& belief, std::span<const Palpation> readings) {
-  std::vector<Misfit> found;
-  if (edge) found = edge->misfits();
-  // A move is found by the field, which knows how far, or else by the edge, to first order.
-  std::optional<Misfit> move = changed_since(belief);
-  if (move && move->kind != MisfitKind::Moved) move.reset();
-  const auto by_edge = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
-  if (by_edge != found.end()) {
-    if (!move) move = *by_edge;
-    found.erase(by_edge);
-  }
-  if (edge && move && move->amount >= kLeastMove_m &&
-      is_felt_on_both_sides(*move, edge->level().value, readings) &&
-      makes_the_outline_likelier(*move, belief.prior().surface(), model,
-                                 {readings.begin(), readings.end()}))
-    found.push_back(*move);
-  std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
+  std::vector<Misfit> found = all_misfits(model, edge, belief, readings);
   if (const auto strongest = std::ranges::find_if(found, is_change); strongest != found.end())
     found.erase(std::remove_if(strongest + 1, found.end(), is_change), found.end());
   return found;

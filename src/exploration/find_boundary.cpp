@@ -114,8 +114,8 @@ namespace {
 /// And those that sessions may be, until readings tell: what a gain differs by is drawn, too. In
 /// time.
 std::vector<Misfit> with_gains_of_sessions(std::vector<Misfit> changes) {
-  // A slope is of all readings, and the outlines' background has its rest.
-  std::erase_if(changes, [](const Misfit& one) { return one.kind == MisfitKind::Tilted; });
+  // The outlines' background has the rest of a slope or waves.
+  std::erase_if(changes, is_background);
   std::vector<Misfit> gains;
   std::vector<int> known;  // sessions of which a gain was taken back
   for (const Misfit& change : changes) {
@@ -133,6 +133,12 @@ std::vector<Misfit> with_gains_of_sessions(std::vector<Misfit> changes) {
   return changes;
 }
 
+std::optional<WaveScale> slow_waves_among(const std::vector<Misfit>& changes) {
+  const auto waves = std::ranges::find(changes, MisfitKind::Waves, &Misfit::kind);
+  if (waves == changes.end()) return std::nullopt;
+  return waves->background.wave_scale;
+}
+
 }  // namespace
 
 void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
@@ -143,7 +149,8 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
                       {.fraction = model.level.fraction,
                        .noise_log_sd = noise_log_sd_of(model, believed.belief),
                        .seed = seed,
-                       .changes = with_gains_of_sessions(believed.evidence.taken_back)});
+                       .changes = with_gains_of_sessions(believed.evidence.taken_back),
+                       .slow_waves = slow_waves_among(believed.evidence.taken_back)});
   if (boundary.outlines) boundary.level = boundary.outlines->level;
 }
 

@@ -12,7 +12,10 @@ void take_back(const Surface& surface, const Misfit& change, Palpation& palpatio
   if (palpation.kind == TouchKind::Missed) return;
   if (change.kind == MisfitKind::Zero) palpation.reading -= change.amount;
   if (change.kind == MisfitKind::Tilted)
-    palpation.reading -= change.slope_per_m.dot(surface.position(palpation.where) - change.middle);
+    palpation.reading -= change.background.slope_per_m.dot(surface.position(palpation.where) -
+                                                           change.background.middle);
+  if (change.kind == MisfitKind::Waves)
+    palpation.reading -= surface.interpolate(change.background.waves, palpation.where);
   if (change.kind == MisfitKind::Gain)
     palpation.reading = change.low + (palpation.reading - change.low) / (1.0 + change.amount);
   if (change.kind != MisfitKind::Moved) return;

@@ -79,8 +79,8 @@ Used used_of(const Surface& surface, std::span<const Palpation> palpations) {
 
 Misfit as_change(const Surface& surface, const Vec3& slope_per_m) {
   return {.kind = MisfitKind::Tilted,
-          .slope_per_m = slope_per_m,
-          .middle = surface.mesh().vertices.colwise().mean().transpose()};
+          .background = {.slope_per_m = slope_per_m,
+                         .middle = surface.mesh().vertices.colwise().mean().transpose()}};
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ std::optional<Misfit> tilt_left(const Surface& surface, const EdgeBelief& edge,
 }
 
 Misfit tilt_together(Misfit one, const Misfit& other) {
-  one.slope_per_m += other.slope_per_m;
+  one.background.slope_per_m += other.background.slope_per_m;
   return one;
 }
 

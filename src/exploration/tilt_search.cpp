@@ -1,10 +1,8 @@
-#include "exploration/tilt_search.h"
-
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "certainty/edge_data.h"
+#include "exploration/background_search.h"
 #include "exploration/taken_back.h"
 #include "exploration/tilt.h"
 
@@ -41,17 +39,10 @@ class TiltSearch {
   std::optional<Tilted>& best() { return best_; }
 
  private:
-  /// An edge that is no more probable than noise alone is none.
   Tilted tried(const Misfit& tilt) const {
     Known known = known_of_(with_changes_taken_back(surface_, felt_, {&tilt, 1}));
-    std::optional<EdgeBelief>& edge = known.boundary.edge;
-    const double without_edge = log_evidence_without_edge(known.believed.belief);
-    const double with_edge = edge ? edge->log_evidence() : without_edge;
-    if (with_edge > without_edge + surprising()) return {tilt, std::move(known), with_edge};
-    edge.reset();
-    known.boundary.level.reset();
-    known.believed.evidence.contrast_seen = false;
-    return {tilt, std::move(known), without_edge};
+    const double log_evidence = log_evidence_or_drop(known);
+    return {tilt, std::move(known), log_evidence};
   }
 
   void sharpen(Tilted tilted) {
@@ -76,25 +67,21 @@ class TiltSearch {
 
 }  // namespace
 
-Known without_tilt(const Surface& surface, const Model& model, const std::vector<Palpation>& felt,
-                   Known flat, const KnownOf& known_of) {
-  const bool is_by_edge = !model.level.known && model.level.estimate == LevelEstimate::Edge;
-  if (!is_by_edge || model.field.trend.is_linear || model.field.is_noiseless() ||
-      flat.believed.belief.site_count() == 0)
-    return flat;
+std::optional<WithoutBackground> without_tilt(const Surface& surface,
+                                              const std::vector<Palpation>& felt, const Known& flat,
+                                              const KnownOf& known_of) {
   const std::vector<Palpation> readings =
       with_changes_taken_back(surface, felt, flat.believed.evidence.taken_back);
   TiltSearch search(surface, felt, known_of);
   search.ask_planes(readings);
   if (flat.boundary.edge) search.ask_edge(*flat.boundary.edge, readings);
-  const double level = flat.boundary.edge ? flat.boundary.edge->log_evidence()
-                                          : log_evidence_without_edge(flat.believed.belief);
   std::optional<Tilted>& tilted = search.best();
-  const double price = tilt_price(flat.believed.belief.site_count());
-  if (!tilted || !(tilted->log_evidence > level + price)) return flat;
+  if (!tilted) return std::nullopt;
+  const double freedom = std::log(static_cast<double>(flat.believed.belief.site_count()));
   std::vector<Misfit>& changes = tilted->known.believed.evidence.taken_back;
-  changes.insert(changes.begin(), tilted->tilt);
-  return std::move(tilted->known);
+  changes.insert(changes.begin(), std::move(tilted->tilt));
+  return WithoutBackground{std::move(tilted->known),
+                           tilted->log_evidence - freedom - log_evidence_of(flat)};
 }
 
 }  // namespace palpation

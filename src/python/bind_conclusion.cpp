@@ -51,10 +51,14 @@ py::tuple band(const Concluded& here) {
 /// What of summary.json is in SI units here, and counted from 0.
 py::dict change_of(const Misfit& change) {
   if (change.kind == MisfitKind::Tilted) {
-    const Vec3& slope = change.slope_per_m;
+    const Vec3& slope = change.background.slope_per_m;
     return py::dict("kind"_a = std::string(name_of(change.kind)),
                     "slope_per_m"_a = py::make_tuple(slope.x(), slope.y(), slope.z()));
   }
+  if (change.kind == MisfitKind::Waves)
+    return py::dict("kind"_a = std::string(name_of(change.kind)),
+                    "waves"_a = change.background.waves,
+                    "length_m"_a = change.background.wave_scale.length_m);
   const Vec3& to = change.moved_m;
   py::dict result("kind"_a = std::string(name_of(change.kind)), "batch"_a = change.from_batch,
                   "reading"_a = change.number);

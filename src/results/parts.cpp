@@ -63,8 +63,9 @@ double share_above(double a, double b, double c) {
 }  // namespace
 
 std::vector<std::string> shown_fields() {
-  return {"mean",  "stddev",      "probability_inside", "mean_detrended",
-          "score", "above_level", "acquisition",        "truth"};
+  return {"mean",           "stddev", "probability_inside",
+          "mean_detrended", "score",  "above_level",
+          "acquisition",    "waves",  "truth"};
 }
 
 VtpShape tumour_of(const Run& run) {

@@ -36,6 +36,9 @@ NamedFields believed_fields(const Episode& episode, const World* world) {
   NamedFields fields{{"mean", now.mean}, {"stddev", now.stddev}, {"acquisition", now.acquisition}};
   if (now.mean_detrended.size() > 0) fields.emplace_back("mean_detrended", now.mean_detrended);
   if (now.above_level.size() > 0) fields.emplace_back("above_level", now.above_level);
+  for (const Misfit& change : episode.conclusion().evidence.taken_back) {
+    if (change.kind == MisfitKind::Waves) fields.emplace_back("waves", change.background.waves);
+  }
   if (now.score.size() > 0) {
     fields.emplace_back("score", now.score);
     fields.emplace_back("probability_inside", now.probability_inside);

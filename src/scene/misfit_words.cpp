@@ -61,6 +61,19 @@ std::string tilt_words(ReadingScale scale, const Vec3& slope_per_m) {
          "field.trend to linear.";
 }
 
+std::string waves_words(const Surface& surface, ReadingScale scale, const Field& waves) {
+  Eigen::Index lowest = 0, highest = 0;
+  const double rise = waves.maxCoeff(&highest) - waves.minCoeff(&lowest);
+  const auto at = [&](Eigen::Index vertex) {
+    return place_words(surface.vertex(static_cast<int>(vertex)), 1);
+  };
+  const std::string by = scale == ReadingScale::Log
+                             ? "are " + fixed(std::exp(rise), 2) + " times as high at "
+                             : "lie " + reading_text(rise) + " higher at ";
+  return "Readings rise and fall slowly all over the tissue: without what has an edge they " + by +
+         at(highest) + " than at " + at(lowest) + ". That is taken from them.";
+}
+
 std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& misfit) {
   switch (misfit.kind) {
     case MisfitKind::Zero:
@@ -78,7 +91,9 @@ std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& m
              ". Register it again and touch anew, or take the readings before or since out: the "
              "outline is of both.";
     case MisfitKind::Tilted:
-      return tilt_words(scale, misfit.slope_per_m);
+      return tilt_words(scale, misfit.background.slope_per_m);
+    case MisfitKind::Waves:
+      return waves_words(surface, scale, misfit.background.waves);
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
              standing_out_words(scale, misfit.amount) +
@@ -118,7 +133,7 @@ std::vector<std::string> session_words(ReadingScale scale,
           "summary.json has them."};
 }
 
-std::string taken_back_words(ReadingScale scale, const Misfit& change) {
+std::string taken_back_words(const Surface& surface, ReadingScale scale, const Misfit& change) {
   const std::string since = "From batch " + std::to_string(change.from_batch) + ", reading " +
                             std::to_string(change.number + 1) + ", on ";
   switch (change.kind) {
@@ -132,7 +147,9 @@ std::string taken_back_words(ReadingScale scale, const Misfit& change) {
              ", or its registration is off by that. Readings since then are taken to be of where "
              "it lay before, and so is the outline; register it again.";
     case MisfitKind::Tilted:
-      return tilt_words(scale, change.slope_per_m);
+      return tilt_words(scale, change.background.slope_per_m);
+    case MisfitKind::Waves:
+      return waves_words(surface, scale, change.background.waves);
     default:
       return since + "readings lie " + raised_words(scale, change.amount) +
              ", wherever they are: the sensor's zero has moved. That much is taken from "
@@ -157,12 +174,13 @@ std::string sessions_as_one_words(const Conclusion& conclusion) {
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
+  const Surface& surface = conclusion.belief.prior().surface();
   std::vector<std::string> words = session_words(conclusion.scale(), session_changes(conclusion));
   for (const Misfit& change : other_changes(conclusion))
-    words.push_back(taken_back_words(conclusion.scale(), change));
+    words.push_back(taken_back_words(surface, conclusion.scale(), change));
   words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion))
-    words.push_back(words_of(conclusion.belief.prior().surface(), conclusion.scale(), misfit));
+    words.push_back(words_of(surface, conclusion.scale(), misfit));
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
     words.push_back(apart_words(conclusion.outlines->disagreement));
   std::erase(words, "");

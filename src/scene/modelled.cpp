@@ -11,7 +11,7 @@ namespace {
 using Terms = std::vector<std::string>;
 
 std::string level_term(const Conclusion& conclusion) {
-  if (!conclusion.level) return "no tumour";
+  if (!conclusion.level) return conclusion.evidence.of_edge ? "no edge" : "no tumour";
   if (conclusion.model.level.known) return "known level";
   return conclusion.edge ? "level at the edge" : "level from the range";
 }
@@ -33,6 +33,7 @@ std::string term_of(const Misfit& change) {
   if (change.session > 0) return "sessions";
   if (change.kind == MisfitKind::Moved) return "tissue that moved";
   if (change.kind == MisfitKind::Tilted) return "a slope that was found";
+  if (change.kind == MisfitKind::Waves) return "slow waves that were found";
   return std::string(name_of(change.kind)) + " that changed";
 }
 

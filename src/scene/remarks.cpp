@@ -179,9 +179,8 @@ Remarks level_remarks(const Exploration& exploration) {
   for (const std::string& remark :
        remarks_on_level_set(surface, contour.field, contour.level).words())
     remarks.push_back(remark + '.');
-  const bool knows_slope =
-      conclusion.belief.prior().has_slope() ||
-      std::ranges::count(conclusion.evidence.taken_back, MisfitKind::Tilted, &Misfit::kind) > 0;
+  // At an edge a slope was asked for.
+  const bool knows_slope = conclusion.belief.prior().has_slope() || conclusion.edge;
   const double plane =
       knows_slope ? 0.0 : explained_by_plane(surface, readings_as_if_unchanged(conclusion));
   if (plane > kMuchPlane)
@@ -191,8 +190,30 @@ Remarks level_remarks(const Exploration& exploration) {
   return remarks;
 }
 
+std::string border_words(const std::vector<TumourPart>& parts) {
+  const auto at_border = std::ranges::count_if(parts, &TumourPart::touches_border);
+  if (at_border == 0) return "";
+  const std::string of_all = " of " + std::to_string(parts.size());
+  if (at_border > 1)
+    return std::to_string(at_border) + of_all +
+           " parts reach the border of the tissue, beyond which they may go on.";
+  const auto part = std::ranges::find_if(parts, &TumourPart::touches_border);
+  return "Part " + std::to_string(part - parts.begin() + 1) + of_all +
+         " reaches the border of the tissue, beyond which it may go on.";
+}
+
+/// Where no place is inside in more than half of the outlines.
+Remarks nothing_found_remarks(const Conclusion& conclusion) {
+  if (!conclusion.outlines || conclusion.tip_hides_all()) return {};
+  const DrawnNumber& area_m2 = conclusion.outlines->area_m2;
+  return {
+      "Nowhere is it more probable than not that tissue is tumour, so nothing is drawn: it may "
+      "hold none, or " +
+      fixed(area_m2.most * 1e6, 0) + " mm2 that the readings do not place."};
+}
+
 Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>& parts) {
-  if (parts.empty()) return {};
+  if (parts.empty()) return nothing_found_remarks(conclusion);
   Remarks remarks;
   const std::optional<Certainty>& certainty = conclusion.certainty;
   if (certainty && !conclusion.edge)
@@ -205,9 +226,9 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
     if (parts[i].probability && *parts[i].probability < kSure)
       remarks.push_back(part + " is tumour with probability " + percent(*parts[i].probability) +
                         " only.");
-    if (parts[i].touches_border)
-      remarks.push_back(part + " reaches the border of the tissue, beyond which it may go on.");
   }
+  if (std::string at_border = border_words(parts); !at_border.empty())
+    remarks.push_back(std::move(at_border));
   if (conclusion.outlines && conclusion.outlines->plateau_probability < kLikely)
     remarks.push_back(
         "The stiff region rises up to its middle (that it levels off is " +

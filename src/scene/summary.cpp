@@ -107,10 +107,14 @@ json goal_json(const std::optional<GoalState>& goal) {
 
 json change_json(const Misfit& change) {
   if (change.kind == MisfitKind::Tilted) {
-    const Vec3 slope_per_mm = change.slope_per_m / kMm;
+    const Vec3 slope_per_mm = change.background.slope_per_m / kMm;
     return {{"kind", name_of(change.kind)},
             {"slope_per_mm", {slope_per_mm.x(), slope_per_mm.y(), slope_per_mm.z()}}};
   }
+  if (change.kind == MisfitKind::Waves)
+    return {{"kind", name_of(change.kind)},
+            {"rise", change.background.waves.maxCoeff() - change.background.waves.minCoeff()},
+            {"length_mm", kMm * change.background.wave_scale.length_m}};
   json result = {
       {"kind", name_of(change.kind)}, {"batch", change.from_batch}, {"reading", change.number + 1}};
   if (change.kind == MisfitKind::Zero)

@@ -70,5 +70,20 @@ TEST(SlowWaves, HideNoTumour) {
   }
 }
 
+/// As high as the tumour, or half again.
+TEST(SlowWaves, AreTakenBackFromTissueWithATumour) {
+  const Surface surface = tissue();
+  for (const Stiffness& background : {Stiffness(wave), Stiffness(bowl)}) {
+    const Conclusion conclusion = concluded(
+        surface, [&](const Vec3& place) { return disk(place) + background(place); }, 1);
+    ASSERT_FALSE(conclusion.evidence.taken_back.empty());
+    EXPECT_EQ(conclusion.evidence.taken_back.front().kind, MisfitKind::Waves);
+    EXPECT_EQ(conclusion.evidence.taken_back.front().background.waves.size(),
+              surface.vertex_count());
+    ASSERT_TRUE(conclusion.outlines);
+    EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 49.0, 25.0);
+  }
+}
+
 }  // namespace
 }  // namespace palpation

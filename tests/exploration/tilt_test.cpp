@@ -56,7 +56,7 @@ TEST(Tilt, IsTakenBackFromTissueWithATumour) {
     ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u) << steepness;
     const Misfit& tilt = conclusion.evidence.taken_back.front();
     EXPECT_EQ(tilt.kind, MisfitKind::Tilted);
-    EXPECT_LT((tilt.slope_per_m - world.slope_per_m).norm(), 15.0) << steepness;
+    EXPECT_LT((tilt.background.slope_per_m - world.slope_per_m).norm(), 15.0) << steepness;
     ASSERT_TRUE(conclusion.outlines);
     EXPECT_NEAR(conclusion.outlines->area_m2.mean, flat_m2, 0.06 * flat_m2) << steepness;
   }
@@ -83,7 +83,9 @@ TEST(Tilt, IsToldFromTissueThatIsStiffOnOneSide) {
                         .slope_per_m = steepness * Vec3(0.0, 1.0, 0.0)};
     const Conclusion conclusion = concluded(surface, world, 1, 1);
     ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u) << steepness;
-    EXPECT_LT((conclusion.evidence.taken_back.front().slope_per_m - world.slope_per_m).norm(), 15.0)
+    EXPECT_LT(
+        (conclusion.evidence.taken_back.front().background.slope_per_m - world.slope_per_m).norm(),
+        15.0)
         << steepness;
     ASSERT_TRUE(conclusion.outlines) << steepness;
     EXPECT_NEAR(conclusion.outlines->area_m2.mean, truth_m2, 0.05 * truth_m2) << steepness;
@@ -103,7 +105,8 @@ TEST(Tilt, IsAllWhereReadingsLieOnAPlane) {
       conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, palpations);
   EXPECT_FALSE(conclusion.level);
   ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u);
-  EXPECT_LT((conclusion.evidence.taken_back.front().slope_per_m - slope_per_m).norm(), 0.01);
+  EXPECT_LT((conclusion.evidence.taken_back.front().background.slope_per_m - slope_per_m).norm(),
+            0.01);
 }
 
 TEST(Tilt, IsNotATumourOnOneSide) {

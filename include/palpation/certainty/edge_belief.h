@@ -61,6 +61,14 @@ struct EdgeOdds {
   double wave_length_m = 0.0;  ///< of the likeliest waves without an edge
 };
 
+/// An edge in healthy tissue that waves slowly.
+struct EdgeInWaves {
+  double log_evidence = 0.0;        ///< of the readings, nats: the mean over waves of any height
+  double log_evidence_level = 0.0;  ///< without waves
+  WaveScale scale{};                ///< of the likeliest waves
+  Field waves{};                    ///< their mean, at the vertices: the edge takes its part
+};
+
 class EdgeBelief {
  public:
   /// Around the boundary { mean = first_level } of the belief's field, for the first level that
@@ -91,8 +99,13 @@ class EdgeBelief {
   double log_evidence() const;
   /// By how much more probable the readings are with this edge than without one, with healthy
   /// tissue that waves over 8 mm or more in both. Waves and noise are as probable as they can be
-  /// made, and the outline's freedom has its price.
-  EdgeOdds odds_over_waves() const;
+  /// made, and the outline's freedom has its price. `taken_back`: waves that the readings are
+  /// without (with_changes_taken_back), at the vertices; with them, they are weighed.
+  EdgeOdds odds_over_waves(const Field& taken_back = {}) const;
+  /// How probable this edge makes the readings, waves that were taken back included, where tissue
+  /// waves over 40 mm or more: compares as log_evidence does. Noise is as probable as it can be
+  /// made.
+  EdgeInWaves in_slow_waves(const Field& taken_back = {}) const;
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.
@@ -124,6 +137,7 @@ class EdgeBelief {
  private:
   struct Fit;
   struct Task;
+  struct InWaves;
   explicit EdgeBelief(Surface surface);
   static std::optional<EdgeBelief> fitted(const Task& task, const std::vector<OwnPart>& parts,
                                           double low);

@@ -27,6 +27,21 @@ enum class MisfitKind {
   Moved,       ///< from some batch on the tissue lies elsewhere, or the registration does
   WeakerPart,  ///< something stands out that the outline does not hold
   Tilted,      ///< all readings rise to one side
+  Waves,       ///< all readings rise and fall slowly over the tissue
+};
+
+/// Of slow waves over tissue.
+struct WaveScale {
+  double length_m = 0.0;  ///< over which they are alike
+  double sd = 0.0;        ///< how high they are, in readings
+};
+
+/// What healthy tissue and the way a sensor is held add to all readings.
+struct Unevenness {
+  Vec3 slope_per_m = Vec3::Zero();  ///< of Tilted: readings per metre, and
+  Vec3 middle = Vec3::Zero();       ///< where it adds nothing
+  Field waves{};                    ///< of Waves: at the vertices, in readings
+  WaveScale wave_scale{};
 };
 
 /// Of a kind, the rival that explains the most.
@@ -45,14 +60,16 @@ struct Misfit {
   double low = 0.0;                     ///< Gain: what reads so is not changed by it
   Vec3 moved_m = Vec3::Zero();          ///< Moved: where to
   std::optional<SurfacePoint> where{};  ///< WeakerPart
-  Vec3 slope_per_m = Vec3::Zero();      ///< Tilted: readings per metre, and
-  Vec3 middle = Vec3::Zero();           ///< where it adds nothing
+  Unevenness background{};              ///< Tilted, Waves
 };
+
+/// Whether it is of the tissue as a whole, all the while: a slope or waves.
+bool is_background(const Misfit& change);
 
 /// Whether it was made after that.
 bool is_since(const Misfit& change, const Made& made);
 
-/// "zero", "gain", "moved", "weaker", "tilt".
+/// "zero", "gain", "moved", "weaker", "tilt", "waves".
 std::string_view name_of(MisfitKind kind);
 
 /// What a kind's evidence must exceed, nats, so that a true model is doubted in so many runs at

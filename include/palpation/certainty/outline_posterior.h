@@ -27,6 +27,8 @@ struct OutlineOptions {
   /// What changed while one touched and is taken back in the belief's readings, in time; what is
   /// left of it is among the unknown.
   std::vector<Misfit> changes{};
+  /// Slow waves that are taken back in them: what is left is among the unknown, too.
+  std::optional<WaveScale> slow_waves{};
 };
 
 /// An expectation, and what holds 95 % of the draws.

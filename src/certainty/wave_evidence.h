@@ -1,0 +1,51 @@
+/// How probable readings are with waves of healthy tissue among them.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <limits>
+#include <vector>
+
+#include "certainty/edge_data.h"
+#include "certainty/slow_waves.h"
+
+namespace palpation {
+
+/// Normal readings, less what is expected of them, and their covariance without waves and noise.
+struct Rows {
+  EdgeData data;
+  Eigen::VectorXd off;
+  Eigen::MatrixXd covariance;
+};
+
+/// With waves of some height.
+struct WavesFound {
+  double log_density = -std::numeric_limits<double>::infinity();
+  double height = 0.0;             ///< in readings
+  Eigen::VectorXd coefficients{};  ///< their mean, of waves of height one
+};
+
+/// For waves of any length: with C the covariance of the readings and their noise, and F what one
+/// unit of each coefficient adds, all of (C + h^2 F F')^-1 is told by F' C^-1 F. Densities are
+/// without what depends on the number of readings alone, as EdgeBelief::log_evidence is.
+class WithWaves {
+ public:
+  /// `spread`: how the readings do, which heights are multiples of.
+  WithWaves(const Rows& rows, double spread);
+
+  /// Without waves, by the likeliest noise.
+  double level() const { return level_; }
+  /// With waves of these terms (SlowWaves::terms), of each height by the likeliest noise.
+  std::vector<WavesFound> of(const Eigen::MatrixXd& terms) const;
+
+ private:
+  struct ByNoise {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    Eigen::VectorXd off;
+    double log_density;
+  };
+  double spread_;
+  std::vector<ByNoise> by_noise_;
+  double level_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace palpation

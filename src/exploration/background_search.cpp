@@ -1,0 +1,39 @@
+#include "exploration/background_search.h"
+
+#include <utility>
+
+#include "certainty/edge_data.h"
+
+namespace palpation {
+
+double log_evidence_of(const Known& known) {
+  const std::optional<EdgeBelief>& edge = known.boundary.edge;
+  return edge ? edge->log_evidence() : log_evidence_without_edge(known.believed.belief);
+}
+
+double log_evidence_or_drop(Known& known) {
+  const double without_edge = log_evidence_without_edge(known.believed.belief),
+               with_edge = log_evidence_of(known);
+  if (with_edge > without_edge + surprising()) return with_edge;
+  known.boundary.edge.reset();
+  known.boundary.level.reset();
+  known.believed.evidence.contrast_seen = false;
+  return without_edge;
+}
+
+Known without_background(const Surface& surface, const Model& model,
+                         const std::vector<Palpation>& felt, Known flat, const KnownOf& known_of) {
+  const bool is_by_edge = !model.level.known && model.level.estimate == LevelEstimate::Edge;
+  if (!is_by_edge || model.field.trend.is_linear || model.field.is_noiseless() ||
+      flat.believed.belief.site_count() == 0)
+    return flat;
+  std::optional<WithoutBackground> tilted = without_tilt(surface, felt, flat, known_of),
+                                   waved = without_waves(surface, felt, flat, known_of);
+  // A slope is the simpler of the two.
+  const bool is_waved = waved && (!tilted || waved->gain > tilted->gain + surprising());
+  std::optional<WithoutBackground>& likelier = is_waved ? waved : tilted;
+  if (!likelier || !(likelier->gain > surprising())) return flat;
+  return std::move(likelier->known);
+}
+
+}  // namespace palpation

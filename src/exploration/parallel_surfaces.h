@@ -1,0 +1,34 @@
+/// Readings as two plateaus on one background.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace palpation {
+
+/// What both plateaus share: each value is raised by its row of `terms` (n x k) times coefficients,
+/// which are normal around zero with these precisions (k); 0: wholly unknown.
+struct SharedBackground {
+  Eigen::MatrixXd terms;
+  Eigen::VectorXd precision;
+};
+
+/// Values are those of one of two parallel surfaces, and normal noise, but for one in ten that may
+/// lie anywhere between 0 and 1.
+struct ParallelSurfaces {
+  double low = 0.0;
+  double contrast = 0.0;
+  Eigen::VectorXd coefficients;
+  double high_share = 0.0;
+  double variance = 0.0;        ///< of the noise
+  double log_likelihood = 0.0;  ///< of the values by the background that was found
+  /// Of the values by any background (Laplace), where none of the precisions is 0.
+  double log_evidence = 0.0;
+};
+
+/// By expectation and maximization, from a first background at the values, which lie in [0, 1] and
+/// are two at least.
+ParallelSurfaces parallel_surfaces(const SharedBackground& background,
+                                   const Eigen::VectorXd& values,
+                                   const Eigen::VectorXd& first_background);
+
+}  // namespace palpation

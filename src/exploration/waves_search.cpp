@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "exploration/background_search.h"
+#include "exploration/taken_back.h"
+#include "exploration/waves.h"
+
+namespace palpation {
+namespace {
+
+constexpr int kBackgrounds = 4;  ///< of parallel surfaces: each costs a conclusion
+/// So often waves are found again about the edge that is seen without them.
+constexpr int kWaveRounds = 3;
+
+/// The readings without waves, and how probable they are with them.
+struct Waved {
+  Misfit waves;
+  Known known;
+  EdgeInWaves edge;
+};
+
+class WavesSearch {
+ public:
+  WavesSearch(const Surface& surface, const std::vector<Palpation>& felt, const Known& flat,
+              const KnownOf& known_of)
+      : surface_(surface), felt_(felt), known_of_(known_of), set_aside_(set_aside(flat)) {}
+
+  void ask(Field waves) {
+    std::optional<Waved> waved = tried(std::move(waves));
+    for (int round = 0; waved && round < kWaveRounds; ++round) {
+      std::optional<Waved> next = tried(waved->edge.waves);
+      if (!next || !(next->edge.log_evidence > waved->edge.log_evidence)) break;
+      waved = std::move(next);
+    }
+    if (waved && (!best_ || waved->edge.log_evidence > best_->edge.log_evidence))
+      best_ = std::move(waved);
+  }
+
+  std::optional<Waved>& best() { return best_; }
+
+ private:
+  static std::ptrdiff_t set_aside(const Known& known) {
+    return std::ranges::count_if(known.believed.palpations,
+                                 [](const Palpation& one) { return !counts(one); });
+  }
+
+  /// Nothing where no edge is seen, nor where readings stand out that do not with the waves.
+  std::optional<Waved> tried(Field field) const {
+    Misfit waves{.kind = MisfitKind::Waves};
+    waves.background.waves = field.array() - field.mean();
+    Known known = known_of_(with_changes_taken_back(surface_, felt_, {&waves, 1}));
+    log_evidence_or_drop(known);
+    if (!known.boundary.edge || set_aside(known) > set_aside_) return std::nullopt;
+    EdgeInWaves edge = known.boundary.edge->in_slow_waves(waves.background.waves);
+    waves.background.wave_scale = edge.scale;
+    return Waved{std::move(waves), std::move(known), std::move(edge)};
+  }
+
+  const Surface& surface_;
+  const std::vector<Palpation>& felt_;
+  const KnownOf& known_of_;
+  std::ptrdiff_t set_aside_;
+  std::optional<Waved> best_;
+};
+
+}  // namespace
+
+std::optional<WithoutBackground> without_waves(const Surface& surface,
+                                               const std::vector<Palpation>& felt,
+                                               const Known& flat, const KnownOf& known_of) {
+  const Belief& belief = flat.believed.belief;
+  const std::vector<Field> backgrounds = waves_of_parallel_surfaces(
+      Layout(belief.prior()), gathered_for_edge(belief), surprising(), kBackgrounds);
+  if (backgrounds.empty()) return std::nullopt;
+  WavesSearch search(surface, felt, flat, known_of);
+  double level = log_evidence_of(flat);
+  if (flat.boundary.edge) {
+    const EdgeInWaves edge = flat.boundary.edge->in_slow_waves();
+    level = edge.log_evidence_level;  // by as probable a noise as with waves
+    search.ask(edge.waves);
+  }
+  for (const Field& waves : backgrounds) search.ask(waves);
+  std::optional<Waved>& waved = search.best();
+  if (!waved) return std::nullopt;
+  std::vector<Misfit>& changes = waved->known.believed.evidence.taken_back;
+  changes.insert(changes.begin(), std::move(waved->waves));
+  return WithoutBackground{std::move(waved->known), waved->edge.log_evidence - level};
+}
+
+}  // namespace palpation
