@@ -13,6 +13,8 @@ namespace {
 
 /// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
+/// Texture, and slow waves.
+constexpr std::array kUnevenLengths_m = {0.012, 0.0225, 0.04, 0.07};
 
 double spread_of(const Eigen::VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
@@ -83,10 +85,13 @@ EdgeInWaves EdgeBelief::in_slow_waves(const Field& taken_back) const {
   EdgeInWaves found{.log_evidence_level = edge.level() - freedom_};
   std::vector<double> densities;
   WavesFound most;
-  for (const double one_m : kSlowLengths_m) {
+  double best = edge.level();
+  for (const double one_m : kUnevenLengths_m) {
+    const bool is_slow = one_m >= kSlowLengths_m.front();
     for (WavesFound& one : edge.of(waves_of(fit.correction, one_m, fit.data).terms())) {
       densities.push_back(one.log_density);
-      if (!(one.log_density > most.log_density)) continue;
+      best = std::max(best, one.log_density);
+      if (!is_slow || !(one.log_density > most.log_density)) continue;
       found.scale = {one_m, one.height};
       most = std::move(one);
     }
@@ -98,8 +103,8 @@ EdgeInWaves EdgeBelief::in_slow_waves(const Field& taken_back) const {
   }
   double mean = 0.0;
   for (const double one : densities)
-    mean += std::exp(one - most.log_density) / static_cast<double>(densities.size());
-  found.log_evidence = most.log_density + std::log(mean) - freedom_;
+    mean += std::exp(one - best) / static_cast<double>(densities.size());
+  found.log_evidence = best + std::log(mean) - freedom_;
   found.waves = waves_of(fit.correction, found.scale.length_m, fit.data)
                     .at_vertices(most.height * most.coefficients);
   return found;

@@ -27,13 +27,11 @@ Known without_background(const Surface& surface, const Model& model,
   if (!is_by_edge || model.field.trend.is_linear || model.field.is_noiseless() ||
       flat.believed.belief.site_count() == 0)
     return flat;
-  std::optional<WithoutBackground> tilted = without_tilt(surface, felt, flat, known_of),
-                                   waved = without_waves(surface, felt, flat, known_of);
-  // A slope is the simpler of the two.
-  const bool is_waved = waved && (!tilted || waved->gain > tilted->gain + surprising());
-  std::optional<WithoutBackground>& likelier = is_waved ? waved : tilted;
-  if (!likelier || !(likelier->gain > surprising())) return flat;
-  return std::move(likelier->known);
+  std::optional<WithoutBackground> tilted = without_tilt(surface, felt, flat, known_of);
+  const bool is_tilted = tilted && tilted->gain > surprising();
+  Known& simpler = is_tilted ? tilted->known : flat;
+  std::optional<WithoutBackground> waved = without_waves(surface, felt, flat, simpler, known_of);
+  return waved && waved->gain > surprising() ? std::move(waved->known) : std::move(simpler);
 }
 
 }  // namespace palpation

@@ -30,11 +30,13 @@ std::optional<WithoutBackground> without_tilt(const Surface& surface,
                                               const KnownOf& known_of);
 
 /// Without slow waves that the readings have beside an edge (EdgeBelief::in_slow_waves), which is
-/// found without waves, or without those that two parallel surfaces share (waves.h). Nothing where
-/// no such surfaces are likelier than level ones.
+/// found without waves, or without those that two parallel surfaces share (waves.h): of texture and
+/// waves, which may be there in both, more probable than `simpler`. Nothing where no such surfaces
+/// are likelier than level ones.
 std::optional<WithoutBackground> without_waves(const Surface& surface,
                                                const std::vector<Palpation>& felt,
-                                               const Known& flat, const KnownOf& known_of);
+                                               const Known& flat, const Known& simpler,
+                                               const KnownOf& known_of);
 
 /// What is known of readings `felt` without their slope or slow waves; `flat`, with them, where
 /// none makes the readings more probable by more than chance does. They are asked for where the

@@ -11,11 +11,8 @@ constexpr double kBeyond_m = 0.0005;
 void take_back(const Surface& surface, const Misfit& change, Palpation& palpation) {
   if (palpation.kind == TouchKind::Missed) return;
   if (change.kind == MisfitKind::Zero) palpation.reading -= change.amount;
-  if (change.kind == MisfitKind::Tilted)
-    palpation.reading -= change.background.slope_per_m.dot(surface.position(palpation.where) -
-                                                           change.background.middle);
-  if (change.kind == MisfitKind::Waves)
-    palpation.reading -= surface.interpolate(change.background.waves, palpation.where);
+  if (is_background(change))
+    palpation.reading -= added_at(surface, change.background, palpation.where);
   if (change.kind == MisfitKind::Gain)
     palpation.reading = change.low + (palpation.reading - change.low) / (1.0 + change.amount);
   if (change.kind != MisfitKind::Moved) return;
@@ -30,6 +27,12 @@ void take_back(const Surface& surface, const Misfit& change, Palpation& palpatio
 constexpr std::ptrdiff_t kOneIn = 20;  ///< a moment is known to a few readings
 
 }  // namespace
+
+double added_at(const Surface& surface, const Unevenness& background, const SurfacePoint& where) {
+  const double slope = background.slope_per_m.dot(surface.position(where) - background.middle);
+  return background.waves.size() == 0 ? slope
+                                      : slope + surface.interpolate(background.waves, where);
+}
 
 Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
                          std::span<const Palpation> palpations) {

@@ -17,6 +17,9 @@ inline constexpr std::size_t kMostChanges = 4;
 Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
                          std::span<const Palpation> palpations);
 
+/// What a background adds to a reading there.
+double added_at(const Surface& surface, const Unevenness& background, const SurfacePoint& where);
+
 /// The readings, those since each change without what it did, one after the other. What was felt
 /// where no tissue lay before it moved is set aside (kBeyondTissue).
 std::vector<Palpation> with_changes_taken_back(const Surface& surface,

@@ -65,28 +65,38 @@ class WavesSearch {
   std::optional<Waved> best_;
 };
 
+/// Without a slope that may be taken back.
+double log_evidence_in_waves(const Surface& surface, const Known& known) {
+  if (!known.boundary.edge) return log_evidence_of(known);
+  Field slope = Field::Zero(surface.vertex_count());
+  for (const Misfit& change : known.believed.evidence.taken_back) {
+    if (!is_background(change)) continue;
+    for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
+      slope[vertex] += added_at(surface, change.background, surface.at_vertex(vertex));
+  }
+  const EdgeInWaves edge = known.boundary.edge->in_slow_waves(slope);
+  return std::max(edge.log_evidence, edge.log_evidence_level);
+}
+
 }  // namespace
 
 std::optional<WithoutBackground> without_waves(const Surface& surface,
                                                const std::vector<Palpation>& felt,
-                                               const Known& flat, const KnownOf& known_of) {
+                                               const Known& flat, const Known& simpler,
+                                               const KnownOf& known_of) {
   const Belief& belief = flat.believed.belief;
   const std::vector<Field> backgrounds = waves_of_parallel_surfaces(
       Layout(belief.prior()), gathered_for_edge(belief), surprising(), kBackgrounds);
   if (backgrounds.empty()) return std::nullopt;
   WavesSearch search(surface, felt, flat, known_of);
-  double level = log_evidence_of(flat);
-  if (flat.boundary.edge) {
-    const EdgeInWaves edge = flat.boundary.edge->in_slow_waves();
-    level = edge.log_evidence_level;  // by as probable a noise as with waves
-    search.ask(edge.waves);
-  }
+  if (flat.boundary.edge) search.ask(flat.boundary.edge->in_slow_waves().waves);
   for (const Field& waves : backgrounds) search.ask(waves);
   std::optional<Waved>& waved = search.best();
   if (!waved) return std::nullopt;
   std::vector<Misfit>& changes = waved->known.believed.evidence.taken_back;
   changes.insert(changes.begin(), std::move(waved->waves));
-  return WithoutBackground{std::move(waved->known), waved->edge.log_evidence - level};
+  return WithoutBackground{std::move(waved->known),
+                           waved->edge.log_evidence - log_evidence_in_waves(surface, simpler)};
 }
 
 }  // namespace palpation

@@ -63,9 +63,10 @@ struct EdgeOdds {
 
 /// An edge in healthy tissue that waves slowly.
 struct EdgeInWaves {
-  double log_evidence = 0.0;        ///< of the readings, nats: the mean over waves of any height
+  /// Of the readings, nats: the mean over waves of any height, texture of 12 mm among them.
+  double log_evidence = 0.0;
   double log_evidence_level = 0.0;  ///< without waves
-  WaveScale scale{};                ///< of the likeliest waves
+  WaveScale scale{};                ///< of the likeliest slow waves
   Field waves{};                    ///< their mean, at the vertices: the edge takes its part
 };
 
