@@ -68,6 +68,22 @@ class Tool(InFolder):
         self.assertIn("49 readings (49 set aside).\nAll readings are set aside, so nothing is known.", result.stdout)
         self.assertIn("49 readings set aside (frozen", result.stderr)
 
+    def test_slow_waves_under_a_tumour_are_taken_back_and_told(self):
+        dice = random.Random(3)
+        places = [(dice.uniform(0, 40), dice.uniform(0, 50)) for _ in range(90)]
+        waving = [(x, y, 7 + 0.004 * ((x - 20) ** 2 - (y - 25) ** 2) + 2 * (math.hypot(x - 18, y - 22) < 9) + dice.gauss(0, 0.05)) for x, y in places]
+        scene = self.write("waves.json", json.dumps({"surface": {"plane": {"size_mm": [40, 50], "vertices": [41, 51]}}}))
+        measured = self.write("waves.csv", "x,y,z,reading\n" + "".join(f"{x / 1000},{y / 1000},0,{reading}\n" for x, y, reading in waving))
+        self.done("boundary", scene, "--measurements", measured, "--out", self.folder / "waves", *BRIEFLY)
+        summary = json.loads((self.folder / "waves" / "summary.json").read_text())
+        (waves,) = summary["taken_back"]
+        self.assertEqual(waves["kind"], "waves")
+        self.assertAlmostEqual(waves["rise"], 4.1, delta=1.0)
+        self.assertIn("slow waves that were found", summary["modelled"])
+        self.assertIn("Readings rise and fall slowly all over the tissue", " ".join(summary["warnings"]))
+        self.assertAlmostEqual(summary["area_mm2"], math.pi * 81, delta=50)
+        self.assertIn(b'"waves"', (self.folder / "waves" / "surface.vtp").read_bytes())
+
     def test_a_known_level_that_nothing_comes_near_is_told(self):
         for level, words in (("20", "above every reading"), ("0", "below every reading")):
             out = self.folder / level
