@@ -32,7 +32,7 @@ std::optional<WithoutBackground> without_tilt(const Surface& surface,
 /// Without slow waves that the readings have beside an edge (EdgeBelief::in_slow_waves), which is
 /// found without waves, or without those that two parallel surfaces share (waves.h): of texture and
 /// waves, which may be there in both, more probable than `simpler`. Nothing where no such surfaces
-/// are likelier than level ones.
+/// are likelier than level ones, or the sensor's zero moves.
 std::optional<WithoutBackground> without_waves(const Surface& surface,
                                                const std::vector<Palpation>& felt,
                                                const Known& flat, const Known& simpler,

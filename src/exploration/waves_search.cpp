@@ -21,6 +21,13 @@ struct Waved {
   EdgeInWaves edge;
 };
 
+/// While one sweeps over tissue, a zero that drifts passes for waves, and waves for it.
+bool has_moving_zero(const Known& known) {
+  return std::ranges::any_of(known.believed.evidence.taken_back, [](const Misfit& change) {
+    return change.kind == MisfitKind::Zero && change.session == 0;
+  });
+}
+
 class WavesSearch {
  public:
   WavesSearch(const Surface& surface, const std::vector<Palpation>& felt, const Known& flat,
@@ -46,13 +53,15 @@ class WavesSearch {
                                  [](const Palpation& one) { return !counts(one); });
   }
 
-  /// Nothing where no edge is seen, nor where readings stand out that do not with the waves.
+  /// Nothing where no edge is seen, where a zero moves beside the waves, nor where readings stand
+  /// out that do not with the waves.
   std::optional<Waved> tried(Field field) const {
     Misfit waves{.kind = MisfitKind::Waves};
     waves.background.waves = field.array() - field.mean();
     Known known = known_of_(with_changes_taken_back(surface_, felt_, {&waves, 1}));
     log_evidence_or_drop(known);
-    if (!known.boundary.edge || set_aside(known) > set_aside_) return std::nullopt;
+    if (!known.boundary.edge || has_moving_zero(known) || set_aside(known) > set_aside_)
+      return std::nullopt;
     EdgeInWaves edge = known.boundary.edge->in_slow_waves(waves.background.waves);
     waves.background.wave_scale = edge.scale;
     return Waved{std::move(waves), std::move(known), std::move(edge)};
@@ -84,6 +93,7 @@ std::optional<WithoutBackground> without_waves(const Surface& surface,
                                                const std::vector<Palpation>& felt,
                                                const Known& flat, const Known& simpler,
                                                const KnownOf& known_of) {
+  if (has_moving_zero(flat)) return std::nullopt;
   const Belief& belief = flat.believed.belief;
   const std::vector<Field> backgrounds = waves_of_parallel_surfaces(
       Layout(belief.prior()), gathered_for_edge(belief), surprising(), kBackgrounds);
