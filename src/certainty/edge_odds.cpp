@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "base/log_mean.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/edge_data.h"
 #include "certainty/wave_evidence.h"
@@ -13,8 +15,10 @@ namespace {
 
 /// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
-/// Texture, and slow waves.
-constexpr std::array kUnevenLengths_m = {0.012, 0.0225, 0.04, 0.07};
+/// Texture of real tissue beside an edge and slow waves, and how high it may be, of how the
+/// readings spread.
+constexpr double kTexture_m = 0.005;
+constexpr std::array kTextures = {0.0, 0.03, 0.1, 0.3};
 
 double spread_of(const Eigen::VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
@@ -35,6 +39,34 @@ SlowWaves waves_of(const Prior& correction, double length_m, const EdgeData& dat
 WavesFound likeliest(std::vector<WavesFound> found) {
   return *std::ranges::max_element(found, {}, &WavesFound::log_density);
 }
+
+/// By texture and slow waves.
+struct Explained {
+  double log_evidence = -std::numeric_limits<double>::infinity();  ///< the mean over both
+  double level = -std::numeric_limits<double>::infinity();         ///< by the likeliest texture
+  WavesFound most{};
+  std::size_t length = 0;  ///< of the likeliest waves
+
+  Explained(const Rows& rows, double spread, const Eigen::MatrixXd& texture,
+            const std::vector<SlowWaves>& waves) {
+    LogMean all;
+    for (const double height : kTextures) {
+      Rows textured = rows;
+      textured.covariance += std::pow(height * spread, 2) * texture * texture.transpose();
+      const WithWaves with(textured, spread);
+      level = std::max(level, with.level());
+      for (std::size_t i = 0; i < waves.size(); ++i) {
+        for (WavesFound& one : with.of(waves[i].terms())) {
+          all.add(one.log_density);
+          if (!(one.log_density > most.log_density)) continue;
+          most = std::move(one);
+          length = i;
+        }
+      }
+    }
+    log_evidence = all.value();
+  }
+};
 
 }  // namespace
 
@@ -81,32 +113,22 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
 EdgeInWaves EdgeBelief::in_slow_waves(const Field& taken_back) const {
   const Fit& fit = most_likely();
   const InWaves here(surface_, fit, taken_back);
-  const WithWaves edge(here.rows, spread_of(here.readings));
-  EdgeInWaves found{.log_evidence_level = edge.level() - freedom_};
-  std::vector<double> densities;
-  WavesFound most;
-  double best = edge.level();
-  for (const double one_m : kUnevenLengths_m) {
-    const bool is_slow = one_m >= kSlowLengths_m.front();
-    for (WavesFound& one : edge.of(waves_of(fit.correction, one_m, fit.data).terms())) {
-      densities.push_back(one.log_density);
-      best = std::max(best, one.log_density);
-      if (!is_slow || !(one.log_density > most.log_density)) continue;
-      found.scale = {one_m, one.height};
-      most = std::move(one);
-    }
-  }
-  if (most.coefficients.size() == 0) {  // no noise makes the covariance positive definite
-    found.log_evidence = found.log_evidence_level;
+  const double spread = spread_of(here.readings);
+  const Eigen::MatrixXd texture = waves_of(fit.correction, kTexture_m, fit.data).terms();
+  std::vector<SlowWaves> waves;
+  for (const double length_m : kSlowLengths_m)
+    waves.push_back(waves_of(fit.correction, length_m, fit.data));
+  const Explained edge(here.rows, spread, texture, waves),
+      none(without_edge(here.rows, here.readings), spread, texture, waves);
+  EdgeInWaves found{.log_evidence = edge.log_evidence - freedom_,
+                    .log_evidence_level = edge.level - freedom_,
+                    .log_evidence_without_edge = std::max(none.log_evidence, none.level)};
+  if (edge.most.coefficients.size() == 0) {  // no noise makes the covariance positive definite
     found.waves = Field::Zero(surface_.vertex_count());
     return found;
   }
-  double mean = 0.0;
-  for (const double one : densities)
-    mean += std::exp(one - best) / static_cast<double>(densities.size());
-  found.log_evidence = best + std::log(mean) - freedom_;
-  found.waves = waves_of(fit.correction, found.scale.length_m, fit.data)
-                    .at_vertices(most.height * most.coefficients);
+  found.scale = {kSlowLengths_m[edge.length], edge.most.height};
+  found.waves = waves[edge.length].at_vertices(edge.most.height * edge.most.coefficients);
   return found;
 }
 

@@ -6,16 +6,19 @@
 namespace palpation {
 namespace {
 
-/// How high waves may be, of how the readings spread, and how large the noise, of what it was taken
-/// for: standard deviations.
+/// How high waves may be and how large a reading's noise, of how the readings spread: standard
+/// deviations. The same for all explanations of the same readings, whatever noise each was found
+/// by.
 constexpr std::array kHeights = {0.1, 0.3, 1.0, 3.0};
-constexpr std::array kNoises = {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0};
+constexpr std::array kNoises = {0.005, 0.007, 0.01, 0.014, 0.02, 0.028, 0.04, 0.056,
+                                0.08,  0.11,  0.16, 0.22,  0.32, 0.45,  0.64, 0.9};
 
 }  // namespace
 
 WithWaves::WithWaves(const Rows& rows, double spread) : spread_(spread) {
+  const double one_reading = rows.data.variance.maxCoeff();
   for (const double noise : kNoises) {
-    const EdgeData data = with_noise(noise * noise, rows.data);
+    const EdgeData data = with_noise(noise * noise * spread * spread / one_reading, rows.data);
     Eigen::MatrixXd covariance = rows.covariance;
     covariance.diagonal() += data.variance;
     Eigen::LLT<Eigen::MatrixXd> factor(covariance);

@@ -29,7 +29,7 @@ struct WavesFound {
 /// without what depends on the number of readings alone, as EdgeBelief::log_evidence is.
 class WithWaves {
  public:
-  /// `spread`: how the readings do, which heights are multiples of.
+  /// `spread`: how the readings do, which heights and noise are multiples of.
   WithWaves(const Rows& rows, double spread);
 
   /// Without waves, by the likeliest noise.

@@ -14,6 +14,9 @@ constexpr int kBackgrounds = 4;  ///< of parallel surfaces: each costs a conclus
 /// So often waves are found again about the edge that is seen without them.
 constexpr int kWaveRounds = 3;
 
+/// Of the readings, at least, outside of a tumour in tissue that waves.
+constexpr std::ptrdiff_t kOneIn = 10;
+
 /// The readings without waves, and how probable they are with them.
 struct Waved {
   Misfit waves;
@@ -26,6 +29,19 @@ bool has_moving_zero(const Known& known) {
   return std::ranges::any_of(known.believed.evidence.taken_back, [](const Misfit& change) {
     return change.kind == MisfitKind::Zero && change.session == 0;
   });
+}
+
+/// Tissue that is stiff but for a patch is healthy, with a soft spot: waves hid the tumour.
+bool is_all_but_a_patch(const Known& known) {
+  const Surface& surface = known.believed.belief.prior().surface();
+  const Field& depth = known.boundary.edge->depth();
+  std::ptrdiff_t count = 0, outside = 0;
+  for (const Palpation& one : known.believed.palpations) {
+    if (!counts(one)) continue;
+    ++count;
+    outside += surface.interpolate(depth, one.where) < 0.0;
+  }
+  return kOneIn * outside < count;
 }
 
 class WavesSearch {
@@ -53,16 +69,18 @@ class WavesSearch {
                                  [](const Palpation& one) { return !counts(one); });
   }
 
-  /// Nothing where no edge is seen, where a zero moves beside the waves, nor where readings stand
-  /// out that do not with the waves.
+  /// Nothing where no edge is seen or waves alone explain as much, where a zero moves beside the
+  /// waves, nor where readings stand out that do not with the waves.
   std::optional<Waved> tried(Field field) const {
     Misfit waves{.kind = MisfitKind::Waves};
     waves.background.waves = field.array() - field.mean();
     Known known = known_of_(with_changes_taken_back(surface_, felt_, {&waves, 1}));
     log_evidence_or_drop(known);
-    if (!known.boundary.edge || has_moving_zero(known) || set_aside(known) > set_aside_)
+    if (!known.boundary.edge || has_moving_zero(known) || is_all_but_a_patch(known) ||
+        set_aside(known) > set_aside_)
       return std::nullopt;
     EdgeInWaves edge = known.boundary.edge->in_slow_waves(waves.background.waves);
+    if (!(edge.log_evidence > edge.log_evidence_without_edge + surprising())) return std::nullopt;
     waves.background.wave_scale = edge.scale;
     return Waved{std::move(waves), std::move(known), std::move(edge)};
   }

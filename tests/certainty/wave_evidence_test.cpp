@@ -83,10 +83,11 @@ TEST(WithWaves, AreAsProbableAsTheirCovarianceSays) {
   for (const WavesFound& one : found) {
     double best = -1e300;
     Eigen::VectorXd mean;
-    for (const double noise : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0}) {
+    for (const double noise : {0.005, 0.007, 0.01, 0.014, 0.02, 0.028, 0.04, 0.056, 0.08, 0.11,
+                               0.16, 0.22, 0.32, 0.45, 0.64, 0.9}) {
       Eigen::MatrixXd covariance =
           rows.covariance + one.height * one.height * waves.terms() * waves.terms().transpose();
-      covariance.diagonal().array() += 0.04 * noise * noise;
+      covariance.diagonal().array() += 0.49 * noise * noise;
       const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
       const double density = -0.5 * rows.off.dot(factor.solve(rows.off)) -
                              factor.matrixLLT().diagonal().array().log().sum();

@@ -63,11 +63,12 @@ struct EdgeOdds {
 
 /// An edge in healthy tissue that waves slowly.
 struct EdgeInWaves {
-  /// Of the readings, nats: the mean over waves of any height, texture of 12 mm among them.
+  /// Of the readings, nats: the mean over waves and texture of any height.
   double log_evidence = 0.0;
-  double log_evidence_level = 0.0;  ///< without waves
-  WaveScale scale{};                ///< of the likeliest slow waves
-  Field waves{};                    ///< their mean, at the vertices: the edge takes its part
+  double log_evidence_level = 0.0;         ///< with texture alone
+  double log_evidence_without_edge = 0.0;  ///< by texture and waves alone
+  WaveScale scale{};                       ///< of the likeliest slow waves
+  Field waves{};                           ///< their mean, at the vertices: the edge takes its part
 };
 
 class EdgeBelief {
