@@ -17,17 +17,13 @@ struct Known {
   BoundaryFit boundary;
 };
 
+Known known_by(const Surface& surface, const Model& model, Believed believed);
+
 /// A zero that moved and tissue that slopes are seen at once, and taken back. Whether a gain
 /// changed or the tissue moved costs a tenth of a second to ask, and is asked, and taken back,
 /// where `is_last`.
 Known known_as_if_unchanged(const Surface& surface, const Model& model,
                             const std::vector<Palpation>& felt, ConclusionCache& cache,
                             bool is_last);
-
-/// misfits(Conclusion), of its edge, its belief, and its readings without what was taken back.
-/// Tissue that moved is among them where that makes the outline likelier, too: a smooth field alone
-/// takes two readings of healthy tissue for the same place, and a raster for a move.
-std::vector<Misfit> misfits_of(const Model& model, const std::optional<EdgeBelief>& edge,
-                               const Belief& belief, std::span<const Palpation> readings);
 
 }  // namespace palpation

@@ -3,6 +3,7 @@
 
 #include "boundary/erosion.h"
 #include "exploration/as_if_unchanged.h"
+#include "exploration/change_search.h"
 #include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
 #include "palpation/base/error.h"

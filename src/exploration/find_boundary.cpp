@@ -37,8 +37,7 @@ BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& 
   std::vector<double> first_levels = {fit.level->value};
   if (const auto plateaus = two_plateaus(used_readings(belief.detrended_palpations())))
     first_levels.push_back(plateaus->low + fraction * (plateaus->high - plateaus->low));
-  fit.edge = EdgeBelief::around(belief, component, first_levels, fraction, {},
-                                noise_log_sd_of(model, belief));
+  fit.edge = edge_around(model, belief, component, first_levels);
   if (fit.edge) fit.level = fit.edge->level();
   // Where contact fades no profile fits: its plateau may run away, and with it the level, until it
   // is out of the mean's range or nothing is inside. That range is left: its least is felt all over
@@ -95,6 +94,13 @@ const Field* BoundaryFit::depth() const {
 const Field* BoundaryFit::offset_sd() const {
   if (outlines) return &outlines->spread;
   return edge ? &edge->offset_sd() : nullptr;
+}
+
+std::optional<EdgeBelief> edge_around(const Model& model, const Belief& belief,
+                                      const Marginals& component,
+                                      const std::vector<double>& first_levels) {
+  return EdgeBelief::around(belief, component, first_levels, model.level.fraction, {},
+                            noise_log_sd_of(model, belief));
 }
 
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,

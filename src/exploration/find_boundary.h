@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "exploration/believe.h"
 
@@ -24,6 +25,11 @@ struct BoundaryFit {
 /// vertices. Without outlines.
 BoundaryFit find_boundary(const Surface& surface, const Model& model, const Believed& believed,
                           const Marginals& component);
+
+/// EdgeBelief::around, as a model has it.
+std::optional<EdgeBelief> edge_around(const Model& model, const Belief& belief,
+                                      const Marginals& component,
+                                      const std::vector<double>& first_levels);
 
 /// Adds outlines, and takes the level from them, where the boundary has an edge.
 void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,

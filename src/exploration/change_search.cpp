@@ -1,0 +1,220 @@
+#include "exploration/change_search.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "exploration/taken_back.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+using Readings = std::vector<Palpation>;
+
+/// Of readings in the tumour, and of others.
+constexpr int kFewestAtEdge = 3;
+
+/// Less of a move is left to the outlines' sampling (outline_model.cpp).
+constexpr double kLeastMove_m = 0.0005;
+/// Farther than moves are tried (changed_since.cpp), by a step.
+constexpr double kFarthestMove_m = 0.008;
+/// Steps of a closer look, in metres and in readings; halved twice.
+constexpr double kFirstStep_m = 0.001, kLastStep_m = 0.00025;
+constexpr std::ptrdiff_t kReadingsOfStep = 4;
+
+bool is_change(const Misfit& misfit) {
+  return misfit.kind != MisfitKind::WeakerPart && !is_background(misfit);
+}
+
+/// Whether those before it and those since feel an edge: of healthy tissue alone nothing tells
+/// where it lies.
+bool is_felt_on_both_sides(const Misfit& move, double level, std::span<const Palpation> readings) {
+  std::array<std::array<int, 2>, 2> felt{};  // since or before, above the level or below
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const Palpation& one = readings[i];
+    if (counts(one)) ++felt[is_since(move, {one.batch, i, one.session})][one.reading >= level];
+  }
+  return std::ranges::all_of(
+      felt, [](const auto& side) { return std::ranges::min(side) >= kFewestAtEdge; });
+}
+
+/// Of versions of the same readings, those alone that count in all.
+void set_aside_alike(std::vector<Readings>& versions) {
+  for (Readings& version : versions) {
+    for (std::size_t i = 0; i < version.size(); ++i) {
+      for (const Readings& other : versions) {
+        if (version[i].set_aside.empty()) version[i].set_aside = other[i].set_aside;
+      }
+    }
+  }
+}
+
+/// No edge is the least that can be.
+double log_evidence_or_least(const std::optional<EdgeBelief>& edge) {
+  return edge ? edge->log_evidence() : std::numeric_limits<double>::lowest();
+}
+
+/// By an edge, of the readings that count in all these versions of the same.
+std::vector<double> log_evidences(const Surface& surface, const Model& model,
+                                  std::vector<Readings> versions) {
+  set_aside_alike(versions);
+  std::vector<double> evidences;
+  ConclusionCache apart;
+  for (Readings& version : versions)
+    evidences.push_back(log_evidence_or_least(
+        known_by(surface, model, believe(surface, model, std::move(version), apart))
+            .boundary.edge));
+  return evidences;
+}
+
+/// The same by edges about the boundary that is known, in the field that is.
+std::vector<double> log_evidences_around(const Known& known, const Model& model,
+                                         std::vector<Readings> versions) {
+  set_aside_alike(versions);
+  const Belief& belief = known.believed.belief;
+  const Belief blank(belief.prior(), belief.options());
+  std::vector<double> evidences(versions.size());
+  for_ranges(static_cast<int>(versions.size()), 1, [&](int first, int last) {
+    for (int i = first; i < last; ++i)
+      evidences[i] =
+          log_evidence_or_least(edge_around(model, blank.condition_on(versions[i]), known.component,
+                                            {known.boundary.edge->level().value}));
+  });
+  return evidences;
+}
+
+/// Of the density of readings over that of the same without a change: without a gain they are so
+/// much denser.
+double log_scale_of(const Misfit& change, std::span<const Palpation> readings) {
+  if (change.kind != MisfitKind::Gain) return 0.0;
+  std::ptrdiff_t since = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const Palpation& one = readings[i];
+    since += counts(one) && is_since(change, {one.batch, i, one.session});
+  }
+  return -std::log1p(change.amount) * static_cast<double>(since);
+}
+
+/// By how much more probable the readings are by an edge without each of these.
+std::vector<double> log_gains(std::span<const Misfit> changes, const Surface& surface,
+                              const Model& model, std::span<const Palpation> readings) {
+  std::vector<Readings> versions = {{readings.begin(), readings.end()}};
+  for (const Misfit& change : changes)
+    versions.push_back(with_changes_taken_back(surface, versions.front(), {&change, 1}));
+  std::vector<double> gains = log_evidences(surface, model, std::move(versions));
+  const double as_they_are = gains.front();
+  gains.erase(gains.begin());
+  for (std::size_t i = 0; i < gains.size(); ++i)
+    gains[i] += log_scale_of(changes[i], readings) - as_they_are;
+  return gains;
+}
+
+/// What a conclusion does not explain, the strongest first; of each kind once. A move is found by
+/// the field, which knows how far, or else by the edge, to first order.
+std::vector<Misfit> all_misfits(const std::optional<EdgeBelief>& edge, const Belief& belief,
+                                std::span<const Palpation> readings) {
+  if (!edge) return {};
+  std::vector<Misfit> found = edge->misfits();
+  std::optional<Misfit> move = changed_since(belief);
+  if (move && move->kind != MisfitKind::Moved) move.reset();
+  const auto by_edge = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
+  if (by_edge != found.end()) {
+    if (!move) move = *by_edge;
+    found.erase(by_edge);
+  }
+  if (move && move->amount >= kLeastMove_m && move->amount <= kFarthestMove_m &&
+      is_felt_on_both_sides(*move, edge->level().value, readings))
+    found.push_back(*move);
+  std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
+  return found;
+}
+
+/// In the plane that the readings lie in on the whole.
+std::pair<Vec3, Vec3> plane_of(const Surface& surface, const Readings& readings) {
+  Vec3 normal = Vec3::Zero();
+  for (const Palpation& one : readings) normal += surface.normal(one.where);
+  const Vec3 across = normal.unitOrthogonal();
+  return {across, normal.normalized().cross(across)};
+}
+
+Misfit moved_on(Misfit move, const Vec3& by_m) {
+  move.moved_m += by_m;
+  move.amount = move.moved_m.norm();
+  return move;
+}
+
+/// The same from another reading on.
+Misfit made_later(Misfit move, const Readings& felt, std::ptrdiff_t by) {
+  const std::ptrdiff_t number = static_cast<std::ptrdiff_t>(move.number) + by;
+  move.number =
+      static_cast<std::size_t>(std::clamp(number, std::ptrdiff_t{1}, std::ssize(felt) - 1));
+  move.from_batch = felt[move.number].batch;
+  return move;
+}
+
+}  // namespace
+
+std::optional<Misfit> change_to_take_back(const Model& model, const Known& known,
+                                          const std::vector<Palpation>& readings) {
+  const Belief& belief = known.believed.belief;
+  std::vector<Misfit> found = all_misfits(known.boundary.edge, belief, readings);
+  std::erase_if(found, [](const Misfit& misfit) { return !is_change(misfit); });
+  if (found.empty()) return std::nullopt;
+  const std::vector<double> gains = log_gains(found, belief.prior().surface(), model, readings);
+  const auto best = std::ranges::max_element(gains);
+  const Misfit& likeliest = found[best - gains.begin()];
+  if (likeliest.kind == MisfitKind::Zero || !(*best > surprising())) return std::nullopt;
+  return likeliest;
+}
+
+void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surface& surface,
+                    const Model& model, const std::vector<Palpation>& felt) {
+  const auto [across, along] = plane_of(surface, felt);
+  std::ptrdiff_t later = kReadingsOfStep;
+  for (double step_m = kFirstStep_m; step_m >= kLastStep_m; step_m *= 0.5, later /= 2) {
+    ConclusionCache apart;
+    const Known known =
+        known_by(surface, model,
+                 believe(surface, model, with_changes_taken_back(surface, felt, changes), apart));
+    if (!known.boundary.edge) return;
+    for (bool is_better = true; is_better;) {
+      const Misfit move = changes[which];
+      std::vector<Misfit> tried = {move};
+      for (const Vec3& way : {across, along}) {
+        tried.push_back(moved_on(move, step_m * way));
+        tried.push_back(moved_on(move, -step_m * way));
+      }
+      tried.push_back(made_later(move, felt, later));
+      tried.push_back(made_later(move, felt, -later));
+      std::vector<Readings> versions;
+      for (const Misfit& one : tried) {
+        changes[which] = one;
+        versions.push_back(with_changes_taken_back(surface, felt, changes));
+      }
+      const std::vector<double> evidences = log_evidences_around(known, model, std::move(versions));
+      const auto best = std::ranges::max_element(evidences);
+      changes[which] = tried[best - evidences.begin()];
+      is_better = best != evidences.begin();
+    }
+  }
+}
+
+std::vector<Misfit> misfits_of(const Model& model, const std::optional<EdgeBelief>& edge,
+                               const Belief& belief, std::span<const Palpation> readings) {
+  std::vector<Misfit> found = all_misfits(edge, belief, readings);
+  const auto move = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
+  if (move != found.end()) {
+    const std::vector<double> gain =
+        log_gains({&*move, 1}, belief.prior().surface(), model, readings);
+    if (!(gain.front() > surprising())) found.erase(move);
+  }
+  if (const auto strongest = std::ranges::find_if(found, is_change); strongest != found.end())
+    found.erase(std::remove_if(strongest + 1, found.end(), is_change), found.end());
+  return found;
+}
+
+}  // namespace palpation
