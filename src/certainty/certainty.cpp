@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/normal.h"
@@ -16,6 +17,8 @@ namespace palpation {
 namespace {
 
 constexpr double kFar_m = 0.008;
+/// On the outside.
+constexpr double kLeastScore = 1e-9;
 
 double boundary_length(const Surface& surface, const Field& score) {
   return outline_length(surface, level_loops(surface, score, 0.0));
@@ -98,6 +101,27 @@ Certainty without_part(Certainty certainty, const Surface& surface, std::span<co
   certainty.expected.extra_m2 *= share;
   certainty.expected.missed_m2 =
       share * certainty.expected.missed_m2 + normal_probability(score) * area_m2;
+  return certainty;
+}
+
+Certainty with_doubtful_part(Certainty certainty, const Belief& belief,
+                             std::span<const int> vertices, double edge_sd_m) {
+  const Surface& surface = belief.prior().surface();
+  const Layout layout(belief.prior());
+  std::vector<Vec3> part;
+  for (const int vertex : vertices) {
+    part.push_back(layout.at(vertex));
+    certainty.expected.missed_m2 += 0.5 * surface.vertex_areas()[vertex];
+  }
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    if (certainty.score[vertex] >= 0.0) continue;
+    const Vec3 place = layout.at(vertex);
+    double square = std::numeric_limits<double>::infinity();
+    for (const Vec3& other : part) square = std::min(square, (other - place).squaredNorm());
+    certainty.score[vertex] =
+        std::max(certainty.score[vertex], -std::max(std::sqrt(square) / edge_sd_m, kLeastScore));
+  }
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
   return certainty;
 }
 

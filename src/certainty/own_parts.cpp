@@ -77,16 +77,22 @@ OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& f
   return ordered(std::move(felt), field, low);
 }
 
-OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
-                      const SurfacePoint& place) {
+std::vector<int> around_summit(const Surface& surface, const Field& field, double low,
+                               const SurfacePoint& place) {
   const int summit = summit_near(surface, field, place);
   const double height = field[summit] - low;
-  if (!(height > 0.0)) return parts;
+  if (!(height > 0.0)) return {};
   for (std::vector<int>& vertices : superlevel_parts(surface, field, low + 0.5 * height)) {
-    if (!std::ranges::binary_search(vertices, summit)) continue;
-    if (!meets_any(parts, vertices)) parts.push_back({.vertices = std::move(vertices)});
-    break;
+    if (std::ranges::binary_search(vertices, summit)) return std::move(vertices);
   }
+  return {};
+}
+
+OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
+                      const SurfacePoint& place) {
+  std::vector<int> vertices = around_summit(surface, field, low, place);
+  if (vertices.empty()) return parts;
+  if (!meets_any(parts, vertices)) parts.push_back({.vertices = std::move(vertices)});
   return ordered(std::move(parts), field, low);
 }
 

@@ -24,8 +24,12 @@ using OwnParts = std::vector<OwnPart>;
 OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& field, double low,
                       const EdgeData& data);
 
-/// With one more, around the summit next to a place, down to half its height; without it, where
-/// that reaches another part.
+/// Around the summit next to a place, down to half its height; rising. Empty where it is no higher
+/// than low.
+std::vector<int> around_summit(const Surface& surface, const Field& field, double low,
+                               const SurfacePoint& place);
+
+/// With one more, around the summit next to a place; without it, where that reaches another part.
 OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
                       const SurfacePoint& place);
 

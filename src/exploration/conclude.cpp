@@ -4,6 +4,7 @@
 #include "boundary/erosion.h"
 #include "exploration/as_if_unchanged.h"
 #include "exploration/change_search.h"
+#include "exploration/doubtful_parts.h"
 #include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
 #include "palpation/base/error.h"
@@ -88,6 +89,7 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
                         std::move(contour),
                         std::move(certainty)};
   take_out_weak_parts(conclusion);
+  doubt_weaker_parts(conclusion);
   return conclusion;
 }
 

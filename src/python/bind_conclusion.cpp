@@ -111,6 +111,13 @@ py::dict summary(const Concluded& here) {
   }
   if (all.outlines) result["plateau_probability"] = all.outlines->plateau_probability;
   result["taken_back"] = changes_of(all);
+  py::list doubtful;
+  for (const DoubtfulPart& part : all.evidence.doubtful) {
+    const Vec3 at = belief.prior().surface().position(part.where);
+    doubtful.append(py::dict("position_m"_a = py::make_tuple(at.x(), at.y(), at.z()),
+                             "area_m2"_a = part.area_m2));
+  }
+  result["doubtful"] = doubtful;
   if (all.lag) {
     result["lag_m"] = all.lag->value_m;
     result["lag_sd_m"] = all.lag->stddev_m;

@@ -181,6 +181,10 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion))
     words.push_back(words_of(surface, conclusion.scale(), misfit));
+  for (const DoubtfulPart& part : conclusion.evidence.doubtful)
+    words.push_back("What stands out at " + place_words(surface.position(part.where), 1) +
+                    " is as likely tumour as not: its " + fixed(part.area_m2 * 1e6, 0) +
+                    " mm2 lie in the band, and half of them count as expected to be missed.");
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
     words.push_back(apart_words(conclusion.outlines->disagreement));
   std::erase(words, "");

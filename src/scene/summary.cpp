@@ -137,6 +137,16 @@ json session_json(const SessionChange& session) {
   return result;
 }
 
+json doubtful_json(const Conclusion& conclusion) {
+  json parts = json::array();
+  for (const DoubtfulPart& part : conclusion.evidence.doubtful) {
+    const Vec3 at = conclusion.belief.prior().surface().position(part.where);
+    parts.push_back({{"position_mm", {at.x() * kMm, at.y() * kMm, at.z() * kMm}},
+                     {"area_mm2", part.area_m2 * kMm2}});
+  }
+  return parts;
+}
+
 json taken_back_json(const Conclusion& conclusion) {
   json changes = json::array();
   for (const SessionChange& session : session_changes(conclusion))
@@ -190,6 +200,8 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
   }
   if (json changes = taken_back_json(episode.conclusion()); !changes.empty())
     result["taken_back"] = std::move(changes);
+  if (json doubtful = doubtful_json(episode.conclusion()); !doubtful.empty())
+    result["doubtful"] = std::move(doubtful);
   const bool found = !episode.estimate.empty();
   const json ruled_out = maybe(diameter_ruled_out_m(episode), kMm);
   result["nothing_wider_than_mm"] = found ? json(nullptr) : ruled_out;

@@ -36,12 +36,12 @@ Phantom one_disk(const Surface& tissue) {
   return Phantom(tissue, {Disk{kStrong, 0.006}}, {.low = 0.0, .high = 1.0, .noise = 0.05});
 }
 
-Phantom two_disks(const Surface& tissue) {
+Phantom two_disks(const Surface& tissue, double contrast = 0.62) {
   PhantomDesign design{.model = {.noise = 0.03}};
   design.lumps.resize(2);
   design.lumps[0].outline = Disk{kStrong, 0.006};
   design.lumps[1].outline = Disk{kWeak, 0.005};
-  design.lumps[1].contrast = 0.62;
+  design.lumps[1].contrast = contrast;
   return Phantom(tissue, design);
 }
 
@@ -111,6 +111,41 @@ TEST(LeastContrast, LeavesNothingWhereAllIsWeak) {
                                    felt_everywhere(tissue, two_disks(tissue), same));
   EXPECT_FALSE(none.level || none.contour || none.certainty || none.evidence.contrast_seen);
   EXPECT_EQ(none.evidence.weaker.size(), 2u);
+}
+
+// Nothing tells a weak tumour from a vessel: the outline does not hold it, and the band does.
+TEST(DoubtfulPart, OfAThirdOfTheContrastIsAsLikelyTumourAsNot) {
+  const Surface tissue = plane(51, 101);
+  const Conclusion conclusion =
+      conclude(tissue, {}, felt_everywhere(tissue, two_disks(tissue, 0.33), same));
+  const int weak = tissue.nearest_vertex(kWeak);
+  ASSERT_TRUE(conclusion.contour && conclusion.certainty);
+  EXPECT_LT(conclusion.contour->field[weak], conclusion.contour->level);
+  const Certainty& certainty = *conclusion.certainty;
+  EXPECT_NEAR(certainty.probability_inside()[weak], 0.5, 1e-6);
+  EXPECT_LT(certainty.score[weak], 0.0);
+  ASSERT_EQ(conclusion.evidence.doubtful.size(), 1u);
+  const DoubtfulPart& part = conclusion.evidence.doubtful.front();
+  EXPECT_LT((tissue.position(part.where) - kWeak).norm(), 0.005);
+  const double truth_m2 = 25e-6 * 3.14159265358979;
+  EXPECT_NEAR(part.area_m2, truth_m2, 0.25 * truth_m2);
+  EXPECT_GT(certainty.expected.missed_m2, 0.5 * part.area_m2);
+  for (int degrees = 0; degrees < 360; degrees += 10) {
+    const double angle = degrees * 3.14159265358979 / 180.0;
+    const Vec3 rim = kWeak + 0.005 * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    EXPECT_LT(std::abs(certainty.score[tissue.nearest_vertex(rim)]), certainty.band_score);
+  }
+}
+
+TEST(DoubtfulPart, IsNoneThatIsSurelyATumourOrStandsOutByTooLittle) {
+  const Surface tissue = plane(51, 101);
+  const auto doubtful_of = [&](double contrast, const Model& model) {
+    return conclude(tissue, model, felt_everywhere(tissue, two_disks(tissue, contrast), same))
+        .evidence.doubtful.size();
+  };
+  EXPECT_EQ(doubtful_of(0.62, {}), 0u);
+  EXPECT_EQ(doubtful_of(0.1, {}), 0u);
+  EXPECT_EQ(doubtful_of(0.33, {.contrast = {.least = 1.0}}), 0u) << "of a contrast of two";
 }
 
 // 16 + 80 touches of 25 x 50 mm.

@@ -78,6 +78,12 @@ Certainty doubted_as_a_whole(Certainty certainty, const Surface& surface, const 
 Certainty without_part(Certainty certainty, const Surface& surface, std::span<const int> vertices,
                        double score);
 
+/// What stands out and may be tumour, or healthy tissue that is stiffer than the rest: which, no
+/// reading tells. At these vertices, outside of the boundary, it is as likely as not; their own
+/// boundary is known to `edge_sd_m`, and lies in the band, too. A half of them counts as missed.
+Certainty with_doubtful_part(Certainty certainty, const Belief& belief,
+                             std::span<const int> vertices, double edge_sd_m);
+
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than
 /// the field is of it, and what it expects to be wrong there is told apart. Far is twice the radius
 /// of the smallest tumour of 0.5 cm2, 8 mm.

@@ -38,6 +38,12 @@ struct WeakerPart {
   double contrast = 0.0;  ///< there, above healthy tissue, in readings
 };
 
+/// What stands out beside a tumour by too little to be one surely (Misfit, MisfitKind::WeakerPart).
+struct DoubtfulPart {
+  SurfacePoint where;    ///< its highest place
+  double area_m2 = 0.0;  ///< where the field stands out half as high, or more
+};
+
 /// Whether the readings tell of a tumour at all.
 struct Evidence {
   bool contrast_seen = false;
@@ -54,6 +60,9 @@ struct Evidence {
   std::vector<Palpation> standing_alone{};
   /// What was taken out of the boundary as too weak for a tumour.
   std::vector<WeakerPart> weaker{};
+  /// What is not cut out and may yet be tumour, as likely as not: it lies in the band, and a half
+  /// of it counts as expected to be missed.
+  std::vector<DoubtfulPart> doubtful{};
   /// Slope, zeros, gains and moves of the tissue, in the order in which they were found: each is
   /// of readings without those before it. Numbers are those of Conclusion::palpations.
   std::vector<Misfit> taken_back{};

@@ -1,0 +1,58 @@
+#include "exploration/doubtful_parts.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "certainty/layout.h"
+#include "certainty/own_parts.h"
+#include "exploration/search_goal.h"
+
+namespace palpation {
+namespace {
+
+/// Of the strongest's contrast: half of what is cut out surely (edge_parts.cpp).
+constexpr double kLeastDoubtful = 0.2;
+
+/// Around the summit next to a place, down to half its height, as far as that is nearer than what
+/// the boundary encloses.
+std::vector<int> standing_out(const Conclusion& conclusion, const SurfacePoint& where) {
+  const Layout layout(conclusion.belief.prior());
+  const Surface& surface = layout.surface();
+  std::vector<Vec3> inside;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    if (conclusion.certainty->score[vertex] >= 0.0) inside.push_back(layout.at(vertex));
+  }
+  const Vec3 middle = layout.at(where);
+  std::vector<int> part =
+      around_summit(surface, conclusion.component.mean, conclusion.edge->profile().low, where);
+  std::erase_if(part, [&](int vertex) {
+    const Vec3 place = layout.at(vertex);
+    return std::ranges::any_of(inside, [&](const Vec3& other) {
+      return (other - place).squaredNorm() < (middle - place).squaredNorm();
+    });
+  });
+  return part;
+}
+
+}  // namespace
+
+void doubt_weaker_parts(Conclusion& conclusion) {
+  if (!conclusion.edge || !conclusion.certainty) return;
+  const Surface& surface = conclusion.belief.prior().surface();
+  const EdgeProfile& profile = conclusion.edge->profile();
+  const std::optional<double>& asked = conclusion.model.contrast.least;
+  const double least = std::max(kLeastDoubtful * (profile.high - profile.low),
+                                asked ? contrast_on_scale(conclusion, *asked) : 0.0);
+  for (const Misfit& misfit : conclusion.edge->misfits()) {
+    if (misfit.kind != MisfitKind::WeakerPart || misfit.amount < least) continue;
+    const std::vector<int> part = standing_out(conclusion, *misfit.where);
+    if (part.empty()) continue;
+    double area_m2 = 0.0;
+    for (const int vertex : part) area_m2 += surface.vertex_areas()[vertex];
+    conclusion.certainty = with_doubtful_part(std::move(*conclusion.certainty), conclusion.belief,
+                                              part, ShapePrior{}.correction_sd_m);
+    conclusion.evidence.doubtful.push_back({*misfit.where, area_m2});
+  }
+}
+
+}  // namespace palpation

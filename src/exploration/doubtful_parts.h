@@ -1,0 +1,14 @@
+/// What stands out beside a tumour, and may be another or healthy tissue that is stiffer.
+#pragma once
+
+#include "palpation/exploration/conclusion.h"
+
+namespace palpation {
+
+/// Adds to a conclusion's certainty, and to `doubtful`, what its edge names as weaker parts
+/// (EdgeBelief::misfits) and does not hold: vessels and texture stand out so, and so do tumours.
+/// Not where it stands out by a fifth of the strongest's contrast at most, or by less than the
+/// model's least contrast.
+void doubt_weaker_parts(Conclusion& conclusion);
+
+}  // namespace palpation
