@@ -78,21 +78,33 @@ OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& f
 }
 
 std::vector<int> around_summit(const Surface& surface, const Field& field, double low,
-                               const SurfacePoint& place) {
+                               const SurfacePoint& place, std::span<const int> others) {
   const int summit = summit_near(surface, field, place);
   const double height = field[summit] - low;
   if (!(height > 0.0)) return {};
+  const auto is_others = [&](int vertex) {
+    const Vec3 here = surface.vertex(vertex);
+    const double far = (surface.vertex(summit) - here).squaredNorm();
+    return std::ranges::any_of(others, [&](int other) {
+      return other == vertex || (surface.vertex(other) - here).squaredNorm() < far;
+    });
+  };
   for (std::vector<int>& vertices : superlevel_parts(surface, field, low + 0.5 * height)) {
-    if (std::ranges::binary_search(vertices, summit)) return std::move(vertices);
+    if (!std::ranges::binary_search(vertices, summit)) continue;
+    std::erase_if(vertices, is_others);
+    return std::ranges::binary_search(vertices, summit) ? std::move(vertices) : std::vector<int>();
   }
   return {};
 }
 
 OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
                       const SurfacePoint& place) {
-  std::vector<int> vertices = around_summit(surface, field, low, place);
+  std::vector<int> others;
+  for (const OwnPart& part : parts)
+    others.insert(others.end(), part.vertices.begin(), part.vertices.end());
+  std::vector<int> vertices = around_summit(surface, field, low, place, others);
   if (vertices.empty()) return parts;
-  if (!meets_any(parts, vertices)) parts.push_back({.vertices = std::move(vertices)});
+  parts.push_back({.vertices = std::move(vertices)});
   return ordered(std::move(parts), field, low);
 }
 

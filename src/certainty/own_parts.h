@@ -2,6 +2,7 @@
 /// of them as high as the strongest.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "certainty/edge_fit.h"
@@ -24,12 +25,12 @@ using OwnParts = std::vector<OwnPart>;
 OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& field, double low,
                       const EdgeData& data);
 
-/// Around the summit next to a place, down to half its height; rising. Empty where it is no higher
-/// than low.
+/// Around the summit next to a place, down to half its height, but for what is nearer to others;
+/// rising. Empty where that summit is one of the others, or no higher than low.
 std::vector<int> around_summit(const Surface& surface, const Field& field, double low,
-                               const SurfacePoint& place);
+                               const SurfacePoint& place, std::span<const int> others);
 
-/// With one more, around the summit next to a place; without it, where that reaches another part.
+/// With one more, around the summit next to a place, where that is in no other part.
 OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
                       const SurfacePoint& place);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "certainty/layout.h"
 #include "certainty/own_parts.h"
 #include "exploration/search_goal.h"
 
@@ -12,27 +11,6 @@ namespace {
 
 /// Of the strongest's contrast: half of what is cut out surely (edge_parts.cpp).
 constexpr double kLeastDoubtful = 0.2;
-
-/// Around the summit next to a place, down to half its height, as far as that is nearer than what
-/// the boundary encloses.
-std::vector<int> standing_out(const Conclusion& conclusion, const SurfacePoint& where) {
-  const Layout layout(conclusion.belief.prior());
-  const Surface& surface = layout.surface();
-  std::vector<Vec3> inside;
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    if (conclusion.certainty->score[vertex] >= 0.0) inside.push_back(layout.at(vertex));
-  }
-  const Vec3 middle = layout.at(where);
-  std::vector<int> part =
-      around_summit(surface, conclusion.component.mean, conclusion.edge->profile().low, where);
-  std::erase_if(part, [&](int vertex) {
-    const Vec3 place = layout.at(vertex);
-    return std::ranges::any_of(inside, [&](const Vec3& other) {
-      return (other - place).squaredNorm() < (middle - place).squaredNorm();
-    });
-  });
-  return part;
-}
 
 }  // namespace
 
@@ -43,9 +21,14 @@ void doubt_weaker_parts(Conclusion& conclusion) {
   const std::optional<double>& asked = conclusion.model.contrast.least;
   const double least = std::max(kLeastDoubtful * (profile.high - profile.low),
                                 asked ? contrast_on_scale(conclusion, *asked) : 0.0);
+  std::vector<int> inside;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    if (conclusion.certainty->score[vertex] >= 0.0) inside.push_back(vertex);
+  }
   for (const Misfit& misfit : conclusion.edge->misfits()) {
     if (misfit.kind != MisfitKind::WeakerPart || misfit.amount < least) continue;
-    const std::vector<int> part = standing_out(conclusion, *misfit.where);
+    const std::vector<int> part =
+        around_summit(surface, conclusion.component.mean, profile.low, *misfit.where, inside);
     if (part.empty()) continue;
     double area_m2 = 0.0;
     for (const int vertex : part) area_m2 += surface.vertex_areas()[vertex];

@@ -74,7 +74,20 @@ std::string waves_words(const Surface& surface, ReadingScale scale, const Field&
          at(highest) + " than at " + at(lowest) + ". That is taken from them.";
 }
 
-std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& misfit) {
+/// Of what may be tumour.
+std::string doubt_words(const Conclusion& conclusion, const Misfit& misfit) {
+  const Surface& surface = conclusion.belief.prior().surface();
+  for (const DoubtfulPart& part : conclusion.evidence.doubtful) {
+    if (surface.position(part.where) == surface.position(*misfit.where))
+      return ". It may be tumour or not: its " + fixed(part.area_m2 * 1e6, 0) +
+             " mm2 lie in the band, and half of them count as missed";
+  }
+  return "";
+}
+
+std::string words_of(const Conclusion& conclusion, const Misfit& misfit) {
+  const Surface& surface = conclusion.belief.prior().surface();
+  const ReadingScale scale = conclusion.scale();
   switch (misfit.kind) {
     case MisfitKind::Zero:
       return since_words(misfit) + "readings lie " + raised_words(scale, misfit.amount) +
@@ -96,8 +109,8 @@ std::string words_of(const Surface& surface, ReadingScale scale, const Misfit& m
       return waves_words(surface, scale, misfit.background.waves);
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
-             standing_out_words(scale, misfit.amount) +
-             ", which the outline does not hold. Touch there.";
+             standing_out_words(scale, misfit.amount) + ", which the outline does not hold" +
+             doubt_words(conclusion, misfit) + (misfit.amount > 0.0 ? ". Touch there." : ".");
   }
   return "";
 }
@@ -134,8 +147,8 @@ std::vector<std::string> session_words(ReadingScale scale,
 }
 
 std::string taken_back_words(const Surface& surface, ReadingScale scale, const Misfit& change) {
-  const std::string since = "From batch " + std::to_string(change.from_batch) + ", reading " +
-                            std::to_string(change.number + 1) + ", on ";
+  const std::string since = "Since reading " + std::to_string(change.number + 1) + ", of batch " +
+                            std::to_string(change.from_batch) + ", ";
   switch (change.kind) {
     case MisfitKind::Gain:
       return since + "what stands out does so " + fixed(1.0 + change.amount, 2) +
@@ -179,12 +192,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& change : other_changes(conclusion))
     words.push_back(taken_back_words(surface, conclusion.scale(), change));
   words.push_back(sessions_as_one_words(conclusion));
-  for (const Misfit& misfit : misfits(conclusion))
-    words.push_back(words_of(surface, conclusion.scale(), misfit));
-  for (const DoubtfulPart& part : conclusion.evidence.doubtful)
-    words.push_back("What stands out at " + place_words(surface.position(part.where), 1) +
-                    " is as likely tumour as not: its " + fixed(part.area_m2 * 1e6, 0) +
-                    " mm2 lie in the band, and half of them count as expected to be missed.");
+  for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
     words.push_back(apart_words(conclusion.outlines->disagreement));
   std::erase(words, "");

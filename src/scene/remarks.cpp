@@ -30,7 +30,7 @@ constexpr double kMuchStiff = 0.5;  // of the tissue
 constexpr int kManySites = 1000;    // would be cheaper by reduced rank, if anything would
 /// Expected wrong area beyond this part of the area found is told: the boundary is then hardly
 /// better than a guess.
-constexpr double kLargeShare = 0.25;
+constexpr double kLargeShare = 0.25, kSmallShare = 0.05;
 constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
 
 /// How many readings were set aside for a reason, and where the first of them are.
@@ -180,9 +180,8 @@ Remarks level_remarks(const Exploration& exploration) {
        remarks_on_level_set(surface, contour.field, contour.level).words())
     remarks.push_back(remark + '.');
   // At an edge a slope was asked for.
-  const bool knows_slope = conclusion.belief.prior().has_slope() || conclusion.edge;
-  const double plane =
-      knows_slope ? 0.0 : explained_by_plane(surface, readings_as_if_unchanged(conclusion));
+  if (conclusion.belief.prior().has_slope() || conclusion.edge) return remarks;
+  const double plane = explained_by_plane(surface, readings_as_if_unchanged(conclusion));
   if (plane > kMuchPlane)
     remarks.push_back(
         "A plane explains " + percent(plane) +
@@ -205,11 +204,11 @@ std::string border_words(const std::vector<TumourPart>& parts) {
 /// Where no place is inside in more than half of the outlines.
 Remarks nothing_found_remarks(const Conclusion& conclusion) {
   if (!conclusion.outlines || conclusion.tip_hides_all()) return {};
-  const DrawnNumber& area_m2 = conclusion.outlines->area_m2;
+  const double most_mm2 = std::ceil(conclusion.outlines->area_m2.most * 1e6);
   return {
       "Nowhere is it more probable than not that tissue is tumour, so nothing is drawn: it may "
-      "hold none, or " +
-      fixed(area_m2.most * 1e6, 0) + " mm2 that the readings do not place."};
+      "hold none, or up to " +
+      fixed(most_mm2, 0) + " mm2 that the readings do not place."};
 }
 
 Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>& parts) {
@@ -260,7 +259,8 @@ Remarks area_remarks(const Episode& episode, bool has_parts) {
                       percent(certainty->expected.symmetric_difference_m2() / found_m2) +
                       " of the area found: more readings are needed.");
   else if (const std::optional<double> times = over_reachable(episode);
-           times && *times > kMuchOverReachable)
+           times && *times > kMuchOverReachable &&
+           certainty->expected.symmetric_difference_m2() > kSmallShare * found_m2)
     remarks.push_back("The boundary is expected to be wrong by " +
                       fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
                       fixed(*times, 0) +
@@ -278,7 +278,11 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   if (std::string words = goal_words(episode); !words.empty()) remarks.push_back(std::move(words));
   std::ranges::move(screening_remarks(exploration), std::back_inserter(remarks));
   const auto add = [&](Remarks&& more) { std::ranges::move(more, std::back_inserter(remarks)); };
-  if (conclusion.belief.site_count() == 0) return remarks;
+  if (conclusion.belief.site_count() == 0) {
+    if (!conclusion.palpations.empty())
+      remarks.push_back("No reading counts: of this tissue nothing is known.");
+    return remarks;
+  }
   add(field_remarks(exploration));
   if (!conclusion.level) {
     add(misfit_words(conclusion));

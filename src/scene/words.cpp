@@ -161,11 +161,10 @@ std::string no_level_words(const Exploration& exploration) {
   if (exploration.conclusion().evidence.trend_is_missing) return kTooFewForTrend;
   if (!exploration.conclusion().evidence.weaker.empty())
     return "Nothing found that stands out by plan.min_contrast: " + weaker_words(exploration) + ".";
-  const std::vector<double> readings = readings_that_count(exploration);
+  const std::vector<double> readings = used_readings(exploration.conclusion().palpations);
   if (readings.size() > 1 && all_equal(readings))
     return "Nothing found: all " + std::to_string(readings.size()) + " readings are equal, " +
-           reading_text(as_reading(exploration.conclusion().scale(), readings.front())) +
-           ", to the last digit, as if the sensor were stuck.";
+           reading_text(readings.front()) + ", to the last digit, as if the sensor were stuck.";
   if (exploration.conclusion().evidence.of_edge) return slow_wave_words(exploration);
   return kNoContrast;
 }

@@ -116,7 +116,7 @@ class Worlds(InFolder):
         summary = self.summary("simulate", scene, "--seed", 11)
         (change,) = summary["taken_back"]
         self.assertAlmostEqual(change["reading"], 41, delta=3)  # the catalogue's, after 40 stops
-        said = f"From batch {change['batch']}, reading {change['reading']}, on readings lie {change['amount']:.3f} higher than before"
+        said = f"Since reading {change['reading']}, of batch {change['batch']}, readings lie {change['amount']:.3f} higher than before"
         self.assertTrue(any(words.startswith(said) for words in summary["warnings"]), summary["warnings"])
         self.assertLess(summary["error"]["symmetric_difference_mm2"], 20)
 
@@ -133,7 +133,7 @@ class Worlds(InFolder):
         self.assertAlmostEqual(change["reading"], 61, delta=6)
         right, up, out = change["moved_mm"]
         self.assertLess(math.hypot(right - 3, up - 2, out), 1.5)
-        said = f"From batch {change['batch']}, reading {change['reading']}, on the tissue lies {math.hypot(right, up, out):.1f} mm from where it lay"
+        said = f"Since reading {change['reading']}, of batch {change['batch']}, the tissue lies {math.hypot(right, up, out):.1f} mm from where it lay"
         self.assertTrue(any(words.startswith(said) for words in summary["warnings"]), summary["warnings"])
         self.assertLess(abs(summary["area_mm2"] - math.pi * 36), 3 * summary["expected_error_mm2"])
 
