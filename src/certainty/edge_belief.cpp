@@ -81,15 +81,15 @@ EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_co
 }
 
 /// Of low, high, log slope, and how much higher than high each plateau of its own is.
-ProfilePrior profile_prior(double least, double range, const ShapePrior& shape,
-                           const OwnParts& parts) {
-  const double plateau_sd = shape.plateau_error * range, own_sd = shape.own_contrast_sd * range;
+ProfilePrior profile_prior(const Belief& belief, double least, double range,
+                           const ShapePrior& shape, const OwnParts& parts) {
+  const double sd = plateau_sd(belief, range), own_sd = shape.own_contrast_sd * range;
   int own = 0;
   for (const OwnPart& part : parts) own = std::max(own, part.plateau);
   ProfilePrior prior{ProfileParameters::Zero(kCommonParameters + own),
                      Eigen::VectorXd::Constant(kCommonParameters + own, own_sd * own_sd)};
   prior.mean.head<kCommonParameters>() << least, least + range, std::log(shape.slope_per_m);
-  prior.variance.head<kCommonParameters>() << plateau_sd * plateau_sd, plateau_sd * plateau_sd,
+  prior.variance.head<kCommonParameters>() << sd * sd, sd * sd,
       shape.slope_log_sd * shape.slope_log_sd;
   return prior;
 }
@@ -163,7 +163,7 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   all.variance = all.variance.cwiseMax(model_variance);
 
   const std::size_t readings = all.places.size();
-  const ProfilePrior profile = profile_prior(least, range, shape, parts);
+  const ProfilePrior profile = profile_prior(belief, least, range, shape, parts);
   const std::vector<int> nearest = nearest_parts(Layout(belief.prior()), parts);
   const std::vector<Start> starts = likely_starts(
       belief, {task.field, task.first_levels, low, parts, nearest}, std::move(all), profile, shape);

@@ -14,6 +14,10 @@
 namespace palpation {
 namespace {
 
+/// Of the range, at least, where a standard deviation is given: a ridge as wide as the edge reaches
+/// four fifths of its height.
+constexpr double kPlateauError = 0.25;
+
 constexpr double kRounding = 1e-13;
 constexpr double kDeep_m = 0.008;
 /// Of what is merged far from the boundary: something else that stands out there is still seen.
@@ -160,6 +164,10 @@ EdgeData with_plateaus_merged(const Layout& layout, const EdgeData& data) {
     const auto merged = std::ranges::count_if(rows, [](const auto& row) { return row.size() > 1; });
     if (merged <= kMany) return summed_up(data, rows);
   }
+}
+
+double plateau_sd(const Belief& belief, double range) {
+  return std::max(belief.signal_sd(), kPlateauError * range);
 }
 
 }  // namespace palpation

@@ -32,4 +32,9 @@ bool measure_depths(const Layout& layout, const Field& field, double level,
 /// number.
 EdgeData with_plateaus_merged(const Layout& layout, const EdgeData& data);
 
+/// How far a plateau may lie from the least or greatest of the belief's mean, whose range this is,
+/// in reading units: noise draws the mean in, so half of the contrast, which is the field's own
+/// standard deviation.
+double plateau_sd(const Belief& belief, double range);
+
 }  // namespace palpation

@@ -39,6 +39,10 @@ class OutlineChain {
   /// Proposes that readings after a change were made elsewhere.
   bool move_tissue(int change, const Vec2& moved_m, Random& random);
 
+  /// The same, and that all nodes move to these places, by the proposal as likely as back.
+  bool move_tissue_and_nodes(int change, const Vec2& moved_m, const std::vector<Vec2>& places,
+                             Random& random);
+
   /// Another noise, background and other readings that tell nothing, from what they are given all
   /// else. Returns the zero's steps, drawn with them.
   Eigen::VectorXd redraw_residuals(Random& random);

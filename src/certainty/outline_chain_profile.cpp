@@ -41,6 +41,31 @@ bool OutlineChain::move_tissue(int change, const Vec2& moved_m, Random& random) 
   return taken;
 }
 
+bool OutlineChain::move_tissue_and_nodes(int change, const Vec2& moved_m,
+                                         const std::vector<Vec2>& places, Random& random) {
+  const OutlineNodes outline = outline_;
+  const OutlineProfile profile = profile_;
+  const auto log_prior = [&] {
+    return log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
+  };
+  const double before = log_prior();
+  outline_.place = places;
+  pieces_ = OutlinePieces(outline_);
+  profile_.moved_m[change] = moved_m;
+  bool taken = is_simple(outline_);
+  if (taken) {
+    consider_none();
+    for (std::size_t i = 0; i < felt_.size(); ++i) consider(i, felt_anew(i), law_);
+    taken = takes(log_prior() - before, random);
+  }
+  if (!taken) {
+    outline_ = outline;
+    pieces_ = OutlinePieces(outline_);
+    profile_ = profile;
+  }
+  return taken;
+}
+
 Eigen::VectorXd OutlineChain::redraw_residuals(Random& random) {
   Eigen::VectorXd steps = residuals_.redraw(random);
   profile_.log_noise = residuals_.log_noise();

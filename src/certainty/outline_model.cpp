@@ -8,8 +8,8 @@
 namespace palpation {
 namespace {
 
-constexpr double kWildReach = 12.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
-constexpr double kTurnLogSd = 1.0;   ///< of the turns' half width
+constexpr double kWildReach = 6.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
+constexpr double kTurnLogSd = 1.0;  ///< of the turns' half width
 constexpr double kPlateau = 2.0 / 3.0;  ///< part of the tumours that are as equation 4 has them
 constexpr double kUnbentLogSd = 0.25;   ///< of shoulder and skirt there
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
@@ -17,7 +17,7 @@ constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
-constexpr double kMoved_m = 0.002;      ///< sd of what is left of a move, as finely as it was tried
+constexpr double kMoved_m = 0.003;      ///< sd of a move, on each axis
 
 double half_square(double z) { return 0.5 * z * z; }
 
@@ -124,7 +124,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
-  for (const Vec2& moved_m : profile.moved_m) sum += half_square(moved_m.norm() / kMoved_m);
+  for (std::size_t change = 0; change < profile.moved_m.size(); ++change)
+    sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() / kMoved_m);
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
   return std::log(Kinds(profile).both()) - sum;

@@ -64,4 +64,16 @@ double depth_in(const OutlineNodes& outline, const Vec2& place) {
   return is_inside(outline, place) ? distance : -distance;
 }
 
+bool is_simple(const OutlineNodes& outline) {
+  for (int a = 0; a < outline.count(); ++a) {
+    for (int b = a + 1; b < outline.count(); ++b) {
+      if (b == outline.next(a) || a == outline.next(b)) continue;
+      if (cross_each_other(outline.place[a], outline.place[outline.next(a)], outline.place[b],
+                           outline.place[outline.next(b)]))
+        return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace palpation

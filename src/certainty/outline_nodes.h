@@ -60,6 +60,9 @@ double enclosed_area(const std::vector<Vec2>& line);
 /// As many places, at equal distances along the line, its first one among them.
 std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, int count);
 
+/// Whether no two pieces cross.
+bool is_simple(const OutlineNodes& outline);
+
 /// Where a place lies: the least distance from any piece, and the piece's first node.
 struct NearestPiece {
   double square = 0.0;

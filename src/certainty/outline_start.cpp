@@ -179,17 +179,17 @@ OutlineNodes outline_from(const std::vector<std::vector<Vec2>>& lines,
   return outline;
 }
 
-/// Between lines of nodes that were smooth curves before: those of two loops may cross.
-bool is_simple(const OutlineNodes& outline) {
-  for (int a = 0; a < outline.count(); ++a) {
-    for (int b = a + 1; b < outline.count(); ++b) {
-      if (b == outline.next(a) || a == outline.next(b)) continue;
-      if (cross_each_other(outline.place[a], outline.place[outline.next(a)], outline.place[b],
-                           outline.place[outline.next(b)]))
-        return false;
-    }
-  }
-  return true;
+/// What would take each move back again, where the tumour is deepest: of another change, nothing.
+std::vector<Vec2> unmoved(const Surface& surface, const EdgeBelief& edge,
+                          std::span<const Misfit> changes) {
+  Eigen::Index middle = 0;
+  edge.depth().maxCoeff(&middle);
+  const Vec3 place = surface.vertex(static_cast<int>(middle));
+  std::vector<Vec2> all;
+  for (const Misfit& change : changes)
+    all.push_back(chart_place(surface, surface.project(place + change.moved_m)) -
+                  chart_place(surface, surface.project(place)));
+  return all;
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
             .log_turn = std::log(kTurn),
             .log_spacing = std::vector(start.outline.loops.size(), std::log(kSpacing_m)),
             .log_contrast = {},
-            .moved_m = std::vector<Vec2>(changes.size(), Vec2::Zero()),
+            .moved_m = unmoved(surface, edge, changes),
             .log_gain = std::vector(changes.size(), 0.0)};
   for (const Misfit& change : changes) {
     start.prior.changes.push_back(change.kind);
@@ -239,7 +239,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   int parts = 1;
   for (const NodeLoop& loop : start.outline.loops) parts = std::max(parts, loop.part + 1);
   median.log_contrast.assign(static_cast<std::size_t>(parts), 0.0);
-  start.prior.plateau_sd = shape.plateau_error * (median.high - median.low);
+  start.prior.plateau_sd = plateau_sd(belief, median.high - median.low);
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;
@@ -250,6 +250,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   start.prior.radius_m =
       std::sqrt(std::abs(enclosed_area({nodes.begin(), nodes.end()})) / std::numbers::pi);
   start.profile = median;
+  start.profile.moved_m.assign(changes.size(), Vec2::Zero());
   start.profile.low = profile.low;
   start.profile.high = profile.high;
   start.profile.log_slope = std::log(profile.slope_per_m);

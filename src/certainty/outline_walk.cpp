@@ -17,6 +17,7 @@ constexpr double kFirst_m = 0.0003, kLeast_m = 1e-8, kMost_m = 0.008;
 constexpr double kOfNodes = 0.3, kOfNumbers = 0.4;
 constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
+constexpr double kNear_m = 0.003, kNothingFelt = 1e-12;
 constexpr double kTradedGain = 0.2;
 constexpr int kProfileRounds = 2;
 constexpr int kResidualsEvery = 4;  ///< sweeps: it costs as much as they do
@@ -27,6 +28,24 @@ double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform
 Vec2 direction_of(Random& random) {
   const double angle = angle_of(random);
   return {std::cos(angle), std::sin(angle)};
+}
+
+/// Of what is felt near each node, the part that was after a change.
+std::vector<double> share_since(const OutlineReadings& readings, const OutlinePrior& prior,
+                                int change, const OutlineNodes& outline) {
+  std::vector<double> share;
+  for (const Vec2& node : outline.place) {
+    double since = 0.0, all = kNothingFelt;
+    for (std::size_t i = 0; i < readings.places.size(); ++i) {
+      const double near =
+          std::exp(-0.5 * (readings.places[i] - node).squaredNorm() / (kNear_m * kNear_m));
+      const int epoch = readings.epoch.empty() ? 0 : readings.epoch[i];
+      if (std::ranges::count(prior.epochs[epoch], change) > 0) since += near;
+      all += near;
+    }
+    share.push_back(since / all);
+  }
+  return share;
 }
 
 }  // namespace
@@ -41,6 +60,9 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   for (auto& lengths : lengths_.of_loops) lengths.fill(kFirst_m);
   lengths_.of_contrasts.assign(chain_.profile().log_contrast.size(), 0.1);
   lengths_.of_changes.assign(prior.changes.size(), kFirst_m);
+  lengths_.of_moves.assign(prior.changes.size(), kFirst_m);
+  for (std::size_t change = 0; change < prior.changes.size(); ++change)
+    felt_since_.push_back(share_since(readings, prior, static_cast<int>(change), outline));
   const double plateau = 0.2 * prior.plateau_sd;
   lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
@@ -182,6 +204,7 @@ void OutlineWalk::move_changes() {
         const Vec2 next = profile.moved_m[change] + step * direction_of(random_);
         tune(length, chain_.move_tissue(static_cast<int>(change), next, random_), kOfNodes,
              kMost_m);
+        move_with_nodes(change);
         break;
       }
       case MisfitKind::Gain:
@@ -193,6 +216,18 @@ void OutlineWalk::move_changes() {
         break;  // the background's
     }
   }
+}
+
+/// What was felt since lies as far from the outline there, where before it nobody felt that.
+void OutlineWalk::move_with_nodes(std::size_t change) {
+  double& length = lengths_.of_moves[change];
+  const Vec2 way = length * random_.normal() * direction_of(random_);
+  std::vector<Vec2> places = chain_.outline().place;
+  for (std::size_t node = 0; node < places.size(); ++node)
+    places[node] += felt_since_[change][node] * way;
+  const Vec2 next = chain_.profile().moved_m[change] + way;
+  tune(length, chain_.move_tissue_and_nodes(static_cast<int>(change), next, places, random_),
+       kOfNodes, kMost_m);
 }
 
 /// Of a change and the next gain: what is felt after both may tell of neither alone.

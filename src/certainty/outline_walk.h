@@ -44,6 +44,7 @@ class OutlineWalk {
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres
     std::vector<double> of_contrasts;
     std::vector<double> of_changes;
+    std::vector<double> of_moves;  ///< with nodes, metres
     std::array<double, kOfProfile> of_profile;
     std::array<double, kOfCut> of_cuts;
   };
@@ -54,6 +55,7 @@ class OutlineWalk {
   void move_loop(int loop, int kind);
   void move_profile();
   void move_changes();
+  void move_with_nodes(std::size_t change);
   void trade_gain(std::size_t change);
   void move_cuts();
   void tune(double& length, bool taken, double share, double most) const;
@@ -61,7 +63,8 @@ class OutlineWalk {
   OutlineChain chain_;
   Random random_;
   Lengths lengths_;
-  Eigen::VectorXd steps_;  // of the zero, as last drawn
+  std::vector<std::vector<double>> felt_since_;  // by change and node, a share
+  Eigen::VectorXd steps_;                        // of the zero, as last drawn
   bool settling_ = false;
   int swept_ = 0;
 };

@@ -25,6 +25,9 @@ constexpr double kFarthestMove_m = 0.008;
 /// Steps of a closer look, in metres and in readings; halved twice.
 constexpr double kFirstStep_m = 0.001, kLastStep_m = 0.00025;
 constexpr std::ptrdiff_t kReadingsOfStep = 4;
+constexpr double kMoved_m = 0.003;  ///< sd of a move beforehand (outline_model.cpp)
+/// What stands out by less of what it did is no gain of a sensor that works.
+constexpr double kLeastGain = 0.1;
 
 bool is_change(const Misfit& misfit) {
   return misfit.kind != MisfitKind::WeakerPart && !is_background(misfit);
@@ -119,6 +122,9 @@ std::vector<Misfit> all_misfits(const std::optional<EdgeBelief>& edge, const Bel
                                 std::span<const Palpation> readings) {
   if (!edge) return {};
   std::vector<Misfit> found = edge->misfits();
+  std::erase_if(found, [](const Misfit& misfit) {
+    return misfit.kind == MisfitKind::Gain && 1.0 + misfit.amount < kLeastGain;
+  });
   std::optional<Misfit> move = changed_since(belief);
   if (move && move->kind != MisfitKind::Moved) move.reset();
   const auto by_edge = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
@@ -195,7 +201,9 @@ void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surfa
         changes[which] = one;
         versions.push_back(with_changes_taken_back(surface, felt, changes));
       }
-      const std::vector<double> evidences = log_evidences_around(known, model, std::move(versions));
+      std::vector<double> evidences = log_evidences_around(known, model, std::move(versions));
+      for (std::size_t i = 0; i < tried.size(); ++i)
+        evidences[i] -= 0.5 * tried[i].moved_m.squaredNorm() / (kMoved_m * kMoved_m);
       const auto best = std::ranges::max_element(evidences);
       changes[which] = tried[best - evidences.begin()];
       is_better = best != evidences.begin();

@@ -17,8 +17,9 @@ std::optional<Misfit> change_to_take_back(const Model& model, const Known& known
 
 /// A move found by a field, which is too smooth to follow an edge, is off by half a field's length,
 /// and its moment by some readings. Uphill from there, by steps that are halved, to how far and
-/// since which reading it makes the readings `felt` the most probable by their edge, all `changes`
-/// taken back. `which`: of these, the move.
+/// since which reading is most probable by the edge of the readings `felt`, all `changes` taken
+/// back: across the rows of a raster, where nothing is felt before and since, not at all. `which`:
+/// of these, the move.
 void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surface& surface,
                     const Model& model, const std::vector<Palpation>& felt);
 

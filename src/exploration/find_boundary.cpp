@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certainty/contrast.h"
+#include "certainty/edge_data.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
 #include "readings/contact.h"
@@ -47,7 +48,7 @@ BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& 
              is_empty = fit.edge && fit.edge->depth().maxCoeff() < 0.0;
   if (is_felt && !is_empty) return fit;
   fit = {.level = level_from_range(component, fraction)};
-  fit.level->stddev = fraction * ShapePrior{}.plateau_error * (greatest - least);
+  fit.level->stddev = fraction * plateau_sd(belief, greatest - least);
   return fit;
 }
 

@@ -39,10 +39,7 @@ struct ShapePrior {
   double corner_length_m = 0.006;      ///< the same of outlines with corners
   double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
-  /// The field's mean shows each plateau to within this part of its range: a ridge of the slope's
-  /// own width reaches four fifths of its height.
-  double plateau_error = 0.25;
-  double own_contrast_sd = 0.5;  ///< of a part beside the strongest, of its contrast
+  double own_contrast_sd = 0.5;        ///< of a part beside the strongest, of its contrast
 };
 
 /// What is not known of a noise that `readings` readings taught: the standard deviation of the
