@@ -79,7 +79,8 @@ OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& f
 
 std::vector<int> around_summit(const Surface& surface, const Field& field, double low,
                                const SurfacePoint& place, std::span<const int> others) {
-  const int summit = summit_near(surface, field, place);
+  int summit = summit_near(surface, field, place);
+  if (std::ranges::count(others, summit) > 0) summit = corner_at(surface, place);
   const double height = field[summit] - low;
   if (!(height > 0.0)) return {};
   const auto is_others = [&](int vertex) {

@@ -26,11 +26,12 @@ OwnParts parts_inside(const Surface& surface, const Field& depth, const Field& f
                       const EdgeData& data);
 
 /// Around the summit next to a place, down to half its height, but for what is nearer to others;
-/// rising. Empty where that summit is one of the others, or no higher than low.
+/// rising. On another's slope the place is its own summit; empty where that is one of the others,
+/// or no higher than low.
 std::vector<int> around_summit(const Surface& surface, const Field& field, double low,
                                const SurfacePoint& place, std::span<const int> others);
 
-/// With one more, around the summit next to a place, where that is in no other part.
+/// With one more, around_summit, where that is not empty.
 OwnParts with_part_at(OwnParts parts, const Surface& surface, const Field& field, double low,
                       const SurfacePoint& place);
 

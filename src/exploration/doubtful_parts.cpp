@@ -5,6 +5,7 @@
 
 #include "certainty/own_parts.h"
 #include "exploration/search_goal.h"
+#include "readings/contact.h"
 
 namespace palpation {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kLeastDoubtful = 0.2;
 void doubt_weaker_parts(Conclusion& conclusion) {
   if (!conclusion.edge || !conclusion.certainty) return;
   const Surface& surface = conclusion.belief.prior().surface();
+  if (fading_contact(surface, conclusion.palpations)) return;
   const EdgeProfile& profile = conclusion.edge->profile();
   const std::optional<double>& asked = conclusion.model.contrast.least;
   const double least = std::max(kLeastDoubtful * (profile.high - profile.low),
@@ -29,7 +31,8 @@ void doubt_weaker_parts(Conclusion& conclusion) {
     if (misfit.kind != MisfitKind::WeakerPart || misfit.amount < least) continue;
     const std::vector<int> part =
         around_summit(surface, conclusion.component.mean, profile.low, *misfit.where, inside);
-    if (part.empty()) continue;
+    // Along a rim, where tissue is held and contact fades, healthy tissue rises, too.
+    if (part.empty() || reaches_border(surface, {.vertices = part})) continue;
     double area_m2 = 0.0;
     for (const int vertex : part) area_m2 += surface.vertex_areas()[vertex];
     conclusion.certainty = with_doubtful_part(std::move(*conclusion.certainty), conclusion.belief,

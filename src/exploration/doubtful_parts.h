@@ -8,7 +8,7 @@ namespace palpation {
 /// Adds to a conclusion's certainty, and to `doubtful`, what its edge names as weaker parts
 /// (EdgeBelief::misfits) and does not hold: vessels and texture stand out so, and so do tumours.
 /// Not where it stands out by a fifth of the strongest's contrast at most, or by less than the
-/// model's least contrast.
+/// model's least contrast, or reaches the border, or contact fades.
 void doubt_weaker_parts(Conclusion& conclusion);
 
 }  // namespace palpation
