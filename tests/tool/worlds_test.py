@@ -111,6 +111,26 @@ class Worlds(InFolder):
         self.refused(self.scene(field={"transform": "log", "noise": 0.1}), "field.noise")
         self.refused(self.scene(field={"transform": "log"}, plan={"min_contrast": 1.0}), "plan.min_contrast")
 
+    def test_what_may_be_tumour_or_not_lies_in_the_band(self):
+        random.seed(5)
+        measured = self.folder / "doubtful.csv"
+        with open(measured, "w") as file:
+            file.write("x,y,z,reading\n")
+            for i in range(12):
+                for j in range(25):
+                    x, y = 0.0015 + 0.002 * i, 0.001 + 0.002 * j
+                    strong = 2.0 / (1.0 + math.exp(-1400.0 * (0.006 - math.hypot(x - 0.0125, y - 0.034))))
+                    weak = 0.66 / (1.0 + math.exp(-1400.0 * (0.005 - math.hypot(x - 0.0125, y - 0.014))))
+                    file.write(f"{x},{y},0,{7.0 + strong + weak + random.gauss(0.0, 0.06)}\n")
+        summary = self.summary("boundary", self.scene(), "--measurements", measured)
+        (part,) = summary["doubtful"]
+        self.assertLess(math.dist(part["position_mm"], (12.5, 14.0, 0.0)), 4.0)
+        self.assertAlmostEqual(part["area_mm2"], 25 * math.pi, delta=25)
+        self.assertGreater(summary["expected_missed_mm2"], 0.5 * part["area_mm2"])
+        self.assertLess(summary["area_mm2"], 36 * math.pi + 10)
+        said = f"It may be tumour or not: its {part['area_mm2']:.0f} mm2 lie in the band, and half of them count as missed."
+        self.assertTrue(any(said in words for words in summary["warnings"]), summary["warnings"])
+
     def test_a_zero_that_moves_is_taken_back_and_said(self):
         scene = self.scene(probe={"world": "sensor-shift", "noise": 0.05}, plan={"batches": 9})
         summary = self.summary("simulate", scene, "--seed", 11)
