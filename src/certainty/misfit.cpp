@@ -11,6 +11,7 @@
 #include "base/log_mean.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/layout.h"
+#include "certainty/outline_model.h"
 #include "palpation/base/error.h"
 
 namespace palpation {
@@ -19,7 +20,6 @@ namespace {
 constexpr double kKinds = 4.0;  // zero, gain, place, parts
 /// What a rival may add, standard deviations: of the contrast, and of a gain; of a move, metres.
 constexpr double kPart = 0.5;
-constexpr double kMove_m = 0.003;
 /// Ways in which tissue may have moved, over half a turn.
 constexpr int kWays = 4;
 /// Radii of parts that are tried; they begin so far outside of the outline.
@@ -135,7 +135,7 @@ void weigh_changes(const Explained& rows, const Field& depth, Kind& zero, Kind& 
   const std::vector<Vec3> ways = ways_of(rows);
   std::vector<Eigen::VectorXd> changes;
   for (const Vec3& way : ways) changes.push_back(by_move(rows, depth, way));
-  constexpr double kScale = kMove_m / kPart;
+  constexpr double kScale = kMoveSd_m / kPart;
   for (const int batch : batches) {
     const Eigen::VectorXd since = part_since(rows.data, batch);
     const std::size_t number = first_since(rows.data, batch);

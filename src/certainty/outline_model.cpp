@@ -17,7 +17,6 @@ constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
-constexpr double kMoved_m = 0.003;      ///< sd of a move, on each axis
 
 double half_square(double z) { return 0.5 * z * z; }
 
@@ -125,7 +124,7 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
   for (std::size_t change = 0; change < profile.moved_m.size(); ++change)
-    sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() / kMoved_m);
+    sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() / kMoveSd_m);
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
   return std::log(Kinds(profile).both()) - sum;

@@ -25,6 +25,9 @@
 
 namespace palpation {
 
+/// How far tissue moves, beforehand, on each axis.
+inline constexpr double kMoveSd_m = 0.003;
+
 /// The readings, one per place, in the chart's plane.
 struct OutlineReadings {
   std::vector<Vec2> places;

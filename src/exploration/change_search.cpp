@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "certainty/outline_model.h"
 #include "exploration/taken_back.h"
 #include "palpation/base/parallel.h"
 
@@ -25,7 +26,6 @@ constexpr double kFarthestMove_m = 0.008;
 /// Steps of a closer look, in metres and in readings; halved twice.
 constexpr double kFirstStep_m = 0.001, kLastStep_m = 0.00025;
 constexpr std::ptrdiff_t kReadingsOfStep = 4;
-constexpr double kMoved_m = 0.003;  ///< sd of a move beforehand (outline_model.cpp)
 /// What stands out by less of what it did is no gain of a sensor that works.
 constexpr double kLeastGain = 0.1;
 
@@ -203,7 +203,7 @@ void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surfa
       }
       std::vector<double> evidences = log_evidences_around(known, model, std::move(versions));
       for (std::size_t i = 0; i < tried.size(); ++i)
-        evidences[i] -= 0.5 * tried[i].moved_m.squaredNorm() / (kMoved_m * kMoved_m);
+        evidences[i] -= 0.5 * tried[i].moved_m.squaredNorm() / (kMoveSd_m * kMoveSd_m);
       const auto best = std::ranges::max_element(evidences);
       changes[which] = tried[best - evidences.begin()];
       is_better = best != evidences.begin();

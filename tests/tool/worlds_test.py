@@ -15,6 +15,11 @@ from support import BRIEFLY, InFolder, main_without_pictures, palpate, rows_of
 TISSUE = {"surface": {"plane": {"size_mm": [25, 50], "vertices": [26, 51]}}}
 
 
+def disk(x, y, middle, radius, contrast):
+    """Stiffness at a place, mm, of one on the tissue's middle line."""
+    return contrast / (1 + math.exp(-1.4 * (radius - math.hypot(x - 12.5, y - middle))))
+
+
 class Worlds(InFolder):
     def scene(self, **groups):
         path = self.folder / "scene.json"
@@ -36,6 +41,16 @@ class Worlds(InFolder):
                 x, y = random.uniform(0, 25), random.uniform(0, 50)
                 reading, last = row_of(touch, lambda right, up: 1 + 2 / (1 + math.exp(-1.2 * (6 - math.hypot(x - right, y - up)))))
                 file.write(f"{x / 1e3},{y / 1e3},0,{reading},{last}\n")
+        return path
+
+    def raster(self, rows, reading_of):
+        """A file of readings every 2 mm, of what is felt at a place in mm."""
+        path = self.folder / "raster.csv"
+        with open(path, "w") as file:
+            file.write("x,y,z,reading\n")
+            for x in range(12):
+                for y in range(rows):
+                    file.write(f"{(1.5 + 2 * x) / 1e3},{(1.5 + 2 * y) / 1e3},0,{reading_of(1.5 + 2 * x, 1.5 + 2 * y)}\n")
         return path
 
     def refused(self, scene, says):
@@ -93,16 +108,9 @@ class Worlds(InFolder):
         self.assertNotEqual(self.summary("simulate", self.scene(probe=probe), "--seed", 2)["parts"], [])
 
     def test_logarithms_are_written_as_readings(self):
-        measured = self.folder / "skewed.csv"
-        with open(measured, "w") as file:
-            file.write("x,y,z,reading\n")
-            for i in range(12):
-                for j in range(24):
-                    x, y = 0.0015 + 0.002 * i, 0.0015 + 0.002 * j
-                    depth = 0.006 - math.hypot(x - 0.0125, y - 0.030)
-                    noise = 0.05 * math.sin(12.9898 * i + 78.233 * j + i * j)
-                    file.write(f"{x},{y},0,{0.2 * math.exp(2.0 / (1.0 + math.exp(-1400.0 * depth)) + noise)}\n")
-        arguments = ("--measurements", measured)
+        random.seed(4)
+        skewed = self.raster(24, lambda x, y: 0.2 * math.exp(disk(x, y, 30, 6, 2) + random.gauss(0, 0.04)))
+        arguments = ("--measurements", skewed)
         log = self.summary("boundary", self.scene(field={"transform": "log"}), *arguments)
         raw = self.summary("boundary", self.scene(), *arguments)
         self.assertEqual((log["transform"], raw["transform"]), ("log", "none"))
@@ -113,15 +121,7 @@ class Worlds(InFolder):
 
     def test_what_may_be_tumour_or_not_lies_in_the_band(self):
         random.seed(5)
-        measured = self.folder / "doubtful.csv"
-        with open(measured, "w") as file:
-            file.write("x,y,z,reading\n")
-            for i in range(12):
-                for j in range(25):
-                    x, y = 0.0015 + 0.002 * i, 0.001 + 0.002 * j
-                    strong = 2.0 / (1.0 + math.exp(-1400.0 * (0.006 - math.hypot(x - 0.0125, y - 0.034))))
-                    weak = 0.66 / (1.0 + math.exp(-1400.0 * (0.005 - math.hypot(x - 0.0125, y - 0.014))))
-                    file.write(f"{x},{y},0,{7.0 + strong + weak + random.gauss(0.0, 0.06)}\n")
+        measured = self.raster(25, lambda x, y: 7 + disk(x, y, 34, 6, 2) + disk(x, y, 14, 5, 0.66) + random.gauss(0, 0.06))
         summary = self.summary("boundary", self.scene(), "--measurements", measured)
         (part,) = summary["doubtful"]
         self.assertLess(math.dist(part["position_mm"], (12.5, 14.0, 0.0)), 4.0)
