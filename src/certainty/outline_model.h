@@ -3,8 +3,10 @@
 /// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns from node
 /// to node by an angle that is Cauchy's about an even turn: most of an outline is smooth, and
 /// corners, horns and necks are as likely as that law's tails make them; how wide it is, is learned
-/// with the outline. Pieces are about as long as each other. Depth is the signed distance to the
-/// polygon, and a reading
+/// with the outline. Pieces are about as long as each other. An outline is one of the lines that
+/// end where they began, whose density is divided by how densely lines of such turns do: else
+/// outlines would be the smoother beforehand the more loops there are. Depth is the signed distance
+/// to the polygon, and a reading
 ///
 ///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction)))
 ///         + background + noise
@@ -95,7 +97,7 @@ double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& no
                         const Vec2& after, const OutlineProfile& profile);
 /// Of a piece's length, as a density of its end's place.
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
-/// Of all nodes.
+/// Of all nodes, given that loops close.
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile);
 /// Of the profile itself. Two tumours in three are as equation 4 has them, with a plateau; the
 /// others are bent, and no law tells how high they would be if they were wider.

@@ -1,0 +1,124 @@
+// Outlines' shapes beforehand: how densely lines close, against lines that are drawn.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "certainty/outline_model.h"
+#include "certainty/outline_walk.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kMm = 1e-3;
+constexpr double kPieceLogSd = 0.25;
+
+/// A regular polygon with sides of a millimetre.
+OutlineNodes polygon(int nodes) {
+  const double radius = 0.5 * kMm / std::sin(std::numbers::pi / nodes);
+  std::vector<Vec2> line;
+  for (int i = 0; i < nodes; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / nodes;
+    line.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  OutlineNodes outline;
+  outline.add(line, 0);
+  return outline;
+}
+
+OutlineProfile profile_of(double turn, double spacing_m) {
+  OutlineProfile profile;
+  profile.log_turn = std::log(turn);
+  profile.log_spacing = {std::log(spacing_m)};
+  return profile;
+}
+
+/// What the shape's density was divided by.
+double log_density_of_closing(int nodes, double turn, double spacing_m) {
+  const OutlineNodes outline = polygon(nodes);
+  const OutlineProfile profile = profile_of(turn, spacing_m);
+  double open = 0.0;
+  for (int node = 0; node < nodes; ++node) {
+    const Vec2 &here = outline.place[node], &after = outline.place[outline.next(node)];
+    open += log_turn_density(outline.loops[0], outline.place[outline.before(node)], here, after,
+                             profile) +
+            log_length_density(here, after, profile.log_spacing[0]);
+  }
+  return open - log_shape_density(outline, profile);
+}
+
+double within_half_a_turn(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+/// The mean, over lines whose last piece is missing, of how dense the one that closes them and the
+/// turns at its ends are.
+double density_of_closing_by_drawing(int nodes, double turn, Random& random) {
+  constexpr int kLines = 60'000;
+  const double even = 2.0 * std::numbers::pi / nodes;
+  const auto density = [&](double angle) {
+    const double off = (angle - even) / turn;
+    return 1.0 / (std::numbers::pi * turn * (1.0 + off * off));
+  };
+  double sum = 0.0;
+  for (int line = 0; line < kLines; ++line) {
+    double direction = 0.0;
+    Vec2 end = Vec2::Zero();
+    bool is_within = true;
+    for (int piece = 0; piece + 1 < nodes; ++piece) {
+      const double length = std::exp(kPieceLogSd * random.normal());
+      end += length * Vec2(std::cos(direction), std::sin(direction));
+      if (piece + 2 == nodes) break;
+      const double angle = even + turn * std::tan(std::numbers::pi * (random.uniform() - 0.5));
+      is_within = is_within && std::abs(angle) < std::numbers::pi;
+      direction += angle;
+    }
+    const double back = std::atan2(-end.y(), -end.x()), length = end.norm(),
+                 z = std::log(length) / kPieceLogSd, turned = within_half_a_turn(back - direction),
+                 last = within_half_a_turn(-back);
+    if (!is_within || std::abs(direction + turned + last - 2.0 * std::numbers::pi) > 1e-6) continue;
+    sum += density(turned) * density(last) * std::exp(-0.5 * z * z) /
+           (kPieceLogSd * std::sqrt(2.0 * std::numbers::pi) * length * length);
+  }
+  return sum / kLines;
+}
+
+TEST(OutlineShape, LinesCloseAsDenselyAsDrawnOnesDo) {
+  Random random(41);
+  const double first = log_density_of_closing(12, 0.01, kMm) -
+                       std::log(density_of_closing_by_drawing(12, 0.01, random));
+  for (const double turn : {0.03, 0.1, 0.3}) {
+    const double drawn = density_of_closing_by_drawing(12, turn, random);
+    EXPECT_NEAR(log_density_of_closing(12, turn, kMm) - first, std::log(drawn), std::log(2.5));
+  }
+}
+
+TEST(OutlineShape, LinesOfPiecesTwiceAsLongCloseAQuarterAsDensely) {
+  EXPECT_NEAR(log_density_of_closing(40, 0.1, 2 * kMm),
+              log_density_of_closing(40, 0.1, kMm) - std::log(4.0), 1e-12);
+}
+
+// With neither readings nor a price of closing, seven loops would be circles: their turns' half
+// width would lie seven standard deviations below its median.
+TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
+  const auto log_turn = [](int loops) {
+    OutlineNodes outline;
+    for (int i = 0; i < loops; ++i) {
+      std::vector<Vec2> line = polygon(24).place;
+      for (Vec2& place : line) place.x() += 0.1 * i;
+      outline.add(line, 0);
+    }
+    OutlinePrior prior;
+    prior.median = profile_of(0.12, kMm);
+    prior.median.log_spacing.resize(outline.loops.size(), std::log(kMm));
+    prior.median.log_contrast = {0.0};
+    OutlineWalk walk({}, prior, outline, prior.median, 42);
+    walk.settle(300);
+    double mean = 0.0;
+    for (const OutlineDraw& draw : walk.draws(2000, 500)) mean += draw.profile.log_turn / 500.0;
+    return mean - prior.median.log_turn;
+  };
+  EXPECT_NEAR(log_turn(1), 0.0, 1.0);
+  EXPECT_NEAR(log_turn(7), 0.0, 1.0);
+}
+
+}  // namespace
+}  // namespace palpation
