@@ -138,9 +138,13 @@ bool OutlineChain::takes(double change, Random& random) {
   return true;
 }
 
+/// Of the nodes and the profile.
+double OutlineChain::log_prior() const {
+  return log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
+}
+
 double OutlineChain::log_density() const {
-  double sum = log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_) +
-               residuals_.log_density();
+  double sum = log_prior() + residuals_.log_density();
   for (const OutlineCut& cut : cuts_) sum += cut.is_present ? log_cut_density(cut) : 0.0;
   return sum;
 }

@@ -36,6 +36,12 @@ class OutlineChain {
   /// log_spacing alone, else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
 
+  /// Proposes that all nodes move to these places and the slope is another, whatever the plateaus:
+  /// those are integrated out, and drawn anew from what they are given all else, whether the step
+  /// was taken or not. `log_volume` as move_nodes has it.
+  bool move_whatever_plateaus(const std::vector<Vec2>& places, double log_slope, Random& random,
+                              double log_volume);
+
   /// Proposes that readings after a change were made elsewhere.
   bool move_tissue(int change, const Vec2& moved_m, Random& random);
 
@@ -60,6 +66,8 @@ class OutlineChain {
   const OutlinePrior& prior() const { return *prior_; }
   const ReadingLaw& law() const { return law_; }
   const OutlineResiduals& residuals() const { return residuals_; }
+  /// Of the readings, the plateaus integrated out, without what depends on nothing that moves.
+  double log_evidence() const;
   /// Of the posterior, without what depends on nothing that moves.
   double log_density() const;
 
@@ -72,6 +80,7 @@ class OutlineChain {
     double share = 0.0;    ///< of its contrast
   };
   struct Step;
+  struct Plateaus;
 
   int epoch_of(std::size_t reading) const;
   Vec2 place_of(std::size_t reading) const;
@@ -83,6 +92,8 @@ class OutlineChain {
   Felt felt_at(std::size_t reading, NearestPiece nearest, bool inside) const;
   std::vector<Felt> felt_at_start();
   OutlineResiduals fresh_residuals() const;
+  double log_prior() const;
+  Plateaus plateaus() const;
   /// Another thought: nothing is considered.
   void consider_none();
   void consider(std::size_t reading, const Felt& felt, const ReadingLaw& law);

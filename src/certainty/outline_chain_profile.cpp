@@ -45,9 +45,6 @@ bool OutlineChain::move_tissue_and_nodes(int change, const Vec2& moved_m,
                                          const std::vector<Vec2>& places, Random& random) {
   const OutlineNodes outline = outline_;
   const OutlineProfile profile = profile_;
-  const auto log_prior = [&] {
-    return log_shape_density(outline_, profile_) + log_profile_density(profile_, *prior_);
-  };
   const double before = log_prior();
   outline_.place = places;
   pieces_ = OutlinePieces(outline_);

@@ -175,6 +175,15 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
   return steps;
 }
 
+/// By Woodbury's identity.
+Eigen::MatrixXd OutlineResiduals::products(const Eigen::MatrixXd& columns) const {
+  const Eigen::Map<const Eigen::VectorXd> precision(precision_.data(), columns.rows());
+  const Eigen::MatrixXd explained = columns_ * columns;
+  return std::exp(-2.0 * scales_.log_noise) * columns.transpose() * precision.asDiagonal() *
+             columns -
+         explained.transpose() * explained;
+}
+
 /// By the noise alone, which the background leaves.
 void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& random) {
   for (std::size_t i = 0; i < off_.size(); ++i) {

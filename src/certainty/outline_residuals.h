@@ -58,6 +58,9 @@ class OutlineResiduals {
   /// by Metropolis' and Gibbs' steps. Returns the zero's steps, drawn with them.
   Eigen::VectorXd redraw(Random& random);
 
+  /// X' C^-1 X of columns X with a row for each reading, C the covariance of those that tell.
+  Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const;
+
   double log_noise() const { return scales_.log_noise; }
   bool tells(std::size_t reading) const { return precision_[reading] > 0.0; }
   /// How much less probable a reading is, by itself, than one that fits: at most as one that tells

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "palpation/base/interruption.h"
@@ -19,6 +20,8 @@ constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
 constexpr double kNear_m = 0.003, kNothingFelt = 1e-12;
 constexpr double kTradedGain = 0.2;
+constexpr int kSizes = 4;                ///< a sweep
+constexpr double kSlopePerGrowth = 2.0;  ///< of their logarithms, how far they are tried
 constexpr int kProfileRounds = 2;
 constexpr int kResidualsEvery = 4;  ///< sweeps: it costs as much as they do
 constexpr int kSwitches = 3;        ///< of each cut, a sweep
@@ -28,6 +31,20 @@ double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform
 Vec2 direction_of(Random& random) {
   const double angle = angle_of(random);
   return {std::cos(angle), std::sin(angle)};
+}
+
+Vec2 middle_of(std::span<const Vec2> places) {
+  Vec2 middle = Vec2::Zero();
+  for (const Vec2& place : places) middle += place / static_cast<double>(places.size());
+  return middle;
+}
+
+/// About their middle. Returns the logarithm of how much larger a volume of them becomes, but for
+/// the middle, which stays.
+double grow(std::span<Vec2> places, double log_growth) {
+  const Vec2 middle = middle_of(places);
+  for (Vec2& place : places) place = middle + std::exp(log_growth) * (place - middle);
+  return 2.0 * (static_cast<double>(places.size()) - 1.0) * log_growth;
 }
 
 /// Of what is felt near each node, the part that was after a change.
@@ -63,8 +80,7 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   lengths_.of_moves.assign(prior.changes.size(), kFirst_m);
   for (std::size_t change = 0; change < prior.changes.size(); ++change)
     felt_since_.push_back(share_since(readings, prior, static_cast<int>(change), outline));
-  const double plateau = 0.2 * prior.plateau_sd;
-  lengths_.of_profile = {plateau, plateau, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+  lengths_.of_profile.fill(0.1);
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
 }
 
@@ -114,6 +130,7 @@ void OutlineWalk::sweep() {
     // Two of them: each costs as much as many a stretch.
     for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
   }
+  for (int i = 0; i < kSizes; ++i) move_size();
   for (int round = 0; round < kProfileRounds; ++round) move_profile();
   move_changes();
   if (swept_++ % kResidualsEvery == 0) steps_ = chain_.redraw_residuals(random_);
@@ -143,8 +160,7 @@ void OutlineWalk::move_loop(int loop, int kind) {
   const auto [first, count, part, turns] = outline.loops[loop];
   const auto begin = outline.place.begin() + first;
   std::vector<Vec2> places(begin, begin + count);
-  Vec2 middle = Vec2::Zero();
-  for (const Vec2& place : places) middle += place / count;
+  const Vec2 middle = middle_of(places);
   double& length = lengths_.of_loops[loop][kind];
   const double step = length * random_.normal();
   double log_volume = 0.0;
@@ -152,10 +168,7 @@ void OutlineWalk::move_loop(int loop, int kind) {
     const Vec2 way = step * direction_of(random_);
     for (Vec2& place : places) place += way;
   } else if (kind == 1) {
-    const double log_growth = step / kMost_m;
-    // Of all places but their middle, which stays.
-    log_volume = 2.0 * (count - 1) * log_growth;
-    for (Vec2& place : places) place = middle + std::exp(log_growth) * (place - middle);
+    log_volume = grow(places, step / kMost_m);
   } else if (kind == 2) {
     const double turn = step / kMost_m, cosine = std::cos(turn), sine = std::sin(turn);
     for (Vec2& place : places) {
@@ -171,12 +184,25 @@ void OutlineWalk::move_loop(int loop, int kind) {
   tune(length, chain_.move_nodes(first, places, random_, log_volume), kOfNodes, kMost_m);
 }
 
+/// The inside grows, holes shrink, and edges are steeper or less steep.
+void OutlineWalk::move_size() {
+  const double log_growth = lengths_.of_size * random_.normal(),
+               steeper = kSlopePerGrowth * lengths_.of_size * random_.normal();
+  std::vector<Vec2> places = chain_.outline().place;
+  double log_volume = 0.0;
+  for (const NodeLoop& loop : chain_.outline().loops)
+    log_volume += grow(std::span(places).subspan(loop.first, loop.count), loop.turns * log_growth);
+  const bool taken = chain_.move_whatever_plateaus(places, chain_.profile().log_slope + steeper,
+                                                   random_, log_volume);
+  tune(lengths_.of_size, taken, kOfNodes, 1.0);
+}
+
 void OutlineWalk::move_profile() {
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
-    double* const number[kOfProfile] = {
-        &profile.low,      &profile.high,         &profile.log_slope, &profile.lean.x(),
-        &profile.lean.y(), &profile.log_shoulder, &profile.log_skirt, &profile.log_turn};
+    double* const number[kOfProfile] = {&profile.log_slope, &profile.lean.x(),
+                                        &profile.lean.y(),  &profile.log_shoulder,
+                                        &profile.log_skirt, &profile.log_turn};
     *number[i] += lengths_.of_profile[i] * random_.normal();
     const bool is_turn = i == kOfProfile - 1;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);

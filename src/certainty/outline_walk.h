@@ -1,8 +1,9 @@
 /// One chain through the outlines' posterior: what is proposed, and how far.
 ///
 /// A sweep tries each node, stretches of nodes of several widths, and each loop as a whole (moved,
-/// grown, turned, bent), the profile, and cuts. Steps find their own lengths while the walk
-/// settles, and keep them from then on, so that what is kept is of the posterior.
+/// grown, turned, bent), all of them with the slope whatever the plateaus, the profile, and cuts.
+/// Steps find their own lengths while the walk settles, and keep them from then on, so that what is
+/// kept is of the posterior.
 #pragma once
 
 #include <array>
@@ -38,7 +39,7 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 8, kOfCut = 4;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 6, kOfCut = 4;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres
@@ -47,12 +48,14 @@ class OutlineWalk {
     std::vector<double> of_moves;  ///< with nodes, metres
     std::array<double, kOfProfile> of_profile;
     std::array<double, kOfCut> of_cuts;
+    double of_size = 0.03;  ///< logarithm
   };
 
   void sweep();
   OutlineDraw drawn();
   void move_stretch(int middle, int width);
   void move_loop(int loop, int kind);
+  void move_size();
   void move_profile();
   void move_changes();
   void move_with_nodes(std::size_t change);

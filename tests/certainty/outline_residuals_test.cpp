@@ -53,8 +53,8 @@ Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
                                            static_cast<Eigen::Index>(numbers.size()));
 }
 
-/// Of all residuals, by the covariance of noise and background, with scales of 1.
-double log_density_by_hand(const Readings& readings) {
+/// Of noise and background, with scales of 1.
+Eigen::MatrixXd covariance_by_hand(const Readings& readings) {
   const BackgroundTerms& terms = readings.terms;
   Eigen::VectorXd sd = Eigen::VectorXd::Constant(terms.of_readings.cols(), terms.median_sd);
   sd[sd.size() - 4] = terms.drift_sd;
@@ -63,7 +63,11 @@ double log_density_by_hand(const Readings& readings) {
   Eigen::MatrixXd covariance = as_vector(readings.variance).asDiagonal();
   const Eigen::MatrixXd added = terms.of_readings * sd.asDiagonal();
   covariance += added * added.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  return covariance;
+}
+
+double log_density_by_hand(const Readings& readings) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance_by_hand(readings));
   const Eigen::VectorXd off = as_vector(readings.off);
   return -0.5 * off.dot(factor.solve(off)) - factor.matrixLLT().diagonal().array().log().sum() -
          0.5 * static_cast<double>(off.size()) * std::log(2.0 * std::numbers::pi) +
@@ -101,6 +105,16 @@ TEST(OutlineResiduals, AreWeighedFewAtATimeAsAllTogether) {
     EXPECT_EQ(residuals.change(), 0.0);
     EXPECT_NEAR(residuals.log_density(), log_density_by_hand(readings), 1e-8);
   }
+}
+
+TEST(OutlineResiduals, WeighColumnsByTheWholeCovariance) {
+  const Readings readings = raster(0.01);
+  Random random(7);
+  Eigen::MatrixXd columns(64, 3);
+  for (double& one : columns.reshaped()) one = random.normal();
+  const Eigen::MatrixXd expected =
+      columns.transpose() * covariance_by_hand(readings).llt().solve(columns);
+  EXPECT_LT((residuals_of(readings).products(columns) - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(OutlineResiduals, OfReadingsThatTellNothingDoNotMatter) {

@@ -279,6 +279,63 @@ TEST(OutlineChain, APlateauIsDrawnFromItsConjugatePosterior) {
   EXPECT_NEAR(std::sqrt(square - drawn * drawn), sd, 0.08 * sd);
 }
 
+// Twelve readings, half of them inside, and all but the plateaus held still: low and high are
+// normal given them, by the normal equations.
+TEST(OutlineChain, PlateausAreDrawnFromWhatTheyAreGivenAllElse) {
+  Random random(33);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  const OutlineReadings readings = felt_around(outline, 12, random);
+  const OutlinePrior prior = prior_of(outline);
+  OutlineChain chain(readings, prior, outline, prior.median);
+  Eigen::Matrix2d precision = Eigen::Matrix2d::Identity() / 0.25;
+  Eigen::Vector2d pull = Eigen::Vector2d(7.0, 9.0) / 0.25;
+  for (std::size_t i = 0; i < readings.places.size(); ++i) {
+    const double share = sigmoid_of(1200.0 * depth_in(outline, readings.places[i]));
+    const Eigen::Vector2d column(1.0 - share, share);
+    precision += column * column.transpose() / 0.01;
+    pull += readings.reading[i] / 0.01 * column;
+  }
+  constexpr int kDraws = 4000;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < kDraws; ++i) {
+    chain.move_whatever_plateaus(outline.place, prior.median.log_slope, random, -1e300);  // never
+    const Eigen::Vector2d drawn(chain.profile().low, chain.profile().high);
+    mean += drawn / kDraws;
+    square += drawn * drawn.transpose() / kDraws;
+  }
+  const Eigen::Matrix2d expected = precision.inverse();
+  EXPECT_LT((mean - expected * pull).norm(), 4.0 * std::sqrt(expected.trace() / kDraws));
+  EXPECT_LT((square - mean * mean.transpose() - expected).norm(), 0.1 * expected.norm());
+}
+
+// The plateaus integrated over a grid.
+TEST(OutlineChain, EvidenceIsTheDensityOverAllPlateaus) {
+  Random random(34);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  const OutlineReadings readings = felt_around(outline, 12, random);
+  const OutlinePrior prior = prior_of(outline);
+  const auto integral = [&](const OutlineNodes& of) {
+    double sum = 0.0;
+    for (int low = -40; low <= 40; ++low) {
+      for (int high = -40; high <= 40; ++high) {
+        OutlineProfile profile = prior.median;
+        profile.low += 0.02 * low;
+        profile.high += 0.02 * high;
+        sum += std::exp(OutlineChain(readings, prior, of, profile).log_density() -
+                        log_shape_density(of, profile));
+      }
+    }
+    return std::log(sum);
+  };
+  const auto evidence = [&](const OutlineNodes& of) {
+    return OutlineChain(readings, prior, of, prior.median).log_evidence();
+  };
+  OutlineNodes smaller = outline;
+  for (Vec2& place : smaller.place) place *= 0.95;
+  EXPECT_NEAR(evidence(smaller) - evidence(outline), integral(smaller) - integral(outline), 0.02);
+}
+
 // Without readings the profile's draws are the prior's.
 TEST(OutlineWalk, WithoutReadingsTheSlopeIsDrawnFromItsPrior) {
   const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);

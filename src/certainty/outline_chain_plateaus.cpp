@@ -1,0 +1,71 @@
+// How a chain moves its outline whatever the plateaus are: a larger outline with a lower plateau
+// explains readings that are far apart as well, and steps of either alone are short.
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "certainty/outline_chain.h"
+
+namespace palpation {
+
+/// Low and high given all else, which are normal; and the readings' log density without them.
+struct OutlineChain::Plateaus {
+  Eigen::LLT<Eigen::Matrix2d> precision;
+  Eigen::Vector2d mean;
+  double log_density = 0.0;
+};
+
+/// A reading is off low (1 - rise) + high rise.
+OutlineChain::Plateaus OutlineChain::plateaus() const {
+  Eigen::MatrixX3d columns(static_cast<Eigen::Index>(felt_.size()), 3);
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    const double of_part = std::exp(profile_.log_contrast[part_of(felt_[i])]),
+                 rise = law_.gain[epoch_of(i)] * of_part * felt_[i].share;
+    columns.row(static_cast<Eigen::Index>(i)) << 1.0 - rise, rise, readings_->reading[i];
+  }
+  const Eigen::Matrix3d products = residuals_.products(columns);
+  const double before = 1.0 / (prior_->plateau_sd * prior_->plateau_sd);
+  Eigen::Matrix2d precision = products.topLeftCorner<2, 2>();
+  precision.diagonal().array() += before;
+  const Eigen::Vector2d pull = products.topRightCorner<2, 1>() +
+                               before * Eigen::Vector2d(prior_->median.low, prior_->median.high);
+  Plateaus plateaus{.precision = precision.llt(), .mean = {}};
+  plateaus.mean = plateaus.precision.solve(pull);
+  plateaus.log_density =
+      0.5 * pull.dot(plateaus.mean) - plateaus.precision.matrixLLT().diagonal().array().log().sum();
+  return plateaus;
+}
+
+double OutlineChain::log_evidence() const { return plateaus().log_density; }
+
+bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, double log_slope,
+                                          Random& random, double log_volume) {
+  Plateaus drawn_from = plateaus();
+  const double before = log_prior() + drawn_from.log_density;
+  auto other = std::tuple(outline_, pieces_, profile_, law_, felt_);
+  outline_.place = places;
+  bool taken = is_simple(outline_);
+  if (taken) {
+    pieces_ = OutlinePieces(outline_);
+    profile_.log_slope = log_slope;
+    law_ = law_of(profile_, *prior_);
+    for (std::size_t i = 0; i < felt_.size(); ++i) felt_[i] = felt_anew(i);
+    const Plateaus then = plateaus();
+    taken = std::log(random.uniform()) < log_prior() + then.log_density - before + log_volume;
+    if (taken) drawn_from = then;
+  }
+  if (!taken) std::tie(outline_, pieces_, profile_, law_, felt_) = std::move(other);
+  const Eigen::Vector2d normal(random.normal(), random.normal());
+  const Eigen::Vector2d drawn = drawn_from.mean + drawn_from.precision.matrixU().solve(normal);
+  profile_.low = drawn[0];
+  profile_.high = drawn[1];
+  law_ = law_of(profile_, *prior_);
+  residuals_.forget();
+  for (std::size_t i = 0; i < felt_.size(); ++i)
+    residuals_.consider(i, off_from(i, felt_[i], law_));
+  residuals_.keep();
+  return taken;
+}
+
+}  // namespace palpation
