@@ -94,15 +94,13 @@ ProfilePrior profile_prior(const Belief& belief, double least, double range,
   return prior;
 }
 
-/// In nats, of a boundary that the fit takes as given: Schwarz's half log of the number of readings
-/// for each stretch that it bends over, and no fewer than a circle's three for each loop. Without
-/// it noise would have parts of its own.
+/// Of a boundary that the fit takes as given. Without it noise would have parts of its own.
 double price_of_freedom(const Surface& surface, const Field& depth, const ShapePrior& shape,
                         std::size_t readings) {
-  double stretches = 0.0;
+  double price = 0.0;
   for (const LevelLoop& loop : level_loops(surface, depth, 0.0))
-    stretches += std::max(3.0, outline_length(surface, {loop}) / shape.correction_length_m);
-  return 0.5 * std::log(static_cast<double>(readings)) * stretches;
+    price += price_of_loop(outline_length(surface, {loop}), shape, readings);
+  return price;
 }
 
 }  // namespace
@@ -116,6 +114,11 @@ struct EdgeBelief::Task {
   const ShapePrior& shape;
   double noise_log_sd;
 };
+
+double price_of_loop(double length_m, const ShapePrior& shape, std::size_t readings) {
+  return 0.5 * std::log(static_cast<double>(readings)) *
+         std::max(3.0, length_m / shape.correction_length_m);
+}
 
 double learned_noise_log_sd(int readings) {
   return readings > 0 ? 1.0 / std::sqrt(2.0 * readings) : 0.0;

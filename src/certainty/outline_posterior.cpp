@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "certainty/outline_pruning.h"
 #include "certainty/outline_start.h"
 #include "certainty/outline_walk.h"
 #include "palpation/base/error.h"
@@ -136,9 +137,24 @@ DrawnBoundaries boundaries_at(const Surface& surface, const Draws& draws) {
   return all;
 }
 
-/// How far each draw's outline, where it crosses the mesh's edges, lies from the boundary.
-std::vector<double> farthest_of(const Surface& surface, const Eigen::MatrixXf& depths,
-                                const Field& score) {
+/// Median of the depths at each vertex.
+Field median_depth(const Eigen::MatrixXf& depths) {
+  const Eigen::Index vertices = depths.cols(), draws = depths.rows();
+  Field median(vertices);
+  for_ranges(static_cast<int>(vertices), kVerticesAtOnce, [&](int first, int last) {
+    Eigen::VectorXf here(draws);
+    for (int vertex = first; vertex < last; ++vertex) {
+      here = depths.col(vertex);
+      std::nth_element(here.begin(), here.begin() + draws / 2, here.end());
+      median[vertex] = here[draws / 2];
+    }
+  });
+  return median;
+}
+
+/// How far each draw's outline, where it crosses the mesh's edges, lies from a boundary.
+std::vector<double> farthest_from(const Surface& surface, const Eigen::MatrixXf& depths,
+                                  const Field& score) {
   std::vector<double> farthest(static_cast<std::size_t>(depths.rows()), 0.0);
   for (int face = 0; face < surface.face_count(); ++face) {
     const Eigen::Vector3i corners = surface.triangle(face);
@@ -151,6 +167,21 @@ std::vector<double> farthest_of(const Surface& surface, const Eigen::MatrixXf& d
         farthest[draw] = std::max(farthest[draw], std::abs(here));
       }
     }
+  }
+  return farthest;
+}
+
+/// Of each chain's draws, from the boundary of the other's: from their own, which few that are
+/// alike make, they would be nearer than fresh ones.
+std::vector<double> farthest_of(const Surface& surface, const Eigen::MatrixXf& depths,
+                                const Field& spread) {
+  const Eigen::Index half = depths.rows() / kChains;
+  std::vector<double> farthest;
+  for (int chain = 0; chain < kChains; ++chain) {
+    const Field others = median_depth(depths.middleRows((1 - chain) * half, half));
+    const std::vector<double> of_chain =
+        farthest_from(surface, depths.middleRows(chain * half, half), others.cwiseQuotient(spread));
+    farthest.insert(farthest.end(), of_chain.begin(), of_chain.end());
   }
   std::ranges::sort(farthest);
   return farthest;
@@ -169,22 +200,14 @@ DrawnNumber summed_up(std::vector<double> numbers) {
   return sum;
 }
 
-/// Median and spread of the depths at each vertex.
-void add_depths(const Eigen::MatrixXf& depths, OutlinePosterior& posterior) {
-  const Eigen::Index vertices = depths.cols(), draws = depths.rows();
-  posterior.depth.resize(vertices);
-  posterior.spread.resize(vertices);
-  for_ranges(static_cast<int>(vertices), kVerticesAtOnce, [&](int first, int last) {
-    Eigen::VectorXf here(draws);
-    for (int vertex = first; vertex < last; ++vertex) {
-      here = depths.col(vertex);
-      const double mean = here.cast<double>().mean();
-      posterior.spread[vertex] =
-          std::max(kLeastSpread_m, std::sqrt((here.cast<double>().array() - mean).square().mean()));
-      std::nth_element(here.begin(), here.begin() + draws / 2, here.end());
-      posterior.depth[vertex] = here[draws / 2];
-    }
-  });
+/// Standard deviation of the depths at each vertex.
+Field spread_of(const Eigen::MatrixXf& depths) {
+  Field spread(depths.cols());
+  for (Eigen::Index vertex = 0; vertex < depths.cols(); ++vertex) {
+    const auto here = depths.col(vertex).cast<double>().array();
+    spread[vertex] = std::max(kLeastSpread_m, std::sqrt((here - here.mean()).square().mean()));
+  }
+  return spread;
 }
 
 /// What of the region and of the draws does not overlap, and the draws' areas.
@@ -253,12 +276,13 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
           "must be at least " + std::to_string(kFewestDraws));
   const Surface& surface = belief.prior().surface();
   if (!surface.has_chart()) return std::nullopt;
-  const std::optional<OutlineStart> start = outline_start(belief, edge, options);
-  if (!start) return std::nullopt;
-  const auto [draws, disagreement] = drawn(*start, options);
+  std::optional<OutlineStart> first = outline_start(belief, edge, options);
+  if (!first) return std::nullopt;
+  const OutlineStart start = pruned(*std::move(first), options.seed);
+  const auto [draws, disagreement] = drawn(start, options);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
-  OutlinePosterior posterior{.depth = {},
-                             .spread = {},
+  OutlinePosterior posterior{.depth = median_depth(depths),
+                             .spread = spread_of(depths),
                              .farthest = {},
                              .expected = {},
                              .area_m2 = {},
@@ -266,10 +290,8 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .level = mean_and_sd(levels),
                              .plateau_probability = mean_and_sd(has_plateau).value,
                              .disagreement = disagreement};
-  add_depths(depths, posterior);
   add_areas(surface, depths, posterior);
-  const Field score = posterior.depth.cwiseQuotient(posterior.spread);
-  posterior.farthest = farthest_of(surface, depths, score);
+  posterior.farthest = farthest_of(surface, depths, posterior.spread);
   return posterior;
 }
 

@@ -42,6 +42,10 @@ struct ShapePrior {
   double own_contrast_sd = 0.5;        ///< of a part beside the strongest, of its contrast
 };
 
+/// In nats, what freedom to lie where it fits costs a loop of such a length: Schwarz's half log of
+/// the number of readings for each stretch that it bends over, no fewer than a circle's three.
+double price_of_loop(double length_m, const ShapePrior& shape, std::size_t readings);
+
 /// What is not known of a noise that `readings` readings taught: the standard deviation of the
 /// logarithm of its own, 1 / sqrt(2 readings).
 double learned_noise_log_sd(int readings);

@@ -1,0 +1,105 @@
+#include "certainty/outline_pruning.h"
+
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "certainty/outline_walk.h"
+
+namespace palpation {
+namespace {
+
+constexpr int kSettling = 150;  ///< sweeps
+
+/// An outline, with what of the prior and of a profile is of its loops and parts.
+struct Loops {
+  OutlineNodes outline;
+  OutlinePrior prior;
+  OutlineProfile profile;
+};
+
+bool goes_along(const NodeLoop& loop, const NodeLoop& with) {
+  return with.turns > 0.0 && loop.part == with.part;
+}
+
+Loops without(const Loops& all, const NodeLoop& lost) {
+  Loops kept{.outline = {}, .prior = all.prior, .profile = all.profile};
+  kept.profile.log_contrast.clear();
+  kept.profile.log_spacing.clear();
+  kept.prior.median.log_spacing.clear();
+  std::vector<int> part_now(all.profile.log_contrast.size(), -1);
+  for (std::size_t i = 0; i < all.outline.loops.size(); ++i) {
+    const NodeLoop& loop = all.outline.loops[i];
+    if (loop.first == lost.first || goes_along(loop, lost)) continue;
+    int& part = part_now[loop.part];
+    if (part < 0) {
+      part = static_cast<int>(kept.profile.log_contrast.size());
+      kept.profile.log_contrast.push_back(all.profile.log_contrast[loop.part]);
+    }
+    const auto first = all.outline.place.begin() + loop.first;
+    kept.outline.add({first, first + loop.count}, part);
+    kept.profile.log_spacing.push_back(all.profile.log_spacing[i]);
+    kept.prior.median.log_spacing.push_back(all.prior.median.log_spacing[i]);
+  }
+  kept.prior.median.log_contrast.resize(kept.profile.log_contrast.size());
+  return kept;
+}
+
+double length_of(const OutlineNodes& outline, const NodeLoop& loop) {
+  double length = 0.0;
+  for (int node = loop.first; node < loop.first + loop.count; ++node)
+    length += (outline.place[outline.next(node)] - outline.place[node]).norm();
+  return length;
+}
+
+double price_of(const OutlineNodes& outline, const NodeLoop& lost, std::size_t readings) {
+  double price = 0.0;
+  for (const NodeLoop& loop : outline.loops) {
+    if (loop.first == lost.first || goes_along(loop, lost))
+      price += price_of_loop(length_of(outline, loop), ShapePrior{}, readings);
+  }
+  return price;
+}
+
+/// The loop that the readings pay the least for, and without which they say more; 0 for none.
+std::size_t unpaid_loop(const OutlineReadings& readings, const Loops& loops,
+                        const OutlineChain& settled) {
+  const auto evidence_of = [&](const Loops& some) {
+    return OutlineChain(readings, some.prior, some.outline, some.profile, settled.cuts(),
+                        &settled.residuals())
+        .log_evidence();
+  };
+  const double with_all = evidence_of(loops);
+  double most = 0.0;
+  std::size_t unpaid = 0;
+  for (std::size_t i = 1; i < loops.outline.loops.size(); ++i) {
+    const NodeLoop& loop = loops.outline.loops[i];
+    const double gained = evidence_of(without(loops, loop)) - with_all +
+                          price_of(loops.outline, loop, readings.places.size());
+    if (gained > most) std::tie(most, unpaid) = std::pair(gained, i);
+  }
+  return unpaid;
+}
+
+}  // namespace
+
+OutlineStart pruned(OutlineStart start, std::uint64_t seed) {
+  Loops first{std::move(start.outline), std::move(start.prior), std::move(start.profile)};
+  for (bool loses = true; loses && first.outline.loops.size() > 1;) {
+    OutlineWalk walk(start.readings, first.prior, first.outline, first.profile, seed);
+    walk.settle(kSettling);
+    Loops settled{walk.chain().outline(), first.prior, walk.chain().profile()};
+    loses = false;
+    while (const std::size_t unpaid = unpaid_loop(start.readings, settled, walk.chain())) {
+      settled = without(settled, settled.outline.loops[unpaid]);
+      first = without(first, first.outline.loops[unpaid]);
+      loses = true;
+    }
+  }
+  start.outline = std::move(first.outline);
+  start.prior = std::move(first.prior);
+  start.profile = std::move(first.profile);
+  return start;
+}
+
+}  // namespace palpation
