@@ -55,4 +55,29 @@ long factorize(double* lower, long stride, long size) {
   return size;
 }
 
+void TiledLlt::compute(const Eigen::MatrixXd& matrix) {
+  m_matrix = matrix;
+  const long size = m_matrix.rows();
+  m_info = factorize(m_matrix.data(), size, size) == size ? Eigen::Success : Eigen::NumericalIssue;
+  m_isInitialized = true;
+}
+
+/// Sums of squares of the columns of L^-1, eight of which are a tile.
+Eigen::VectorXd TiledLlt::inverse_diagonal() const {
+  const long size = m_matrix.rows();
+  Eigen::VectorXd diagonal(size);
+  std::vector<double> tile;
+  for (long first = 0; first < size; first += kLanes) {
+    const long rest = size - first, count = std::min<long>(kLanes, rest);
+    tile.assign(static_cast<std::size_t>(rest * kLanes), 0.0);
+    for (long lane = 0; lane < count; ++lane) tile[lane * kLanes + lane] = 1.0;
+    solve_triangle(m_matrix.data() + first * (size + 1), static_cast<int>(size), tile.data(),
+                   static_cast<int>(rest));
+    const Eigen::Map<const Eigen::Matrix<double, kLanes, Eigen::Dynamic>> columns(tile.data(),
+                                                                                  kLanes, rest);
+    diagonal.segment(first, count) = columns.rowwise().squaredNorm().head(count);
+  }
+  return diagonal;
+}
+
 }  // namespace palpation

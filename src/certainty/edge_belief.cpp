@@ -65,8 +65,7 @@ EdgeFit with_scatter(EdgeFit fit, EdgeData data, const Eigen::MatrixXd& prior_co
   const Eigen::Index count = data.reading.size();
   for (int round = 0; noise_is_learned && round < kMostRounds; ++round) {
     // Of so many readings' worth of noise: what the fit has not followed (MacKay's measure).
-    const double free =
-        data.variance.dot(fit.covariance.solve(Eigen::MatrixXd::Identity(count, count)).diagonal());
+    const double free = data.variance.dot(fit.covariance.inverse_diagonal());
     const double times =
         std::max(squares(fit, data) / free, least_variance / data.variance.minCoeff());
     if (!(times < kLittleScatter)) break;

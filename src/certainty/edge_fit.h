@@ -1,10 +1,10 @@
 /// Laplace's approximation of a boundary's correction and its profile, from the readings.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/cholesky.h"
 #include "belief/sites.h"
 #include "palpation/certainty/edge_belief.h"
 
@@ -59,7 +59,7 @@ struct EdgeFit {
   Eigen::VectorXd by_depth;      ///< J's diagonal
   ProfileSlopes by_profile;      ///< G
   Eigen::VectorXd pull;          ///< C^-1 (linearized readings - their prior mean)
-  Eigen::LLT<Eigen::MatrixXd> covariance;
+  TiledLlt covariance;
   double scatter = 1.0;  ///< what the noise variances were multiplied by
   double log_evidence =
       0.0;  ///< of the linearized readings, without what depends on their number alone

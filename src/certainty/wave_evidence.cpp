@@ -21,7 +21,7 @@ WithWaves::WithWaves(const Rows& rows, double spread) : spread_(spread) {
     const EdgeData data = with_noise(noise * noise * spread * spread / one_reading, rows.data);
     Eigen::MatrixXd covariance = rows.covariance;
     covariance.diagonal() += data.variance;
-    Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+    TiledLlt factor(covariance);
     if (factor.info() != Eigen::Success) continue;
     const Eigen::VectorXd off = factor.matrixL().solve(rows.off);
     const double log_density = data.log_scatter - 0.5 * off.squaredNorm() -

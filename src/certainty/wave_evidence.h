@@ -1,10 +1,10 @@
 /// How probable readings are with waves of healthy tissue among them.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <limits>
 #include <vector>
 
+#include "base/cholesky.h"
 #include "certainty/edge_data.h"
 #include "certainty/slow_waves.h"
 
@@ -39,7 +39,7 @@ class WithWaves {
 
  private:
   struct ByNoise {
-    Eigen::LLT<Eigen::MatrixXd> factor;
+    TiledLlt factor;
     Eigen::VectorXd off;
     double log_density;
   };

@@ -51,5 +51,25 @@ TEST(Factorize, NamesTheFirstRowWithoutAPivotAndLeavesItThere) {
   EXPECT_EQ(factorize(matrix.data(), matrix.cols(), 10), 9);
 }
 
+TEST(TiledLlt, AgreesWithEigens) {
+  for (const int size : {1, 7, 8, 61, 200}) {
+    const Eigen::MatrixXd matrix = random_square(size);
+    const TiledLlt tiled(matrix);
+    const Eigen::LLT<Eigen::MatrixXd> eigens(matrix);
+    ASSERT_EQ(tiled.info(), Eigen::Success);
+    const Eigen::VectorXd right = matrix.rowwise().sum();
+    EXPECT_LT((tiled.solve(right) - Eigen::VectorXd::Ones(size)).norm(), 1e-9 * size);
+    EXPECT_LT((tiled.reconstructedMatrix() - matrix).norm(), 1e-14 * matrix.norm());
+    const Eigen::MatrixXd inverse = eigens.solve(Eigen::MatrixXd::Identity(size, size));
+    EXPECT_LT((tiled.inverse_diagonal() - inverse.diagonal()).norm(), 1e-10 * inverse.norm());
+  }
+}
+
+TEST(TiledLlt, SaysWhereAMatrixIsNotPositiveDefinite) {
+  Eigen::MatrixXd matrix = random_square(20);
+  matrix(13, 13) = -1.0;
+  EXPECT_EQ(TiledLlt(matrix).info(), Eigen::NumericalIssue);
+}
+
 }  // namespace
 }  // namespace palpation
