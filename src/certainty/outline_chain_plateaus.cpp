@@ -9,7 +9,8 @@
 
 namespace palpation {
 
-/// Low and high given all else, which are normal; and the readings' log density without them.
+/// How far low and high are above their medians given all else, which is normal; and the readings'
+/// log density without them.
 struct OutlineChain::Plateaus {
   Eigen::LLT<Eigen::Matrix2d> precision;
   Eigen::Vector2d mean;
@@ -18,22 +19,22 @@ struct OutlineChain::Plateaus {
 
 /// A reading is off low (1 - rise) + high rise.
 OutlineChain::Plateaus OutlineChain::plateaus() const {
+  const double low = prior_->median.low, high = prior_->median.high;
   Eigen::MatrixX3d columns(static_cast<Eigen::Index>(felt_.size()), 3);
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     const double of_part = std::exp(profile_.log_contrast[part_of(felt_[i])]),
                  rise = law_.gain[epoch_of(i)] * of_part * felt_[i].share;
-    columns.row(static_cast<Eigen::Index>(i)) << 1.0 - rise, rise, readings_->reading[i];
+    columns.row(static_cast<Eigen::Index>(i)) << 1.0 - rise, rise,
+        readings_->reading[i] - low - (high - low) * rise;
   }
   const Eigen::Matrix3d products = residuals_.products(columns);
-  const double before = 1.0 / (prior_->plateau_sd * prior_->plateau_sd);
   Eigen::Matrix2d precision = products.topLeftCorner<2, 2>();
-  precision.diagonal().array() += before;
-  const Eigen::Vector2d pull = products.topRightCorner<2, 1>() +
-                               before * Eigen::Vector2d(prior_->median.low, prior_->median.high);
+  precision.diagonal().array() += 1.0 / (prior_->plateau_sd * prior_->plateau_sd);
+  const Eigen::Vector2d pull = products.topRightCorner<2, 1>();
   Plateaus plateaus{.precision = precision.llt(), .mean = {}};
   plateaus.mean = plateaus.precision.solve(pull);
-  plateaus.log_density =
-      0.5 * pull.dot(plateaus.mean) - plateaus.precision.matrixLLT().diagonal().array().log().sum();
+  plateaus.log_density = 0.5 * (pull.dot(plateaus.mean) - products(2, 2)) -
+                         plateaus.precision.matrixLLT().diagonal().array().log().sum();
   return plateaus;
 }
 
@@ -58,8 +59,8 @@ bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, doubl
   if (!taken) std::tie(outline_, pieces_, profile_, law_, felt_) = std::move(other);
   const Eigen::Vector2d normal(random.normal(), random.normal());
   const Eigen::Vector2d drawn = drawn_from.mean + drawn_from.precision.matrixU().solve(normal);
-  profile_.low = drawn[0];
-  profile_.high = drawn[1];
+  profile_.low = prior_->median.low + drawn[0];
+  profile_.high = prior_->median.high + drawn[1];
   law_ = law_of(profile_, *prior_);
   residuals_.forget();
   for (std::size_t i = 0; i < felt_.size(); ++i)
