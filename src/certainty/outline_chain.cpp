@@ -26,6 +26,7 @@ struct OutlineChain::Step {
   std::vector<MovedPiece> pieces;  ///< that move
   Eigen::AlignedBox2d now, ever;   ///< of the pieces as they are; as they are and were
 
+  bool moves_all() const { return static_cast<int>(nodes.size()) == loop.count; }
   bool moves(int piece) const {
     const int after_first = piece - pieces.front().node,
               steps = after_first < 0 ? after_first + loop.count : after_first;
@@ -45,7 +46,9 @@ OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& 
       law_(law_of(profile_, prior)),
       cuts_(cuts),
       felt_(felt_at_start()),
-      residuals_(residuals != nullptr ? *residuals : fresh_residuals()) {
+      residuals_(residuals != nullptr ? *residuals : fresh_residuals()),
+      nesting_(nesting_of(outline_)),
+      held_(held_in(felt_)) {
   if (residuals != nullptr) {
     for (std::size_t i = 0; i < felt_.size(); ++i)
       residuals_.consider(i, off_from(i, felt_[i], law_));
@@ -133,6 +136,13 @@ void OutlineChain::consider(std::size_t reading, const Felt& felt, const Reading
 
 bool OutlineChain::takes(double change, Random& random) {
   if (!(std::log(random.uniform()) < change + residuals_.change())) return false;
+  std::vector<int> held = held_;
+  for (const auto& [reading, felt] : fresh_) {
+    if (const int loop = holder_of(felt_[reading]); loop >= 0) --held[loop];
+    if (const int loop = holder_of(felt); loop >= 0) ++held[loop];
+  }
+  if (!may_hold(held)) return false;
+  held_ = std::move(held);
   for (const auto& [reading, felt] : fresh_) felt_[reading] = felt;
   residuals_.keep();
   return true;
@@ -244,7 +254,7 @@ bool OutlineChain::feel(Step& step, Random& random) {
     step.ever.extend(piece.from).extend(piece.to);
   }
   step.ever.extend(step.now);
-  bool taken = !crosses_another(step);
+  bool taken = !crosses_another(step) && (!step.moves_all() || is_nested_as_before());
   if (taken) {
     consider_none();
     for (std::size_t i = 0; i < felt_.size(); ++i) {

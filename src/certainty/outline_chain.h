@@ -93,6 +93,12 @@ class OutlineChain {
   std::vector<Felt> felt_at_start();
   OutlineResiduals fresh_residuals() const;
   double log_prior() const;
+  /// Of the loop that holds it: is the outer line of the part, or the hole, that it lies in; -1 if
+  /// none does.
+  int holder_of(const Felt& felt) const;
+  std::vector<int> held_in(const std::vector<Felt>& felt) const;
+  bool may_hold(const std::vector<int>& held) const;
+  bool is_nested_as_before() const;
   Plateaus plateaus() const;
   /// Another thought: nothing is considered.
   void consider_none();
@@ -118,6 +124,8 @@ class OutlineChain {
   std::array<Stadium, kCuts> stadiums_;  // of the cuts that are present
   std::vector<Felt> felt_;
   OutlineResiduals residuals_;
+  std::vector<bool> nesting_;    // of the outline's loops
+  std::vector<int> held_;        // readings, by each loop
   std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
   std::vector<std::pair<std::size_t, Felt>> fresh_;  // what the step at hand changes
 };

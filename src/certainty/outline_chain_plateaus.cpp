@@ -46,15 +46,20 @@ bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, doubl
   const double before = log_prior() + drawn_from.log_density;
   auto other = std::tuple(outline_, pieces_, profile_, law_, felt_);
   outline_.place = places;
-  bool taken = is_simple(outline_);
+  bool taken = is_simple(outline_) && is_nested_as_before();
   if (taken) {
     pieces_ = OutlinePieces(outline_);
     profile_.log_slope = log_slope;
     law_ = law_of(profile_, *prior_);
     for (std::size_t i = 0; i < felt_.size(); ++i) felt_[i] = felt_anew(i);
+    std::vector<int> held = held_in(felt_);
     const Plateaus then = plateaus();
-    taken = std::log(random.uniform()) < log_prior() + then.log_density - before + log_volume;
-    if (taken) drawn_from = then;
+    taken = may_hold(held) &&
+            std::log(random.uniform()) < log_prior() + then.log_density - before + log_volume;
+    if (taken) {
+      drawn_from = then;
+      held_ = std::move(held);
+    }
   }
   if (!taken) std::tie(outline_, pieces_, profile_, law_, felt_) = std::move(other);
   const Eigen::Vector2d normal(random.normal(), random.normal());

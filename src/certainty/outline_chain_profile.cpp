@@ -49,7 +49,7 @@ bool OutlineChain::move_tissue_and_nodes(int change, const Vec2& moved_m,
   outline_.place = places;
   pieces_ = OutlinePieces(outline_);
   profile_.moved_m[change] = moved_m;
-  bool taken = is_simple(outline_);
+  bool taken = is_simple(outline_) && is_nested_as_before();
   if (taken) {
     consider_none();
     for (std::size_t i = 0; i < felt_.size(); ++i) consider(i, felt_anew(i), law_);

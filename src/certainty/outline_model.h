@@ -5,8 +5,9 @@
 /// corners, horns and necks are as likely as that law's tails make them; how wide it is, is learned
 /// with the outline. Pieces are about as long as each other. An outline is one of the lines that
 /// end where they began, whose density is divided by how densely lines of such turns do: else
-/// outlines would be the smoother beforehand the more loops there are. Depth is the signed distance
-/// to the polygon, and a reading
+/// outlines would be the smoother beforehand the more loops there are. It is of what was felt: each
+/// loop holds a reading, else it could leave the tissue, where none contradicts it. Depth is the
+/// signed distance to the polygon, and a reading
 ///
 ///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction)))
 ///         + background + noise

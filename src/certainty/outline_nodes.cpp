@@ -42,6 +42,20 @@ std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, int count) {
   return spaced;
 }
 
+std::vector<bool> nesting_of(const OutlineNodes& outline) {
+  std::vector<bool> nesting;
+  for (const NodeLoop& outer : outline.loops) {
+    for (const NodeLoop& inner : outline.loops) {
+      bool is_in = false;
+      for (int node = outer.first; node < outer.first + outer.count; ++node)
+        is_in ^= crosses_ray(outline.place[inner.first], outline.place[node],
+                             outline.place[outline.next(node)]);
+      nesting.push_back(is_in && inner.first != outer.first);
+    }
+  }
+  return nesting;
+}
+
 NearestPiece nearest_piece(const OutlineNodes& outline, const Vec2& place) {
   NearestPiece nearest{.square = 1e300};
   for (int node = 0; node < outline.count(); ++node) {

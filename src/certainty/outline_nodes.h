@@ -63,6 +63,10 @@ std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, int count);
 /// Whether no two pieces cross.
 bool is_simple(const OutlineNodes& outline);
 
+/// Which loop lies in which, of all pairs: what no step without crossings changes but of whole
+/// loops.
+std::vector<bool> nesting_of(const OutlineNodes& outline);
+
 /// Where a place lies: the least distance from any piece, and the piece's first node.
 struct NearestPiece {
   double square = 0.0;

@@ -1,18 +1,28 @@
 #include "certainty/outline_residuals.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace palpation {
 namespace {
 
-constexpr double kWild = 0.01;  ///< part of the readings that tell nothing
+/// Part of the readings that tell nothing: Beta's law, with so many of each kind beforehand.
+constexpr int kWild = 1, kTelling = 99;
 constexpr double kSdLogSd = 1.0;
 constexpr double kSdStep = 1.0;
 constexpr int kNoiseTries = 2;
 
 double half_square(double z) { return 0.5 * z * z; }
+
+/// Beta's, of whole numbers: of so many uniform numbers the one of this rank.
+double beta_draw(int a, int b, Random& random) {
+  std::vector<double> numbers;
+  for (int i = 0; i < a + b - 1; ++i) numbers.push_back(random.uniform());
+  std::ranges::nth_element(numbers, numbers.begin() + a - 1);
+  return numbers[static_cast<std::size_t>(a) - 1];
+}
 
 double normal_density(double off, double square) {
   return std::exp(-half_square(off) / square) / std::sqrt(2.0 * std::numbers::pi * square);
@@ -43,14 +53,15 @@ OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<do
       prior_(prior),
       off_(std::move(off)),
       variance_(variance),
-      scales_{log_noise, std::vector(terms.waves.size(), 0.0)} {
+      scales_{log_noise, std::vector(terms.waves.size(), 0.0)},
+      wild_(static_cast<double>(kWild) / (kWild + kTelling)) {
   for (const double one : variance_) precision_.push_back(1.0 / one);
   factor();
 }
 
 double OutlineResiduals::mixed_density(double off, double variance) const {
   const double square = variance * std::exp(2.0 * scales_.log_noise);
-  return (1.0 - kWild) * normal_density(off, square) + kWild * prior_.wild_density;
+  return (1.0 - wild_) * normal_density(off, square) + wild_ * prior_.wild_density;
 }
 
 double OutlineResiduals::lacking(std::size_t reading) const {
@@ -85,15 +96,16 @@ void OutlineResiduals::forget() {
 
 OutlineResiduals::Told OutlineResiduals::told() const {
   Told told{.information = terms_->information,
-            .weighed = Eigen::VectorXd::Zero(terms_->information.rows())};
+            .weighed = Eigen::VectorXd::Zero(terms_->information.rows()),
+            .log_constant = (kWild - 1) * std::log(wild_) + (kTelling - 1) * std::log1p(-wild_)};
   for (std::size_t i = 0; i < off_.size(); ++i) {
     if (tells(i)) {
       ++told.count;
       told.square += precision_[i] * off_[i] * off_[i];
       told.log_constant +=
-          std::log(1.0 - kWild) + 0.5 * std::log(0.5 * precision_[i] / std::numbers::pi);
+          std::log1p(-wild_) + 0.5 * std::log(0.5 * precision_[i] / std::numbers::pi);
     } else {
-      told.log_constant += std::log(kWild * prior_.wild_density);
+      told.log_constant += std::log(wild_ * prior_.wild_density);
     }
     if (terms_->is_none()) continue;
     const auto row = terms_->of_readings.row(static_cast<Eigen::Index>(i));
@@ -184,13 +196,16 @@ Eigen::MatrixXd OutlineResiduals::products(const Eigen::MatrixXd& columns) const
          explained.transpose() * explained;
 }
 
-/// By the noise alone, which the background leaves.
+/// By the noise alone, which the background leaves; and how often readings tell nothing.
 void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& random) {
   for (std::size_t i = 0; i < off_.size(); ++i) {
     const double mixed = mixed_density(noise[static_cast<Eigen::Index>(i)], variance_[i]);
-    const bool tells = random.uniform() * mixed > kWild * prior_.wild_density;
+    const bool tells = random.uniform() * mixed > wild_ * prior_.wild_density;
     precision_[i] = tells ? 1.0 / variance_[i] : 0.0;
   }
+  const int wild = static_cast<int>(std::ranges::count(precision_, 0.0)),
+            telling = static_cast<int>(precision_.size()) - wild;
+  wild_ = beta_draw(kWild + wild, kTelling + telling, random);
 }
 
 void OutlineResiduals::factor() {

@@ -1,8 +1,9 @@
 /// How far readings are off an outline's profile, and how probable that is.
 ///
 /// They are off by a background (outline_background.h), whose coefficients are integrated out, and
-/// by noise, which is normal but for a reading in a hundred, which tells nothing. With V the
-/// variances of those that tell, times a scale, and F S F' the background's covariance,
+/// by noise, which is normal but for readings that tell nothing: one in a hundred beforehand, how
+/// many, is learned. With V the variances of those that tell, times a scale, and F S F' the
+/// background's covariance,
 ///
 ///     log p(off) = -1/2 off' V^-1 off + 1/2 |pull|^2 + ...,  pull = L^-1 S^(1/2) F' V^-1 off,
 ///     L L' = 1 + S^(1/2) F' V^-1 F S^(1/2),
@@ -85,6 +86,7 @@ class OutlineResiduals {
   std::vector<double> off_, variance_;
   std::vector<double> precision_;  // over the noise's scale; 0 where a reading tells nothing
   ResidualScales scales_;
+  double wild_;              // part of the readings that tell nothing
   Eigen::MatrixXd columns_;  // L^-1 S^(1/2) F' V^-1
   Eigen::VectorXd pull_;
   ResidualChange change_;

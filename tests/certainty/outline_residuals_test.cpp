@@ -71,7 +71,8 @@ double log_density_by_hand(const Readings& readings) {
   const Eigen::VectorXd off = as_vector(readings.off);
   return -0.5 * off.dot(factor.solve(off)) - factor.matrixLLT().diagonal().array().log().sum() -
          0.5 * static_cast<double>(off.size()) * std::log(2.0 * std::numbers::pi) +
-         static_cast<double>(off.size()) * std::log(0.99);
+         static_cast<double>(off.size()) * std::log(0.99) +
+         98.0 * std::log(0.99);  // of how often a reading tells nothing: Beta's law of 1 and 99
 }
 
 TEST(OutlineResiduals, HaveTheDensityOfNoiseAndBackgroundTogether) {
@@ -150,6 +151,26 @@ TEST(OutlineResiduals, AReadingTellsNothingAsOftenAsItShould) {
   const double wild = 0.01 * 0.1, normal = 0.99 * std::exp(-0.5 * 3.8 * 3.8) /
                                            (0.1 * std::sqrt(2.0 * std::numbers::pi));
   EXPECT_NEAR(nothing, wild / (wild + normal), 0.014);  // four standard errors
+}
+
+// Twenty of 120 tell nothing: the share's posterior is Beta's law of 21 and 199.
+TEST(OutlineResiduals, LearnHowManyReadingsTellNothing) {
+  Readings readings;
+  Random random(6);
+  for (int i = 0; i < 120; ++i) readings.off.push_back((i < 20 ? 30.0 : 0.1) * random.normal());
+  readings.off.push_back(0.35);
+  readings.variance.assign(121, 0.01);
+  OutlineResiduals residuals = residuals_of(readings, {.noise_log_sd = 1e-9, .wild_density = 0.01});
+  double nothing = 0.0;
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < 100 + kDraws; ++i) {
+    residuals.redraw(random);
+    if (i >= 100) nothing += residuals.tells(120) ? 0.0 : 1.0 / kDraws;
+  }
+  const double share = 21.0 / 220.0, wild = share * 0.01,
+               normal = (1.0 - share) * std::exp(-0.5 * 3.5 * 3.5) /
+                        (0.1 * std::sqrt(2.0 * std::numbers::pi));
+  EXPECT_NEAR(nothing, wild / (wild + normal), 0.03);
 }
 
 // The scale of a noise that is known up to it, by n residuals: that of a variance's posterior.

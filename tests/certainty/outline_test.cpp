@@ -520,6 +520,24 @@ TEST(OutlineWalk, WhatIsLeftOfAMoveIsDrawnFromItsPriorWhereReadingsTellNothing) 
   EXPECT_NEAR(std::sqrt(0.5 * square), 3 * kMm, 0.45 * kMm);
 }
 
+// Beyond the readings none contradicts it: steps into any direction would be taken.
+TEST(OutlineWalk, AnOutlineHoldsAReadingEvenWhereReadingsTellNothing) {
+  auto [outline, readings, prior] = TellingNothing(25);
+  outline.add({kMm * Vec2(1, 1), kMm * Vec2(1, 7), kMm * Vec2(7, 7), kMm * Vec2(7, 1)}, 0);
+  prior.median.log_spacing.push_back(std::log(kMm));
+  OutlineWalk walk(readings, prior, outline, prior.median, 26);
+  walk.settle(500);
+  for (const OutlineDraw& draw : walk.draws(1000, 50)) {
+    for (const NodeLoop& loop : draw.outline.loops) {
+      OutlineNodes alone;
+      const auto first = draw.outline.place.begin() + loop.first;
+      alone.add({first, first + loop.count}, 0);
+      EXPECT_TRUE(std::ranges::any_of(readings.places,
+                                      [&](const Vec2& place) { return is_inside(alone, place); }));
+    }
+  }
+}
+
 TEST(OutlineWalk, TheSameSeedDrawsTheSame) {
   Random random(10);
   const OutlineNodes truth = rectangle(8 * kMm, 8 * kMm, 32);

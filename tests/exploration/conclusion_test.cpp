@@ -49,6 +49,30 @@ void expect_same_bytes(const Conclusion& a, const Conclusion& b) {
   }
 }
 
+// Twenty readings of healthy tissue whose noise has heavy tails: they gather on two plateaus, but
+// the edge between those is nowhere. The middle of the field's range would part noise from noise.
+TEST(Conclude, NoiseThatNoEdgePartsIsNoTumour) {
+  constexpr double kReadings[][3] = {
+      {8.9905, 18.6674, 7.04418},  {21.5895, 22.0198, 7.04696}, {32.5872, 8.0781, 7.02626},
+      {25.8700, 15.4194, 7.00876}, {18.7425, 3.0746, 7.04456},  {37.5262, 3.8617, 7.00243},
+      {35.8004, 12.3585, 7.01369}, {30.1019, 35.0433, 7.0013},  {38.7536, 18.9215, 6.98881},
+      {27.9162, 21.9947, 7.03207}, {31.8128, 26.5598, 6.99715}, {12.6050, 37.4660, 7.0071},
+      {10.6527, 18.1604, 7.00289}, {33.4997, 7.3823, 7.11441},  {28.5720, 6.2959, 7.01432},
+      {21.8727, 37.4923, 7.01169}, {7.2673, 8.1248, 7.023},     {19.2516, 39.6650, 7.0153},
+      {38.1178, 28.4424, 6.99455}, {23.8515, 31.2487, 7.03873}};
+  Random random(1);
+  const Surface tissue(
+      make_plane({.size_m = Vec2(0.04, 0.04), .columns = 81, .rows = 81}, random));
+  std::vector<Palpation> readings;
+  for (const auto& [x, y, reading] : kReadings)
+    readings.push_back(
+        {.where = tissue.project(Vec3(0.001 * x, 0.001 * y, 0.0)), .reading = reading});
+  const Conclusion conclusion = conclude(tissue, Model{}, readings, nullptr, 1);
+  EXPECT_TRUE(conclusion.evidence.contrast_seen);
+  EXPECT_FALSE(conclusion.level);
+  EXPECT_FALSE(conclusion.contour);
+}
+
 // Batch after batch with what was kept of the batches before, and once from all the readings.
 TEST(Conclude, IsTheSameWithACacheAndWithout) {
   const Surface tissue = plane(26, 51);
