@@ -36,6 +36,13 @@ struct BackgroundTerms {
 
   bool is_none() const { return of_readings.size() == 0; }
 };
+/// Of what readings are off by, background and noise.
+struct ResidualScales {
+  double log_noise;
+  std::vector<double> log_sd;  ///< of the waves of each length, over its median
+  double wild;                 ///< part of the readings that tell nothing
+};
+
 struct BackgroundReadings {
   std::span<const Vec2> places;
   std::span<const double> variance;  ///< of the noise

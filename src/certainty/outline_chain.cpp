@@ -36,7 +36,7 @@ struct OutlineChain::Step {
 };
 
 OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior,
-                           OutlineNodes start, OutlineProfile profile, const Cuts& cuts,
+                           OutlineNodes start, OutlineProfile profile, const OutlineCuts& cuts,
                            const OutlineResiduals* residuals)
     : readings_(&readings),
       prior_(&prior),
@@ -44,7 +44,7 @@ OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& 
       pieces_(outline_),
       profile_(std::move(profile)),
       law_(law_of(profile_, prior)),
-      cuts_(cuts),
+      taken_{.cuts = cuts},
       felt_(felt_at_start()),
       residuals_(residuals != nullptr ? *residuals : fresh_residuals()),
       nesting_(nesting_of(outline_)),
@@ -57,13 +57,13 @@ OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& 
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     // The worse a reading fits, the likelier something is missing there.
     const double lacking = residuals_.lacking(i);
-    anchors_.push_back((i > 0 ? anchors_.back() : 0.0) + 1.0 + lacking * lacking);
+    taken_.anchors.push_back((i > 0 ? taken_.anchors.back() : 0.0) + 1.0 + lacking * lacking);
   }
-  for (double& share : anchors_) share /= anchors_.back();
+  for (double& share : taken_.anchors) share /= taken_.anchors.back();
 }
 
 std::vector<OutlineChain::Felt> OutlineChain::felt_at_start() {
-  for (int which = 0; which < kCuts; ++which) stadiums_[which] = cuts_[which].stadium();
+  for (int which = 0; which < kCuts; ++which) taken_.stadiums[which] = taken_.cuts[which].stadium();
   std::vector<Felt> felt;
   for (std::size_t i = 0; i < readings_->places.size(); ++i) felt.push_back(felt_anew(i));
   return felt;
@@ -96,7 +96,8 @@ double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
   double depth = felt.inside ? distance : -distance;
   const Vec2 place = place_of(reading);
   for (int which = 0; which < kCuts; ++which) {
-    if (cuts_[which].is_present) depth = std::min(depth, -stadiums_[which].depth_at(place));
+    if (taken_.cuts[which].is_present)
+      depth = std::min(depth, -taken_.stadiums[which].depth_at(place));
   }
   return depth;
 }
@@ -155,7 +156,7 @@ double OutlineChain::log_prior() const {
 
 double OutlineChain::log_density() const {
   double sum = log_prior() + residuals_.log_density();
-  for (const OutlineCut& cut : cuts_) sum += cut.is_present ? log_cut_density(cut) : 0.0;
+  for (const OutlineCut& cut : taken_.cuts) sum += cut.is_present ? log_cut_density(cut) : 0.0;
   return sum;
 }
 

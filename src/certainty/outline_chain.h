@@ -5,7 +5,6 @@
 /// costs a few readings, not all.
 #pragma once
 
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -18,13 +17,10 @@ namespace palpation {
 
 class OutlineChain {
  public:
-  static constexpr int kCuts = 2;
-  using Cuts = std::array<OutlineCut, kCuts>;
-
   /// The readings and the prior must outlive it. The start's lines must not cross. `residuals`:
   /// whose scales it has.
   OutlineChain(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
-               OutlineProfile profile, const Cuts& cuts = {},
+               OutlineProfile profile, const OutlineCuts& cuts = {},
                const OutlineResiduals* residuals = nullptr);
 
   /// Proposes that consecutive nodes of a loop, from `first` on, move to these places; at most all
@@ -61,7 +57,7 @@ class OutlineChain {
   void anchor_anew(int which, Random& random);
 
   const OutlineNodes& outline() const { return outline_; }
-  const Cuts& cuts() const { return cuts_; }
+  const OutlineCuts& cuts() const { return taken_.cuts; }
   const OutlineProfile& profile() const { return profile_; }
   const OutlinePrior& prior() const { return *prior_; }
   const ReadingLaw& law() const { return law_; }
@@ -120,13 +116,11 @@ class OutlineChain {
   OutlinePieces pieces_;  // of the outline
   OutlineProfile profile_;
   ReadingLaw law_;  // of the profile
-  Cuts cuts_;
-  std::array<Stadium, kCuts> stadiums_;  // of the cuts that are present
+  TakenOut taken_;
   std::vector<Felt> felt_;
   OutlineResiduals residuals_;
-  std::vector<bool> nesting_;    // of the outline's loops
-  std::vector<int> held_;        // readings, by each loop
-  std::vector<double> anchors_;  // how often fresh cuts have these or earlier ones, rising to 1
+  std::vector<bool> nesting_;                        // of the outline's loops
+  std::vector<int> held_;                            // readings, by each loop
   std::vector<std::pair<std::size_t, Felt>> fresh_;  // what the step at hand changes
 };
 

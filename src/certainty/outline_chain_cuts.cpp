@@ -10,8 +10,8 @@ namespace palpation {
 /// Of the readings' part of the density; the rest has changed by `change`. Few readings lie any
 /// deeper or less deep for a cut.
 bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Random& random) {
-  const OutlineCut before = std::exchange(cuts_[which], cut);
-  const Stadium stadium_before = std::exchange(stadiums_[which], cut.stadium());
+  const OutlineCut before = std::exchange(taken_.cuts[which], cut);
+  const Stadium stadium_before = std::exchange(taken_.stadiums[which], cut.stadium());
   consider_none();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     if (depth_of(i, felt_[i]) != felt_[i].depth_m)
@@ -19,8 +19,8 @@ bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Rand
   }
   const bool taken = takes(change, random);
   if (!taken) {
-    cuts_[which] = before;
-    stadiums_[which] = stadium_before;
+    taken_.cuts[which] = before;
+    taken_.stadiums[which] = stadium_before;
   }
   return taken;
 }
@@ -29,13 +29,13 @@ bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Rand
 bool OutlineChain::switch_cut(int which, Random& random) {
   if (felt_.empty()) return false;
   const auto anchor_ratio = [&](std::size_t anchor) {
-    const double share = anchors_[anchor] - (anchor > 0 ? anchors_[anchor - 1] : 0.0);
+    const double share = taken_.anchors[anchor] - (anchor > 0 ? taken_.anchors[anchor - 1] : 0.0);
     return -std::log(static_cast<double>(felt_.size()) * share);
   };
-  const OutlineCut& now = cuts_[which];
+  const OutlineCut& now = taken_.cuts[which];
   if (now.is_present) return try_cut(which, {}, -anchor_ratio(now.anchor), random);
-  const auto found = std::ranges::upper_bound(anchors_, random.uniform());
-  const auto anchor = std::min<std::size_t>(found - anchors_.begin(), felt_.size() - 1);
+  const auto found = std::ranges::upper_bound(taken_.anchors, random.uniform());
+  const auto anchor = std::min<std::size_t>(found - taken_.anchors.begin(), felt_.size() - 1);
   return try_cut(which, drawn_cut(static_cast<int>(anchor), readings_->places[anchor], random),
                  anchor_ratio(anchor), random);
 }
@@ -43,11 +43,11 @@ bool OutlineChain::switch_cut(int which, Random& random) {
 bool OutlineChain::move_cut(int which, const OutlineCut& cut, Random& random) {
   const double density = log_cut_density(cut);
   return std::isfinite(density) &&
-         try_cut(which, cut, density - log_cut_density(cuts_[which]), random);
+         try_cut(which, cut, density - log_cut_density(taken_.cuts[which]), random);
 }
 
 void OutlineChain::anchor_anew(int which, Random& random) {
-  OutlineCut& cut = cuts_[which];
+  OutlineCut& cut = taken_.cuts[which];
   const double radius = std::exp(cut.log_radius);
   const Vec2 middle = cut.anchor_place + radius * cut.offset;
   std::vector<int> within;

@@ -7,6 +7,9 @@
 /// since the background of real tissue is not flat.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "certainty/outline_nodes.h"
 #include "palpation/base/random.h"
 
@@ -30,6 +33,16 @@ struct OutlineCut {
   double angle = 0.0;
 
   Stadium stadium() const;
+};
+
+inline constexpr int kCuts = 2;
+using OutlineCuts = std::array<OutlineCut, kCuts>;
+
+/// All that is taken.
+struct TakenOut {
+  OutlineCuts cuts;
+  std::array<Stadium, kCuts> stadiums{};  ///< of the cuts that are present
+  std::vector<double> anchors{};  ///< how often fresh cuts have these or earlier ones, rising to 1
 };
 
 /// Of a present one's form; -infinity where it may not be.

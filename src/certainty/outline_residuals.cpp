@@ -53,15 +53,15 @@ OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<do
       prior_(prior),
       off_(std::move(off)),
       variance_(variance),
-      scales_{log_noise, std::vector(terms.waves.size(), 0.0)},
-      wild_(static_cast<double>(kWild) / (kWild + kTelling)) {
+      scales_{log_noise, std::vector(terms.waves.size(), 0.0),
+              static_cast<double>(kWild) / (kWild + kTelling)} {
   for (const double one : variance_) precision_.push_back(1.0 / one);
   factor();
 }
 
 double OutlineResiduals::mixed_density(double off, double variance) const {
   const double square = variance * std::exp(2.0 * scales_.log_noise);
-  return (1.0 - wild_) * normal_density(off, square) + wild_ * prior_.wild_density;
+  return (1.0 - scales_.wild) * normal_density(off, square) + scales_.wild * prior_.wild_density;
 }
 
 double OutlineResiduals::lacking(std::size_t reading) const {
@@ -97,15 +97,16 @@ void OutlineResiduals::forget() {
 OutlineResiduals::Told OutlineResiduals::told() const {
   Told told{.information = terms_->information,
             .weighed = Eigen::VectorXd::Zero(terms_->information.rows()),
-            .log_constant = (kWild - 1) * std::log(wild_) + (kTelling - 1) * std::log1p(-wild_)};
+            .log_constant =
+                (kWild - 1) * std::log(scales_.wild) + (kTelling - 1) * std::log1p(-scales_.wild)};
   for (std::size_t i = 0; i < off_.size(); ++i) {
     if (tells(i)) {
       ++told.count;
       told.square += precision_[i] * off_[i] * off_[i];
       told.log_constant +=
-          std::log1p(-wild_) + 0.5 * std::log(0.5 * precision_[i] / std::numbers::pi);
+          std::log1p(-scales_.wild) + 0.5 * std::log(0.5 * precision_[i] / std::numbers::pi);
     } else {
-      told.log_constant += std::log(wild_ * prior_.wild_density);
+      told.log_constant += std::log(scales_.wild * prior_.wild_density);
     }
     if (terms_->is_none()) continue;
     const auto row = terms_->of_readings.row(static_cast<Eigen::Index>(i));
@@ -200,12 +201,12 @@ Eigen::MatrixXd OutlineResiduals::products(const Eigen::MatrixXd& columns) const
 void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& random) {
   for (std::size_t i = 0; i < off_.size(); ++i) {
     const double mixed = mixed_density(noise[static_cast<Eigen::Index>(i)], variance_[i]);
-    const bool tells = random.uniform() * mixed > wild_ * prior_.wild_density;
+    const bool tells = random.uniform() * mixed > scales_.wild * prior_.wild_density;
     precision_[i] = tells ? 1.0 / variance_[i] : 0.0;
   }
   const int wild = static_cast<int>(std::ranges::count(precision_, 0.0)),
             telling = static_cast<int>(precision_.size()) - wild;
-  wild_ = beta_draw(kWild + wild, kTelling + telling, random);
+  scales_.wild = beta_draw(kWild + wild, kTelling + telling, random);
 }
 
 void OutlineResiduals::factor() {

@@ -29,11 +29,6 @@ struct ResidualPrior {
   double wild_density = 1e-3;
 };
 
-struct ResidualScales {
-  double log_noise;
-  std::vector<double> log_sd;  ///< of the waves of each length, over its median
-};
-
 /// Residuals that are thought of instead, and what they change.
 struct ResidualChange {
   std::vector<std::pair<std::size_t, double>> considered;
@@ -86,7 +81,6 @@ class OutlineResiduals {
   std::vector<double> off_, variance_;
   std::vector<double> precision_;  // over the noise's scale; 0 where a reading tells nothing
   ResidualScales scales_;
-  double wild_;              // part of the readings that tell nothing
   Eigen::MatrixXd columns_;  // L^-1 S^(1/2) F' V^-1
   Eigen::VectorXd pull_;
   ResidualChange change_;

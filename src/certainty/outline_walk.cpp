@@ -270,7 +270,7 @@ void OutlineWalk::trade_gain(std::size_t change) {
 }
 
 void OutlineWalk::move_cuts() {
-  for (int which = 0; which < OutlineChain::kCuts; ++which) {
+  for (int which = 0; which < kCuts; ++which) {
     for (int i = 0; i < kSwitches; ++i) chain_.switch_cut(which, random_);
     for (int i = 0; i < kOfCut && chain_.cuts()[which].is_present; ++i) {
       OutlineCut next = chain_.cuts()[which];

@@ -61,8 +61,7 @@ TEST(Conclude, NoiseThatNoEdgePartsIsNoTumour) {
       {21.8727, 37.4923, 7.01169}, {7.2673, 8.1248, 7.023},     {19.2516, 39.6650, 7.0153},
       {38.1178, 28.4424, 6.99455}, {23.8515, 31.2487, 7.03873}};
   Random random(1);
-  const Surface tissue(
-      make_plane({.size_m = Vec2(0.04, 0.04), .columns = 81, .rows = 81}, random));
+  const Surface tissue(make_plane({.size_m = Vec2(0.04, 0.04), .columns = 81, .rows = 81}, random));
   std::vector<Palpation> readings;
   for (const auto& [x, y, reading] : kReadings)
     readings.push_back(
