@@ -4,72 +4,19 @@
 #include <cmath>
 #include <utility>
 
+#include "certainty/outline_draws.h"
 #include "certainty/outline_pruning.h"
-#include "certainty/outline_start.h"
-#include "certainty/outline_walk.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
 namespace {
 
-constexpr int kChains = 2;
-constexpr int kSettling = 400, kSweeps = 800;
-/// As often chains that do not agree go on, each time for as long as before.
-constexpr int kMostRounds = 3;
-constexpr double kDisagree = 1.0;
 constexpr int kVerticesAtOnce = 256;
 constexpr double kLeastSpread_m = 1e-6;
 constexpr int kFewestDraws = 20;
 /// Of what is felt where it is deepest: what reaches so much of that half way there levels off.
 constexpr double kLevel = 0.9;
-
-using Draws = std::vector<OutlineDraw>;
-
-double area_of(const OutlineNodes& outline) {
-  double area = 0.0;
-  for (const NodeLoop& loop : outline.loops) {
-    const auto first = outline.place.begin() + loop.first;
-    area += enclosed_area({first, first + loop.count});
-  }
-  return area;
-}
-
-/// Between the halves of draws, which are of two chains.
-double disagreement_of(const Draws& draws) {
-  const auto half = draws.size() / 2;
-  double mean[2] = {0.0, 0.0}, square = 0.0;
-  for (std::size_t i = 0; i < draws.size(); ++i)
-    mean[i / half] += area_of(draws[i].outline) / static_cast<double>(half);
-  for (std::size_t i = 0; i < draws.size(); ++i)
-    square += std::pow(area_of(draws[i].outline) - mean[i / half], 2);
-  const double sd = std::sqrt(square / static_cast<double>(draws.size()));
-  return sd > 0.0 ? std::abs(mean[0] - mean[1]) / sd : 0.0;
-}
-
-/// Of two chains, one after the other; and how far they are apart.
-std::pair<Draws, double> drawn(const OutlineStart& start, const OutlineOptions& options) {
-  std::vector<OutlineWalk> walks;
-  for (int chain = 0; chain < kChains; ++chain)
-    walks.emplace_back(start.readings, start.prior, start.outline, start.profile,
-                       kChains * options.seed + static_cast<std::uint64_t>(chain));
-  const int each = options.draws / kChains;
-  std::pair<Draws, double> result;
-  for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<Draws> of_chain(kChains);
-    for_ranges(kChains, 1, [&](int first, int last) {
-      for (int chain = first; chain < last; ++chain) {
-        walks[chain].settle(kSettling);
-        of_chain[chain] = walks[chain].draws(kSweeps, each);
-      }
-    });
-    result.first = std::move(of_chain[0]);
-    for (OutlineDraw& draw : of_chain[1]) result.first.push_back(std::move(draw));
-    result.second = disagreement_of(result.first);
-    if (result.second < kDisagree) break;
-  }
-  return result;
-}
 
 /// What part of a vertex's surroundings, so wide, is inside at this depth.
 double share_inside(double depth_m, double width_m) {
@@ -122,7 +69,7 @@ struct DrawnBoundaries {
   std::vector<double> levels;
   std::vector<double> has_plateau;  ///< 1 of those that have one, else 0
 };
-DrawnBoundaries boundaries_at(const Surface& surface, const Draws& draws) {
+DrawnBoundaries boundaries_at(const Surface& surface, const std::vector<OutlineDraw>& draws) {
   DrawnBoundaries all{{static_cast<Eigen::Index>(draws.size()), surface.vertex_count()},
                       std::vector(draws.size(), 0.0),
                       std::vector(draws.size(), 0.0)};
@@ -241,7 +188,14 @@ Level mean_and_sd(const std::vector<double>& numbers) {
   return {mean, std::sqrt(std::max(square / count - mean * mean, 0.0))};
 }
 
-std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes, const Draws& draws) {
+double mean_noise(const std::vector<OutlineDraw>& draws) {
+  double sum = 0.0;
+  for (const OutlineDraw& draw : draws) sum += std::exp(draw.profile.log_noise);
+  return sum / static_cast<double>(draws.size());
+}
+
+std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
+                                const std::vector<OutlineDraw>& draws) {
   std::vector<ChangeLeft> left;
   Eigen::Index step = 0;
   for (std::size_t change = 0; change < changes.size(); ++change) {
@@ -279,7 +233,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   std::optional<OutlineStart> first = outline_start(belief, edge, options);
   if (!first) return std::nullopt;
   const OutlineStart start = pruned(*std::move(first), options.seed);
-  const auto [draws, disagreement] = drawn(start, options);
+  const auto [draws, disagreement] = draws_from(start, options.draws, options.seed);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
                              .spread = spread_of(depths),
@@ -287,6 +241,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .expected = {},
                              .area_m2 = {},
                              .left = left_of(options.changes, draws),
+                             .noise = mean_noise(draws),
                              .level = mean_and_sd(levels),
                              .plateau_probability = mean_and_sd(has_plateau).value,
                              .disagreement = disagreement};

@@ -24,6 +24,12 @@ double mean_over(const Conclusion& conclusion, const std::vector<int>& vertices)
   return area > 0.0 ? sum / area : 0.0;
 }
 
+/// Where few readings stand far apart, the field takes noise for what it follows; outlines do not.
+double noise_sd_of(const Conclusion& conclusion) {
+  const double drawn = conclusion.outlines ? conclusion.outlines->noise : 1.0;
+  return std::max(1.0, drawn) * std::sqrt(conclusion.belief.noise_variance());
+}
+
 }  // namespace
 
 double contrast_on_scale(const Conclusion& conclusion, double least) {
@@ -60,7 +66,7 @@ std::optional<Search> search_after(const Conclusion& conclusion, double probabil
   const double contrast =
       least ? contrast_on_scale(conclusion, *least)
             : (conclusion.level->value - healthy) / conclusion.model.level.fraction;
-  search.sought.contrast_to_noise = contrast / std::sqrt(conclusion.belief.noise_variance());
+  search.sought.contrast_to_noise = contrast / noise_sd_of(conclusion);
   if (!(search.sought.contrast_to_noise > 0.0)) return std::nullopt;
   return search;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "belief/tissue.h"
+#include "exploration/search_goal.h"
 #include "palpation/base/error.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/world/phantom.h"
@@ -47,6 +48,24 @@ void expect_same_bytes(const Conclusion& a, const Conclusion& b) {
   if (a.certainty) {
     EXPECT_TRUE(a.certainty->score == b.certainty->score);
   }
+}
+
+// Where the field followed noise, the noise that outlines tell counts for what could hide.
+TEST(Conclude, NoiseThatOutlinesTellLetsMoreHide) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk(tissue);
+  Random random(4);
+  Exploration exploration(tissue, Model{}, {.batches = 6});
+  run(exploration, probe_over(phantom, random));
+  Conclusion conclusion = conclude(tissue, Model{}, exploration.readings(), nullptr, 1);
+  ASSERT_TRUE(conclusion.outlines);
+  EXPECT_NEAR(conclusion.outlines->noise, 1.0, 0.3);
+  conclusion.outlines->noise = 1.0;
+  const double before = diameter_ruled_out_m(conclusion, 0.95).value();
+  conclusion.outlines->noise = 0.5;
+  EXPECT_EQ(diameter_ruled_out_m(conclusion, 0.95).value(), before);
+  conclusion.outlines->noise = 4.0;
+  EXPECT_GT(diameter_ruled_out_m(conclusion, 0.95).value(), 1.1 * before);
 }
 
 // Twenty readings of healthy tissue whose noise has heavy tails: they gather on two plateaus, but
