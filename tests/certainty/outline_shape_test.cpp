@@ -110,7 +110,8 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
     prior.median = profile_of(0.12, kMm);
     prior.median.log_spacing.resize(outline.loops.size(), std::log(kMm));
     prior.median.log_contrast = {0.0};
-    OutlineWalk walk({}, prior, outline, prior.median, 42);
+    const OutlineReadings nothing;
+    OutlineWalk walk(nothing, prior, outline, prior.median, 42);
     walk.settle(300);
     double mean = 0.0;
     for (const OutlineDraw& draw : walk.draws(2000, 500)) mean += draw.profile.log_turn / 500.0;
