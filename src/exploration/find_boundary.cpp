@@ -29,9 +29,8 @@ double noise_log_sd_of(const Model& model, const Belief& belief) {
 }
 
 /// The profile of the readings across the edge (equation 4), and what it tells of the boundary.
-BoundaryFit from_edge(const Surface& surface, const Model& model, const Believed& believed,
+BoundaryFit from_edge(const Surface& surface, const Model& model, const Belief& belief,
                       const Marginals& component) {
-  const Belief& belief = believed.belief;
   const double fraction = model.level.fraction;
   BoundaryFit fit{.level = level_from_edge(surface, belief, component, fraction)};
   // The profile may have settled on noise: the middle of the readings' own two plateaus is a second
@@ -43,13 +42,11 @@ BoundaryFit from_edge(const Surface& surface, const Model& model, const Believed
   if (fit.edge) fit.level = fit.edge->level();
   // Where contact fades no profile fits: its plateau may run away, and with it the level, until it
   // is out of the mean's range or nothing is inside. That range is left: its least is felt all over
-  // healthy tissue, its greatest is as unsure a plateau as it was for the profile. Elsewhere it is
-  // noise that has no edge.
+  // healthy tissue, its greatest is as unsure a plateau as it was for the profile.
   const double least = component.mean.minCoeff(), greatest = component.mean.maxCoeff();
   const bool is_felt = fit.level->value > least && fit.level->value < greatest,
              is_empty = fit.edge && fit.edge->depth().maxCoeff() < 0.0;
   if (is_felt && !is_empty) return fit;
-  if (!fading_contact(surface, believed.palpations)) return {};
   fit = {.level = level_from_range(component, fraction)};
   fit.level->stddev = fraction * plateau_sd(belief, greatest - least);
   return fit;
@@ -116,7 +113,7 @@ BoundaryFit find_boundary(const Surface& surface, const Model& model, const Beli
   if (is_flat) return {};
   if (model.level.estimate == LevelEstimate::Range)
     return {.level = level_from_range(component, model.level.fraction)};
-  return from_edge(surface, model, believed, component);
+  return from_edge(surface, model, belief, component);
 }
 
 namespace {
@@ -153,7 +150,14 @@ std::optional<WaveScale> slow_waves_among(const std::vector<Misfit>& changes) {
 
 void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
                    std::uint64_t seed) {
-  if (!boundary.edge) return;
+  if (!boundary.edge) {
+    // What the range of the mean parts may guide a plan. Where contact does not fade, and still no
+    // edge fits when all is felt, it is noise.
+    const bool is_by_range = model.level.known || model.level.estimate == LevelEstimate::Range;
+    const Surface& surface = believed.belief.prior().surface();
+    if (!is_by_range && !fading_contact(surface, believed.palpations)) boundary = {};
+    return;
+  }
   boundary.outlines =
       sample_outlines(believed.belief, *boundary.edge,
                       {.fraction = model.level.fraction,

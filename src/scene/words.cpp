@@ -140,7 +140,7 @@ std::string weaker_words(const Exploration& exploration) {
 namespace {
 
 /// Where the field is highest, and why that is no tumour.
-std::string slow_wave_words(const Exploration& exploration) {
+std::string no_edge_words(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
   Eigen::Index highest = 0;
   const double most = as_reading(conclusion.scale(), conclusion.component.mean.maxCoeff(&highest)),
@@ -148,11 +148,13 @@ std::string slow_wave_words(const Exploration& exploration) {
   return "Nothing found that has an edge: readings rise by " + reading_text(most - least) +
          ", most around " +
          place_words(exploration.surface().vertex(static_cast<int>(highest)), 1) +
-         ", as slowly as healthy tissue may, and a tumour's edge makes them less probable by a "
-         "factor of e^" +
-         fixed(-*conclusion.evidence.of_edge, 0) +
-         ". Where a tumour may lie so deep, level.estimate range draws where half of that is "
-         "reached.";
+         (conclusion.evidence.of_edge
+              ? ", as slowly as healthy tissue may, and a tumour's edge makes them less probable "
+                "by "
+                "a factor of e^" +
+                    fixed(-*conclusion.evidence.of_edge, 0) + ". Where a tumour may lie so deep"
+              : ", and no edge fits them: touch there again. Where it is a tumour all the same") +
+         ", level.estimate range draws where half of that is reached.";
 }
 
 }  // namespace
@@ -165,7 +167,10 @@ std::string no_level_words(const Exploration& exploration) {
   if (readings.size() > 1 && all_equal(readings))
     return "Nothing found: all " + std::to_string(readings.size()) + " readings are equal, " +
            reading_text(readings.front()) + ", to the last digit, as if the sensor were stuck.";
-  if (exploration.conclusion().evidence.of_edge) return slow_wave_words(exploration);
+  const Evidence& evidence = exploration.conclusion().evidence;
+  const bool has_contrast = readings.size() > 1 && evidence.contrast_seen &&
+                            exploration.conclusion().model.needs_contrast();
+  if (evidence.of_edge || has_contrast) return no_edge_words(exploration);
   return kNoContrast;
 }
 
