@@ -42,15 +42,23 @@ std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, int count) {
   return spaced;
 }
 
+namespace {
+
+bool is_in_loop(const OutlineNodes& outline, const NodeLoop& loop, const Vec2& place) {
+  bool inside = false;
+  for (int node = loop.first; node < loop.first + loop.count; ++node)
+    inside ^= crosses_ray(place, outline.place[node], outline.place[outline.next(node)]);
+  return inside;
+}
+
+}  // namespace
+
 std::vector<bool> nesting_of(const OutlineNodes& outline) {
   std::vector<bool> nesting;
   for (const NodeLoop& outer : outline.loops) {
     for (const NodeLoop& inner : outline.loops) {
-      bool is_in = false;
-      for (int node = outer.first; node < outer.first + outer.count; ++node)
-        is_in ^= crosses_ray(outline.place[inner.first], outline.place[node],
-                             outline.place[outline.next(node)]);
-      nesting.push_back(is_in && inner.first != outer.first);
+      nesting.push_back(inner.first != outer.first &&
+                        is_in_loop(outline, outer, outline.place[inner.first]));
     }
   }
   return nesting;
@@ -68,8 +76,7 @@ NearestPiece nearest_piece(const OutlineNodes& outline, const Vec2& place) {
 
 bool is_inside(const OutlineNodes& outline, const Vec2& place) {
   bool inside = false;
-  for (int node = 0; node < outline.count(); ++node)
-    inside ^= crosses_ray(place, outline.place[node], outline.place[outline.next(node)]);
+  for (const NodeLoop& loop : outline.loops) inside ^= is_in_loop(outline, loop, place);
   return inside;
 }
 

@@ -150,10 +150,12 @@ DrawnNumber summed_up(std::vector<double> numbers) {
 /// Standard deviation of the depths at each vertex.
 Field spread_of(const Eigen::MatrixXf& depths) {
   Field spread(depths.cols());
-  for (Eigen::Index vertex = 0; vertex < depths.cols(); ++vertex) {
-    const auto here = depths.col(vertex).cast<double>().array();
-    spread[vertex] = std::max(kLeastSpread_m, std::sqrt((here - here.mean()).square().mean()));
-  }
+  for_ranges(static_cast<int>(depths.cols()), kVerticesAtOnce, [&](int first, int last) {
+    for (int vertex = first; vertex < last; ++vertex) {
+      const Eigen::ArrayXd here = depths.col(vertex).cast<double>();
+      spread[vertex] = std::max(kLeastSpread_m, std::sqrt((here - here.mean()).square().mean()));
+    }
+  });
   return spread;
 }
 

@@ -18,8 +18,9 @@ struct Loops {
   OutlineProfile profile;
 };
 
-bool goes_along(const NodeLoop& loop, const NodeLoop& with) {
-  return with.turns > 0.0 && loop.part == with.part;
+/// A part's outer line takes its holes along.
+bool goes_with(const NodeLoop& loop, const NodeLoop& lost) {
+  return loop.first == lost.first || (lost.turns > 0.0 && loop.part == lost.part);
 }
 
 Loops without(const Loops& all, const NodeLoop& lost) {
@@ -30,7 +31,7 @@ Loops without(const Loops& all, const NodeLoop& lost) {
   std::vector<int> part_now(all.profile.log_contrast.size(), -1);
   for (std::size_t i = 0; i < all.outline.loops.size(); ++i) {
     const NodeLoop& loop = all.outline.loops[i];
-    if (loop.first == lost.first || goes_along(loop, lost)) continue;
+    if (goes_with(loop, lost)) continue;
     int& part = part_now[loop.part];
     if (part < 0) {
       part = static_cast<int>(kept.profile.log_contrast.size());
@@ -55,7 +56,7 @@ double length_of(const OutlineNodes& outline, const NodeLoop& loop) {
 double price_of(const OutlineNodes& outline, const NodeLoop& lost, std::size_t readings) {
   double price = 0.0;
   for (const NodeLoop& loop : outline.loops) {
-    if (loop.first == lost.first || goes_along(loop, lost))
+    if (goes_with(loop, lost))
       price += price_of_loop(length_of(outline, loop), ShapePrior{}, readings);
   }
   return price;

@@ -12,8 +12,8 @@
 namespace palpation {
 
 /// Without loops that make the readings more probable by less than their freedom costs
-/// (price_of_loop), asked once a chain from here has settled a little; the largest stays. What lies
-/// in a loop that goes, goes along.
+/// (price_of_loop), asked once a chain from here has settled a little; the largest stays. The holes
+/// of a part that goes, go along.
 OutlineStart pruned(OutlineStart start, std::uint64_t seed);
 
 }  // namespace palpation

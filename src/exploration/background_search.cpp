@@ -23,8 +23,7 @@ double log_evidence_or_drop(Known& known) {
 
 Known without_background(const Surface& surface, const Model& model,
                          const std::vector<Palpation>& felt, Known flat, const KnownOf& known_of) {
-  const bool is_by_edge = !model.level.known && model.level.estimate == LevelEstimate::Edge;
-  if (!is_by_edge || model.field.trend.is_linear || model.field.is_noiseless() ||
+  if (!model.level.is_of_edge() || model.field.trend.is_linear || model.field.is_noiseless() ||
       flat.believed.belief.site_count() == 0)
     return flat;
   std::optional<WithoutBackground> tilted = without_tilt(surface, felt, flat, known_of);

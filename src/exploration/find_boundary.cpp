@@ -153,9 +153,8 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
   if (!boundary.edge) {
     // What the range of the mean parts may guide a plan. Where contact does not fade, and still no
     // edge fits when all is felt, it is noise.
-    const bool is_by_range = model.level.known || model.level.estimate == LevelEstimate::Range;
     const Surface& surface = believed.belief.prior().surface();
-    if (!is_by_range && !fading_contact(surface, believed.palpations)) boundary = {};
+    if (model.level.is_of_edge() && !fading_contact(surface, believed.palpations)) boundary = {};
     return;
   }
   boundary.outlines =

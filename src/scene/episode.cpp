@@ -123,9 +123,8 @@ Episode run_exploration(const Scene& scene, const Surface& surface, const World&
 /// When all is felt: as sure as the scene asks to be.
 void conclude_finally(const Scene& scene, Episode& episode) {
   const std::optional<std::uint64_t> seed = outlines_seed_of(scene);
-  const LevelRule& level = episode.conclusion().model.level;
-  const bool has_no_edge = level.known || level.estimate == LevelEstimate::Range;
-  if (!seed || !episode.conclusion().level || has_no_edge) return;
+  const Conclusion& conclusion = episode.conclusion();
+  if (!seed || !conclusion.level || !conclusion.model.level.is_of_edge()) return;
   episode.exploration.draw_outlines(*seed);
   episode.trace.pop_back();
   restate(episode);

@@ -90,6 +90,9 @@ struct LevelRule {
   std::optional<double> known{};  ///< in reading units
   double fraction = 0.5;          ///< of the way from the low plateau to the high one
   LevelEstimate estimate = LevelEstimate::Edge;
+
+  /// Whether it is to be told by the tumour's edge.
+  bool is_of_edge() const { return !known && estimate == LevelEstimate::Edge; }
 };
 
 /// What counts as a tumour's contrast.
