@@ -7,7 +7,6 @@
 #include "certainty/contrast.h"
 #include "certainty/detection.h"
 #include "exploration/field_fit.h"
-#include "exploration/heavy_tails.h"
 #include "exploration/lag_fit.h"
 #include "exploration/screened_readings.h"
 #include "palpation/readings/screening.h"
@@ -16,8 +15,6 @@
 namespace palpation {
 namespace {
 
-/// The fourth changes weights by less than a part in ten.
-constexpr int kRoundsOfWeighing = 4;
 constexpr std::size_t kFewReadings = 10;
 /// What lies farther from others than so many times their span is no plateau of which they felt the
 /// edge.
@@ -78,25 +75,6 @@ bool a_disk_stands_out(const Layout& layout, std::span<const Palpation> palpatio
   return greatest_excess(layout, layout.touched(palpations), readings) > kNeededToFind;
 }
 
-/// Weights and field in turn; the readings stay where the lag that was found puts them.
-Belief weighed_belief(const Surface& surface, const FieldModel& field, const LagFit& fit,
-                      std::span<const Palpation> palpations) {
-  FieldModel given = field;
-  given.noise.is_relative = false;
-  const std::vector<Palpation> placed =
-      displaced(surface, palpations, fit.lag ? fit.lag->value_m : 0.0);
-  Belief belief = fit.field.belief;
-  double noise_sd = std::sqrt(belief.noise_variance());
-  for (int round = 0; round < kRoundsOfWeighing; ++round) {
-    const WeighedReadings weighed = weighed_for_heavy_tails(belief, placed, noise_sd);
-    noise_sd = field.noise.sd.is_learned() ? weighed.noise_sd : noise_sd;
-    given.noise.sd = noise_sd;
-    belief = given.learns() ? fit_field(surface, given, weighed.palpations).belief
-                            : fixed_field(surface, given, weighed.palpations);
-  }
-  return belief;
-}
-
 /// The field by the readings that are not set aside.
 LagFit fitted(const Surface& surface, const FieldModel& field, std::span<const Palpation> all,
               ConclusionCache& cache) {
@@ -105,8 +83,6 @@ LagFit fitted(const Surface& surface, const FieldModel& field, std::span<const P
   LagFit fit =
       is_given ? LagFit{{fixed_field(surface, field, all)}} : fit_lagged(surface, field, all);
   if (!field.probe.has_lag() || all.empty()) fit.lag.reset();
-  if (field.noise.heavy_tails && !all.empty())
-    fit.field.belief = weighed_belief(surface, field, fit, all);
   return fit;
 }
 
@@ -124,24 +100,14 @@ LagFit screened_and_fitted(const Surface& surface, const FieldModel& field,
   return fitted(surface, field, all, cache);
 }
 
-bool shows_contrast(const Surface& surface, const FieldModel& field, const FieldFit& fit,
-                    std::span<const Palpation> all) {
+bool shows_contrast(const FieldModel& field, const FieldFit& fit, std::span<const Palpation> all) {
   const Belief& belief = fit.belief;
-  std::vector<Palpation> flat = field.trend.is_linear
-                                    ? belief.detrended_palpations()
-                                    : std::vector<Palpation>(all.begin(), all.end());
-  if (field.noise.heavy_tails) flat = drawn_in(std::move(flat));
-  double evidence = fit.signal_evidence;
-  if (!field.learns()) {
-    evidence = evidence_of_fixed(belief, flat);
-  } else if (field.noise.heavy_tails) {
-    evidence = fit_field(surface, field, flat).signal_evidence;
-  }
-  if (a_disk_stands_out(Layout(belief.prior()), flat)) return true;
-  // Values alone are no contrast where noise may have heavy tails: what is drawn in gathers at both
-  // ends.
-  return field.noise.heavy_tails ? shows_field(evidence)
-                                 : palpation::shows_contrast(used_readings(flat), evidence);
+  const std::vector<Palpation> flat = field.trend.is_linear
+                                          ? belief.detrended_palpations()
+                                          : std::vector<Palpation>(all.begin(), all.end());
+  const double evidence = field.learns() ? fit.signal_evidence : evidence_of_fixed(belief, flat);
+  return a_disk_stands_out(Layout(belief.prior()), flat) ||
+         palpation::shows_contrast(used_readings(flat), evidence);
 }
 
 bool lacks_trend(const FieldModel& field, const Belief& belief) {
@@ -177,7 +143,7 @@ Believed believe(const Surface& surface, const Model& model, std::vector<Palpati
   if (apart && model.needs_contrast()) {
     const std::vector<Palpation> others = without(all, *apart);
     evidence.contrast_seen =
-        shows_contrast(surface, field, fitted(surface, field, others, cache).field, others);
+        shows_contrast(field, fitted(surface, field, others, cache).field, others);
     const std::optional<ReadingsApart> far =
         evidence.contrast_seen ? palpations_apart(surface, flat, kFarAlone) : std::nullopt;
     if (far) {
@@ -185,7 +151,7 @@ Believed believe(const Surface& surface, const Model& model, std::vector<Palpati
       fit = fitted(surface, field, all, cache);
     }
   } else if (model.needs_contrast()) {
-    evidence.contrast_seen = shows_contrast(surface, field, fit.field, all);
+    evidence.contrast_seen = shows_contrast(field, fit.field, all);
   }
   if (apart) {
     for (const std::size_t number : apart->numbers) evidence.standing_alone.push_back(all[number]);

@@ -17,10 +17,12 @@ namespace {
 /// Whether a reading was set aside for a reason that this model judges anew.
 bool is_judged_anew(const Palpation& palpation, const Model& model) {
   const std::string& reason = palpation.set_aside;
-  if (reason == kNoContact || reason == kOutlier || reason == kBeyondTissue) return true;
   if (reason == kStandsAlone) return model.needs_contrast();
-  const auto of_rows = {kJammed, kFrozen, kStartUp, kBaseStep};
-  return model.field.probe.screening && std::ranges::find(of_rows, reason) != of_rows.end();
+  const auto is_among = [&](std::initializer_list<std::string> reasons) {
+    return std::ranges::find(reasons, reason) != reasons.end();
+  };
+  return is_among({kNoContact, kFrozen, kOutlier, kBeyondTissue}) ||
+         (model.field.probe.screening && is_among({kJammed, kStartUp, kBaseStep}));
 }
 
 /// Those that were made, as they were made.

@@ -163,8 +163,8 @@ FieldFit fit_field(const Surface& surface, const FieldModel& field,
 }
 
 bool grows(const FieldModel& field, std::span<const Palpation> palpations) {
-  const bool restates_known_readings = field.probe.has_lag() || field.probe.screening ||
-                                       field.noise.heavy_tails || field.trend.is_linear;
+  const bool restates_known_readings =
+      field.probe.has_lag() || field.probe.screening || field.trend.is_linear;
   if (restates_known_readings) return false;
   return !field.learns() || (field.economy.rebuild_gain > 0.0 && field.trend.constant.sd > 0.0 &&
                              std::ranges::none_of(palpations, is_on_the_way));

@@ -10,7 +10,7 @@ namespace palpation {
 std::vector<Palpation> screened_readings(const Surface& surface, const FieldModel& field,
                                          std::span<const Palpation> recorded, double lag_m) {
   std::vector<Palpation> result(recorded.begin(), recorded.end());
-  if (recorded.empty() || (field.noise.heavy_tails && !field.probe.screening)) return result;
+  if (recorded.empty()) return result;
   const double length_m = std::min(kernel_of(field.kernel).length_m, field.kernel.length_median_m);
   const auto screen = [&](const Surface& tissue, std::span<const Palpation> felt) {
     return field.probe.screening ? screened(tissue, felt) : plausible(tissue, felt, length_m);

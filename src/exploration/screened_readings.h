@@ -9,7 +9,7 @@
 namespace palpation {
 
 /// The readings, screened where the field asks for it; else those that are implausible are set
-/// aside, unless heavy tails weigh them. Where a lag is modelled they are compared at the places
+/// aside. Where a lag is modelled they are compared at the places
 /// where they belong with this one, whatever their direction of travel.
 std::vector<Palpation> screened_readings(const Surface& surface, const FieldModel& field,
                                          std::span<const Palpation> recorded, double lag_m);

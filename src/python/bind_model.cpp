@@ -46,8 +46,7 @@ py::dict dictionary_of(const Model& model) {
       "length_m"_a = value_of(field.kernel.length_m),
       "signal_sd"_a = value_of(field.kernel.signal_sd), "noise_sd"_a = value_of(field.noise.sd),
       "trend"_a = word_for<TrendWord>(trend_of(field.trend), kTrends),
-      "standardize"_a = field.standardize, "heavy_tails"_a = field.noise.heavy_tails,
-      "lag_m"_a = value_of(field.probe.lag_m),
+      "standardize"_a = field.standardize, "lag_m"_a = value_of(field.probe.lag_m),
       "indenter_radius_m"_a = field.probe.indenter_radius_m, "screening"_a = field.probe.screening,
       "length_median_m"_a = field.kernel.length_median_m, "period_m"_a = field.kernel.period_m,
       "level"_a = known, "level_fraction"_a = level.fraction,
@@ -65,7 +64,7 @@ FieldModel field_of(const Options& given) {
                   .signal_sd = given.learnable("signal_sd"),
                   .length_median_m = given.number("length_median_m"),
                   .period_m = given.number("period_m")};
-  field.noise = {.sd = given.learnable("noise_sd"), .heavy_tails = given.truth("heavy_tails")};
+  field.noise.sd = given.learnable("noise_sd");
   const TrendWord trend = given.choice<TrendWord>("trend", kTrends);
   field.trend.is_linear = trend == TrendWord::Linear;
   if (trend == TrendWord::Zero) field.trend.constant.sd = 0.0;

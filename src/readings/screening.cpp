@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "readings/lost_contact.h"
 #include "readings/outliers.h"
@@ -23,14 +24,18 @@ constexpr double kGrossBelow = 10.0;  // ranges of nine tenths of the readings
 constexpr double kGrossAbove =
     1000.0;  // the same: a tumour stands out of noise of 0.1 % by three hundred
 
-/// Runs of one number while the probe moves. A sensor with few steps repeats itself by nature.
+/// Runs of one number while the probe moves. A sensor with few steps repeats itself by nature, and
+/// so does a plateau without noise, which is felt again elsewhere.
 void find_frozen(Screen& screen) {
-  std::vector<double> distinct = used_readings(screen.palpations);
-  const std::size_t count = distinct.size();
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  const bool is_coarse = distinct.size() > 1 && distinct.size() < count / 4;
+  std::vector<double> sorted = used_readings(screen.palpations);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> distinct;
+  std::ranges::unique_copy(sorted, std::back_inserter(distinct));
+  const bool is_coarse = distinct.size() > 1 && distinct.size() < sorted.size() / 4;
   if (is_coarse) return;
+  const auto times_felt = [&](double reading) {
+    return std::ranges::equal_range(sorted, reading).size();
+  };
   for (std::size_t first = 0, last = 0; first < screen.places.size(); first = last + 1) {
     double path_m = 0.0;
     for (last = first;
@@ -38,7 +43,10 @@ void find_frozen(Screen& screen) {
          ++last) {
       path_m += (screen.places[last + 1] - screen.places[last]).norm();
     }
-    if (last - first + 1 < kLeastFrozen || path_m <= kTipWidth_m) continue;
+    const std::size_t in_run = last - first + 1;
+    if (in_run < kLeastFrozen || path_m <= kTipWidth_m ||
+        times_felt(screen.reading(first)) > in_run)
+      continue;
     for (std::size_t i = first; i <= last; ++i) screen.set_aside(i, kFrozen);
   }
 }
@@ -98,6 +106,7 @@ std::vector<Palpation> plausible(const Surface& surface, std::span<const Palpati
                                  double length_m) {
   std::vector<Palpation> result(palpations.begin(), palpations.end());
   Screen screen{result, places_of(surface, palpations)};
+  find_frozen(screen);
   find_implausible(screen, length_m);
   return result;
 }

@@ -85,7 +85,6 @@ const BoundKeys<FieldModel>& field_keys() {
       Key::to("field.rebuild_gain", kAsIs, &Field::economy, &Economy::rebuild_gain),
       Key::to("field.indenter_radius_mm", kMillimetres, &Field::probe,
               &ProbeModel::indenter_radius_m),
-      Key::to("field.heavy_tails", kAsIs, &Field::noise, &NoiseModel::heavy_tails),
       Key::to("field.screening", kAsIs, &Field::probe, &ProbeModel::screening),
       Key::to("field.lag_mm", kMillimetres, &Field::probe, &ProbeModel::lag_m),
   };

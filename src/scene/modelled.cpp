@@ -21,7 +21,6 @@ void add_terms_of_field(const Conclusion& conclusion, Terms& terms) {
   const Model& model = conclusion.model;
   if (conclusion.scale() == ReadingScale::Log) terms.emplace_back("logarithms");
   if (conclusion.belief.prior().has_slope()) terms.emplace_back("slope");
-  if (model.field.noise.heavy_tails) terms.emplace_back("heavy tails");
   if (model.field.probe.screening) terms.emplace_back("screening");
   if (conclusion.lag) terms.emplace_back("lag");
   if (model.field.probe.indenter_radius_m > 0.0) terms.emplace_back("tip");

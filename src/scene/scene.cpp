@@ -21,8 +21,7 @@ constexpr double kLeastRelativeContrast = 1e-12;
 
 const SceneKey* find_key(const std::string& path) {
   const auto& keys = scene_keys();
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const SceneKey& key) { return key.path == path; });
+  const auto found = std::ranges::find(keys, path, &SceneKey::path);
   return found == keys.end() ? nullptr : &*found;
 }
 
@@ -231,6 +230,7 @@ std::vector<std::string> Scene::warnings() const {
        word("plan.acquisition") != "raster" && word("plan.acquisition") != "refinement",
        "plan.acquisition is " + word("plan.acquisition"));
   warn("surface.weld", gives("surface.mesh"), "there is no surface.mesh");
+  warn("field.heavy_tails", false, "readings that tell nothing are part of the noise, always");
   return warnings;
 }
 

@@ -226,13 +226,13 @@ std::vector<SceneKey> make_scene_keys() {
       number("field.indenter_radius_mm", "mm", 0.0, 20.0, kBound,
              "of the probe's round tip, which feels an edge by as much too early: the boundary is "
              "drawn that much inwards; 0: not at all"),
-      truth("field.heavy_tails", kBound,
-            "noise is Student's t with four degrees of freedom: readings far from the field weigh "
-            "less, none is set aside"),
+      truth("field.heavy_tails", false,
+            "does nothing: that a reading may tell nothing is part of the noise, always"),
       truth("field.screening", kBound,
-            "faults of scans are found, too, and set aside with the reason in measurements.csv: "
-            "jams, hangs, start-ups, base steps between rows; lost contact here and there and "
-            "what readings around contradict are found without it"),
+            "the readings are scans whose rows may be at fault, which is set aside with the reason "
+            "in measurements.csv: jams, start-ups, base steps between rows; tissue that is stiff "
+            "along a row would be taken for such. A sensor that hangs, lost contact here and there "
+            "and what readings around contradict are found without it"),
       number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
                       "how far behind the probe's travel its readings belong; 0: "
                       "readings belong where they are made; "

@@ -31,7 +31,6 @@ std::vector<Model> models() {
           Model{.field = {.economy = {.rebuild_gain = 0.5}}},
           Model{.field = {.kernel = given, .noise = {.sd = 0.1}}},
           Model{.field = {.trend = {.is_linear = true}}},
-          Model{.field = {.noise = {.heavy_tails = true}}},
           Model{.field = {.probe = {.lag_m = kLearned, .screening = true}}},
           Model{.field = {.probe = {.indenter_radius_m = 0.001}}}};
 }

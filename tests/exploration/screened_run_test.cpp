@@ -133,11 +133,11 @@ TEST(Exploration, FindsATumourThatASecondReadingConfirms) {
   EXPECT_TRUE(exploration.conclusion().evidence.standing_alone.empty());
 }
 
-TEST(ScreenedExploration, KeepsTheReasonWithTheReading) {
+TEST(ScreenedExploration, FindsASensorThatHangsAndKeepsTheReasonWithTheReading) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> hung;
   for (int vertex = 0; vertex < 20; ++vertex) hung.push_back(touch(tissue, 26 * vertex, 7.0));
-  Exploration exploration(tissue, {.field = screened_field()});
+  Exploration exploration(tissue);
   exploration.take_up(hung);
   ASSERT_EQ(exploration.conclusion().palpations.size(), 20u);
   for (const Palpation& palpation : exploration.conclusion().palpations)

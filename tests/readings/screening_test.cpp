@@ -141,6 +141,14 @@ TEST(Screened, ASensorThatHangsIsSetAside) {
   EXPECT_EQ(wrong, 0);
 }
 
+// Without noise, and written with few digits: its plateau is felt on either side of the tumour.
+TEST(Screened, ASensorThatSaysTheSameElsewhereDoesNotHang) {
+  const Scan exact =
+      scan([](double counts, int, double) { return 1e-3 * std::round(1e3 * counts); }, 0.001, 0.0);
+  EXPECT_EQ(found_in(exact), Found{});
+  EXPECT_EQ(reasons(plausible(exact.tissue, exact.palpations)), Found{});
+}
+
 TEST(Screened, TheStartOfRowsIsSetAsideWhereAllBeginAlike) {
   const Scan waking =
       scan([](double counts, int, double y_m) { return counts - 400.0 * std::exp(-y_m / 0.001); });

@@ -34,8 +34,6 @@ struct Trend {
 struct NoiseModel {
   Learnable sd = kLearned;
   bool is_relative = false;  ///< sd, which is given, is a fraction of the kernel's signal_sd
-  bool heavy_tails = false;  ///< the noise is Student's t, of four degrees of freedom, and large
-                             ///< residuals weigh less
 };
 
 /// What a probe does to what is felt.
@@ -43,9 +41,9 @@ struct ProbeModel {
   Learnable lag_m = 0.0;           ///< how late readings come (lag.h)
   double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early:
                                    ///< boundary and band lie that much inwards
-  /// Faults of rows are looked for, too (screened of screening.h). What is implausible by itself
-  /// (plausible) is set aside in any case, unless heavy tails weigh it. Judged anew after every
-  /// batch.
+  /// The readings are scans whose rows may jam, start up or step (screened of screening.h): over
+  /// tissue that is stiff along a row those would be faults, too. What no tissue gives (plausible)
+  /// is set aside in any case. Judged anew after every batch.
   bool screening = false;
 
   bool has_lag() const { return lag_m != Learnable(0.0); }
@@ -58,7 +56,7 @@ struct Economy {
   /// Nats of log posterior that learned hyperparameters may miss of the best ones: they are rounded
   /// (LearnOptions::rounding_nats), so that readings that teach the same again let the field grow
   /// by themselves alone. 0: always the best ones. Only where nothing but the hyperparameters moves
-  /// old readings: no lag, screening, heavy tails or trend, a constant that is not zero, and
+  /// old readings: no lag, screening or trend, a constant that is not zero, and
   /// touches at stops.
   double rebuild_gain = 0.0;
 };

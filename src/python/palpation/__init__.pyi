@@ -200,7 +200,6 @@ class Model:
         noise_sd: _Learnable = ...,
         trend: Literal["constant", "linear", "zero"] = ...,
         standardize: bool = ...,
-        heavy_tails: bool = ...,
         lag_m: _Learnable = ...,
         indenter_radius_m: SupportsFloat = ...,
         screening: bool = ...,
