@@ -103,7 +103,7 @@ EdgeData gathered_for_edge(const Belief& belief) {
   const auto count = static_cast<Eigen::Index>(sites.size());
   data.reading.resize(count);
   data.variance.resize(count);
-  data.depth_m.resize(count);
+  data.depth_m.setZero(count);
   data.part.assign(sites.size(), 0);
   for (Eigen::Index i = 0; i < count; ++i) {
     const MergedReading merged = merge(sites[i], belief.noise_variance());

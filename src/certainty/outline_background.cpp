@@ -83,11 +83,14 @@ BackgroundTerms background_terms(const BackgroundReadings& readings) {
     if (part.cols() > 0) terms.of_readings.middleCols(columns, part.cols()) = part;
     columns += part.cols();
   }
-  const Eigen::Map<const Eigen::VectorXd> variance(readings.variance.data(),
-                                                   terms.of_readings.rows());
-  terms.information =
-      terms.of_readings.transpose() * variance.cwiseInverse().asDiagonal() * terms.of_readings;
+  terms.information = information_of(terms, readings.variance);
   return terms;
+}
+
+Eigen::MatrixXd information_of(const BackgroundTerms& terms, std::span<const double> variance) {
+  if (terms.is_none()) return {};
+  const Eigen::Map<const Eigen::VectorXd> of_each(variance.data(), terms.of_readings.rows());
+  return terms.of_readings.transpose() * of_each.cwiseInverse().asDiagonal() * terms.of_readings;
 }
 
 }  // namespace palpation

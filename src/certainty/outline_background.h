@@ -24,7 +24,7 @@ namespace palpation {
 struct BackgroundTerms {
   Eigen::MatrixXd of_readings;
   std::vector<Eigen::Index> waves;  ///< columns of each length, the shortest first
-  Eigen::MatrixXd information;      ///< that readings have of the coefficients: F' V^-1 F
+  Eigen::MatrixXd information;      ///< that readings have of the coefficients
   double median_sd = 1.0;  ///< of waves of one length beforehand, in reading units; the spread of
                            ///< its logarithm is 1
   double drift_sd = 1.0;   ///< in reading units
@@ -38,9 +38,10 @@ struct BackgroundTerms {
 };
 /// Of what readings are off by, background and noise.
 struct ResidualScales {
-  double log_noise;
-  std::vector<double> log_sd;  ///< of the waves of each length, over its median
-  double wild;                 ///< part of the readings that tell nothing
+  double log_noise = 0.0;        ///< beside a tumour
+  std::vector<double> log_sd{};  ///< of the waves of each length, over its median
+  double wild = 0.0;             ///< part of the readings that tell nothing
+  double growth = 0.0;           ///< logarithm: the noise on a plateau over that beside it
 };
 
 struct BackgroundReadings {
@@ -52,5 +53,7 @@ struct BackgroundReadings {
   Eigen::MatrixXd steps{};  ///< what one unit of each adds to each reading: as many rows, or none
 };
 BackgroundTerms background_terms(const BackgroundReadings& readings);
+/// That readings have of the coefficients: F' V^-1 F.
+Eigen::MatrixXd information_of(const BackgroundTerms& terms, std::span<const double> variance);
 
 }  // namespace palpation

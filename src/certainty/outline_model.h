@@ -39,6 +39,7 @@ struct OutlineReadings {
   /// In which of OutlinePrior::epochs each was made; empty where there is but the first.
   std::vector<int> epoch{};
   BackgroundTerms background{};
+  Eigen::VectorXd shares{};  ///< of the contrast, by the first outline: noise grows with them
 };
 
 /// All but the nodes that is not known.

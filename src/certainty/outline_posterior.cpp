@@ -196,6 +196,12 @@ double mean_noise(const std::vector<OutlineDraw>& draws) {
   return sum / static_cast<double>(draws.size());
 }
 
+DrawnNumber noise_inside(const std::vector<OutlineDraw>& draws) {
+  std::vector<double> times;
+  for (const OutlineDraw& draw : draws) times.push_back(std::exp(draw.noise_growth));
+  return summed_up(std::move(times));
+}
+
 std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
                                 const std::vector<OutlineDraw>& draws) {
   std::vector<ChangeLeft> left;
@@ -244,6 +250,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .area_m2 = {},
                              .left = left_of(options.changes, draws),
                              .noise = mean_noise(draws),
+                             .noise_inside = noise_inside(draws),
                              .level = mean_and_sd(levels),
                              .plateau_probability = mean_and_sd(has_plateau).value,
                              .disagreement = disagreement};

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,7 @@ constexpr int kWild = 1, kTelling = 99;
 constexpr double kSdLogSd = 1.0;
 constexpr double kSdStep = 1.0;
 constexpr int kNoiseTries = 2;
+constexpr std::array kGrowthSteps = {0.3, 0.1};
 
 double half_square(double z) { return 0.5 * z * z; }
 
@@ -47,15 +49,17 @@ struct OutlineResiduals::Marginal {
 };
 
 OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<double>& variance,
-                                   const BackgroundTerms& terms, const ResidualPrior& prior,
-                                   double log_noise)
+                                   const BackgroundTerms& terms, const Eigen::VectorXd& shares,
+                                   const ResidualPrior& prior, double log_noise)
     : terms_(&terms),
+      shares_(&shares),
       prior_(prior),
       off_(std::move(off)),
-      variance_(variance),
-      scales_{log_noise, std::vector(terms.waves.size(), 0.0),
-              static_cast<double>(kWild) / (kWild + kTelling)} {
-  for (const double one : variance_) precision_.push_back(1.0 / one);
+      scatter_(scatter_of(variance)),
+      information_(terms.information),
+      scales_{.log_noise = log_noise,
+              .log_sd = std::vector(terms.waves.size(), 0.0),
+              .wild = static_cast<double>(kWild) / (kWild + kTelling)} {
   factor();
 }
 
@@ -65,15 +69,15 @@ double OutlineResiduals::mixed_density(double off, double variance) const {
 }
 
 double OutlineResiduals::lacking(std::size_t reading) const {
-  return std::log(mixed_density(0.0, variance_[reading]) /
-                  mixed_density(off_[reading], variance_[reading]));
+  return std::log(mixed_density(0.0, scatter_.variance[reading]) /
+                  mixed_density(off_[reading], scatter_.variance[reading]));
 }
 
 void OutlineResiduals::consider(std::size_t reading, double off) {
   change_.considered.emplace_back(reading, off);
   if (!tells(reading)) return;
   const double before = off_[reading],
-               precision = precision_[reading] * std::exp(-2.0 * scales_.log_noise);
+               precision = scatter_.precision[reading] * std::exp(-2.0 * scales_.log_noise);
   change_.local -= 0.5 * precision * (off * off - before * before);
   change_.pull.noalias() += (off - before) * columns_.col(static_cast<Eigen::Index>(reading));
 }
@@ -95,25 +99,26 @@ void OutlineResiduals::forget() {
 }
 
 OutlineResiduals::Told OutlineResiduals::told() const {
-  Told told{.information = terms_->information,
-            .weighed = Eigen::VectorXd::Zero(terms_->information.rows()),
+  Told told{.information = information_,
+            .weighed = Eigen::VectorXd::Zero(information_.rows()),
             .log_constant =
                 (kWild - 1) * std::log(scales_.wild) + (kTelling - 1) * std::log1p(-scales_.wild)};
+  told.log_constant += log_growth_density(scales_.growth);
   for (std::size_t i = 0; i < off_.size(); ++i) {
     if (tells(i)) {
       ++told.count;
-      told.square += precision_[i] * off_[i] * off_[i];
-      told.log_constant +=
-          std::log1p(-scales_.wild) + 0.5 * std::log(0.5 * precision_[i] / std::numbers::pi);
+      told.square += scatter_.precision[i] * off_[i] * off_[i];
+      told.log_constant += std::log1p(-scales_.wild) +
+                           0.5 * std::log(0.5 * scatter_.precision[i] / std::numbers::pi);
     } else {
       told.log_constant += std::log(scales_.wild * prior_.wild_density);
     }
     if (terms_->is_none()) continue;
     const auto row = terms_->of_readings.row(static_cast<Eigen::Index>(i));
     if (tells(i)) {
-      told.weighed += precision_[i] * off_[i] * row.transpose();
+      told.weighed += scatter_.precision[i] * off_[i] * row.transpose();
     } else {
-      told.information.noalias() -= 1.0 / variance_[i] * row.transpose() * row;
+      told.information.noalias() -= 1.0 / scatter_.variance[i] * row.transpose() * row;
     }
   }
   return told;
@@ -183,6 +188,7 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
     noise -= terms_->of_readings * coefficients;
     steps = coefficients.tail(terms_->steps());
   }
+  redraw_growth(noise, random);
   redraw_telling(noise, random);
   factor();
   return steps;
@@ -190,22 +196,46 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
 
 /// By Woodbury's identity.
 Eigen::MatrixXd OutlineResiduals::products(const Eigen::MatrixXd& columns) const {
-  const Eigen::Map<const Eigen::VectorXd> precision(precision_.data(), columns.rows());
+  const Eigen::Map<const Eigen::VectorXd> precision(scatter_.precision.data(), columns.rows());
   const Eigen::MatrixXd explained = columns_ * columns;
   return std::exp(-2.0 * scales_.log_noise) * columns.transpose() * precision.asDiagonal() *
              columns -
          explained.transpose() * explained;
 }
 
-/// By the noise alone, which the background leaves; and how often readings tell nothing.
+/// By the noise alone, which the background leaves.
+void OutlineResiduals::redraw_growth(const Eigen::VectorXd& noise, Random& random) {
+  if (shares_->size() == 0) return;
+  const double scale = std::exp(-2.0 * scales_.log_noise);
+  const Eigen::Map<const Eigen::ArrayXd> precision(scatter_.precision.data(), noise.size()),
+      beforehand(scatter_.beforehand.data(), noise.size());
+  const Eigen::ArrayXd shares = (precision > 0.0).select(shares_->array(), 0.0),
+                       squares = (precision > 0.0)
+                                     .select(scale * noise.array().square() / beforehand, 0.0);
+  const auto log_density = [&](double growth) {
+    return log_growth_density(growth) - growth * shares.sum() -
+           0.5 * (squares * (-2.0 * growth * shares).exp()).sum();
+  };
+  const double before = scales_.growth;
+  for (const double step : kGrowthSteps) {
+    const double growth = scales_.growth + step * random.normal();
+    if (std::log(random.uniform()) < log_density(growth) - log_density(scales_.growth))
+      scales_.growth = growth;
+  }
+  if (scales_.growth == before) return;
+  grow(scatter_, scales_.growth * *shares_);
+  information_ = information_of(*terms_, scatter_.variance);
+}
+
+/// By the noise alone; and how often readings tell nothing.
 void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& random) {
   for (std::size_t i = 0; i < off_.size(); ++i) {
-    const double mixed = mixed_density(noise[static_cast<Eigen::Index>(i)], variance_[i]);
+    const double mixed = mixed_density(noise[static_cast<Eigen::Index>(i)], scatter_.variance[i]);
     const bool tells = random.uniform() * mixed > scales_.wild * prior_.wild_density;
-    precision_[i] = tells ? 1.0 / variance_[i] : 0.0;
+    scatter_.precision[i] = tells ? 1.0 / scatter_.variance[i] : 0.0;
   }
-  const int wild = static_cast<int>(std::ranges::count(precision_, 0.0)),
-            telling = static_cast<int>(precision_.size()) - wild;
+  const int wild = static_cast<int>(std::ranges::count(scatter_.precision, 0.0)),
+            telling = static_cast<int>(scatter_.precision.size()) - wild;
   scales_.wild = beta_draw(kWild + wild, kTelling + telling, random);
 }
 
@@ -215,7 +245,7 @@ void OutlineResiduals::factor() {
   columns_.resize(marginal.sd.size(), static_cast<Eigen::Index>(off_.size()));
   if (!terms_->is_none()) {
     const double scale = std::exp(-2.0 * scales_.log_noise);
-    const Eigen::Map<const Eigen::VectorXd> precision(precision_.data(), columns_.cols());
+    const Eigen::Map<const Eigen::VectorXd> precision(scatter_.precision.data(), columns_.cols());
     columns_ = marginal.sd.asDiagonal() * terms_->of_readings.transpose() *
                (scale * precision).asDiagonal();
     marginal.precision.matrixL().solveInPlace(columns_);

@@ -2,8 +2,8 @@
 ///
 /// They are off by a background (outline_background.h), whose coefficients are integrated out, and
 /// by noise, which is normal but for readings that tell nothing: one in a hundred beforehand, how
-/// many, is learned. With V the variances of those that tell, times a scale, and F S F' the
-/// background's covariance,
+/// many, is learned. How much more those on a tumour scatter is, too (outline_scatter.h).
+/// With V the variances of those that tell, times a scale, and F S F' the background's covariance,
 ///
 ///     log p(off) = -1/2 off' V^-1 off + 1/2 |pull|^2 + ...,  pull = L^-1 S^(1/2) F' V^-1 off,
 ///     L L' = 1 + S^(1/2) F' V^-1 F S^(1/2),
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "certainty/outline_background.h"
+#include "certainty/outline_scatter.h"
 #include "palpation/base/random.h"
 
 namespace palpation {
@@ -38,10 +39,12 @@ struct ResidualChange {
 
 class OutlineResiduals {
  public:
-  /// All tell at first. `variance`: of each, the noise's beforehand, as the terms have it. These
-  /// must outlive it; without any there is no background.
+  /// All tell at first. `variance`: of each, the noise's beforehand, as the terms have it;
+  /// `shares`: of the contrast, by which noise grows. These must outlive it; without terms there is
+  /// no background, without shares noise is alike.
   OutlineResiduals(std::vector<double> off, const std::vector<double>& variance,
-                   const BackgroundTerms& terms, const ResidualPrior& prior, double log_noise);
+                   const BackgroundTerms& terms, const Eigen::VectorXd& shares,
+                   const ResidualPrior& prior, double log_noise);
 
   /// What if this one was so far off: for `change`, until it is kept or forgotten.
   void consider(std::size_t reading, double off);
@@ -58,7 +61,8 @@ class OutlineResiduals {
   Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const;
 
   double log_noise() const { return scales_.log_noise; }
-  bool tells(std::size_t reading) const { return precision_[reading] > 0.0; }
+  double growth_of_noise() const { return scales_.growth; }
+  bool tells(std::size_t reading) const { return scatter_.precision[reading] > 0.0; }
   /// How much less probable a reading is, by itself, than one that fits: at most as one that tells
   /// nothing.
   double lacking(std::size_t reading) const;
@@ -73,13 +77,16 @@ class OutlineResiduals {
   Told told() const;
   Eigen::VectorXd sds(const std::vector<double>& log_sd) const;
   Marginal marginal_of(const Told& told, const ResidualScales& scales) const;
+  void redraw_growth(const Eigen::VectorXd& noise, Random& random);
   void redraw_telling(const Eigen::VectorXd& noise, Random& random);
   void factor();
 
   const BackgroundTerms* terms_;
+  const Eigen::VectorXd* shares_;
   ResidualPrior prior_;
-  std::vector<double> off_, variance_;
-  std::vector<double> precision_;  // over the noise's scale; 0 where a reading tells nothing
+  std::vector<double> off_;
+  ReadingScatter scatter_;
+  Eigen::MatrixXd information_;  // that all readings have of the background
   ResidualScales scales_;
   Eigen::MatrixXd columns_;  // L^-1 S^(1/2) F' V^-1
   Eigen::VectorXd pull_;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/sigmoid.h"
 #include "certainty/edge_data.h"
 #include "certainty/slow_waves.h"
 #include "palpation/boundary/level_set.h"
@@ -104,10 +105,12 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   std::vector<double> when;
   std::vector<std::vector<int>> before;
   std::vector<SurfacePoint> in_order;
+  std::vector<double> shares;  // of the contrast
   for (const std::size_t i : order) {
     in_order.push_back(data.places[i]);
     const auto row = static_cast<Eigen::Index>(i);
     readings.places.push_back(places[i]);
+    shares.push_back(sigmoid(edge.profile().slope_per_m * data.depth_m[row]));
     readings.reading.push_back(data.reading[row]);
     readings.variance.push_back(std::max(data.variance[row], least_variance));
     double batches = 0.0;
@@ -121,6 +124,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
                         .when = when,
                         .slow_waves = slow_waves_of(layout, options.slow_waves, in_order),
                         .steps = steps_of(changes, before)});
+  readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
   readings.epoch = epochs_of(before, epochs);
   readings.background.step_sd = step_sd_of(changes, range);
   readings.background.median_sd = kWaves * range;

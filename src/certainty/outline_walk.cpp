@@ -107,7 +107,8 @@ OutlineDraw OutlineWalk::drawn() {
                    .law = chain_.law(),
                    .has_plateau = random_.uniform() < plateau_probability(chain_.profile()),
                    .cuts = {},
-                   .steps = steps_};
+                   .steps = steps_,
+                   .noise_growth = chain_.residuals().growth_of_noise()};
   for (const OutlineCut& cut : chain_.cuts()) {
     if (cut.is_present) draw.cuts.push_back(cut.stadium());
   }

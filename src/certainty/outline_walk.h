@@ -22,7 +22,8 @@ struct OutlineDraw {
   /// that height.
   bool has_plateau = true;
   std::vector<Stadium> cuts;
-  Eigen::VectorXd steps;  ///< of the zero, of the changes that move it
+  Eigen::VectorXd steps;      ///< of the zero, of the changes that move it
+  double noise_growth = 0.0;  ///< logarithm: the noise on a tumour over that beside it
 };
 
 class OutlineWalk {

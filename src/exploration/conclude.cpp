@@ -5,6 +5,7 @@
 #include "exploration/as_if_unchanged.h"
 #include "exploration/change_search.h"
 #include "exploration/doubtful_parts.h"
+#include "exploration/likelier_scale.h"
 #include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
 #include "palpation/base/error.h"
@@ -53,13 +54,15 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   check(model);
   ConclusionCache own;
   std::vector<Palpation> felt = felt_among(readings, model);
-  const ReadingScale scale = model.contrast.scale;
+  const ReadingScale scale =
+      model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt);
   const Model scaled = on_scale(scale, model);
   // Equations (1) and (2), and whether they show more than noise.
   // The level (section V.3, equation 4) and its level set.
   auto [believed, marginals, component, boundary] =
       known_as_if_unchanged(surface, scaled, on_scale(scale, felt), cache != nullptr ? *cache : own,
                             sampling_seed.has_value());
+  believed.evidence.scale = scale;
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
   if (sampling_seed) draw_outlines(boundary, scaled, believed, *sampling_seed);

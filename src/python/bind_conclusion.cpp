@@ -99,7 +99,8 @@ py::dict summary(const Concluded& here) {
       "tip_hides_all"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
       "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
       "expected_untouched_m2"_a = py::none(), "plateau_probability"_a = py::none(),
-      "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
+      "noise_inside"_a = py::none(), "band_probability"_a = py::none(),
+      "band_half_width_m"_a = py::none());
   if (all.certainty && !all.tip_hides_all()) {
     const Certainty& certainty = *all.certainty;
     result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();
@@ -109,7 +110,10 @@ py::dict summary(const Concluded& here) {
     result["band_probability"] = certainty.probability;
     result["band_half_width_m"] = certainty.half_width_m;
   }
-  if (all.outlines) result["plateau_probability"] = all.outlines->plateau_probability;
+  if (all.outlines) {
+    result["plateau_probability"] = all.outlines->plateau_probability;
+    result["noise_inside"] = all.outlines->noise_inside.mean;
+  }
   result["taken_back"] = changes_of(all);
   py::list doubtful;
   for (const DoubtfulPart& part : all.evidence.doubtful) {

@@ -22,8 +22,8 @@ constexpr std::array<Word<KernelFamily>, 5> kKernels{
 enum class TrendWord { Constant, Linear, Zero };
 constexpr std::array<Word<TrendWord>, 3> kTrends{
     {{"constant", TrendWord::Constant}, {"linear", TrendWord::Linear}, {"zero", TrendWord::Zero}}};
-constexpr std::array<Word<ReadingScale>, 2> kTransforms{
-    {{"none", ReadingScale::Raw}, {"log", ReadingScale::Log}}};
+constexpr std::array<Word<std::optional<ReadingScale>>, 3> kTransforms{
+    {{"none", ReadingScale::Raw}, {"log", ReadingScale::Log}, {"auto", std::nullopt}}};
 constexpr std::array<Word<LevelEstimate>, 2> kEstimates{
     {{"edge", LevelEstimate::Edge}, {"range", LevelEstimate::Range}}};
 
@@ -52,7 +52,7 @@ py::dict dictionary_of(const Model& model) {
       "level"_a = known, "level_fraction"_a = level.fraction,
       "level_estimate"_a = word_for<LevelEstimate>(level.estimate, kEstimates),
       "band_probability"_a = probability, "safe_start"_a = model.contrast.safe_start,
-      "transform"_a = word_for<ReadingScale>(model.contrast.scale, kTransforms),
+      "transform"_a = word_for<std::optional<ReadingScale>>(model.contrast.scale, kTransforms),
       "min_contrast"_a = least);
 }
 
@@ -94,7 +94,7 @@ Model model_of(const py::kwargs& kwargs) {
   else
     model.band->probability = given.number("band_probability");
   model.contrast.safe_start = given.truth("safe_start");
-  model.contrast.scale = given.choice<ReadingScale>("transform", kTransforms);
+  model.contrast.scale = given.choice<std::optional<ReadingScale>>("transform", kTransforms);
   if (!given["min_contrast"].is_none()) model.contrast.least = given.number("min_contrast");
   check_lengths(model.field);
   check(model);

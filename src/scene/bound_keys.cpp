@@ -94,9 +94,10 @@ const BoundKeys<FieldModel>& field_keys() {
 const BoundKeys<Model>& model_keys() {
   using Key = Bind<Model>;
   static const BoundKeys<Model> keys = {
-      Key::word<ReadingScale>("field.transform",
-                              {{"none", ReadingScale::Raw}, {"log", ReadingScale::Log}},
-                              &Model::contrast, &Contrast::scale),
+      Key::word<std::optional<ReadingScale>>(
+          "field.transform",
+          {{"none", ReadingScale::Raw}, {"log", ReadingScale::Log}, {"auto", std::nullopt}},
+          &Model::contrast, &Contrast::scale),
       Key::to("level.fraction", kAsIs, &Model::level, &LevelRule::fraction),
       Key::to("level.value", kAsIs, &Model::level, &LevelRule::known),
       estimate_key(),

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kSessionsTold = 5;
 constexpr double kTiltOver_m = 0.01;
 constexpr double kSeen = 2.0;         // standard deviations, of a session's zero
+constexpr double kMoreScatter = 1.1;  // times, surely
 constexpr double kChainsApart = 1.0;  // standard deviations: chance makes less of fifty draws
 
 std::string apart_words(double disagreement) {
@@ -184,6 +185,13 @@ std::string sessions_as_one_words(const Conclusion& conclusion) {
          ".";
 }
 
+/// Nothing unless it surely does.
+std::string scatter_words(const DrawnNumber& inside) {
+  if (inside.least < kMoreScatter) return "";
+  return "Readings scatter " + fixed(inside.mean, 1) + " times as much (" + fixed(inside.least, 1) +
+         " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there.";
+}
+
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
@@ -193,8 +201,11 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
     words.push_back(taken_back_words(surface, conclusion.scale(), change));
   words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
-  if (conclusion.outlines && conclusion.outlines->disagreement > kChainsApart)
-    words.push_back(apart_words(conclusion.outlines->disagreement));
+  if (conclusion.outlines) {
+    words.push_back(scatter_words(conclusion.outlines->noise_inside));
+    if (conclusion.outlines->disagreement > kChainsApart)
+      words.push_back(apart_words(conclusion.outlines->disagreement));
+  }
   std::erase(words, "");
   return words;
 }

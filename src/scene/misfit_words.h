@@ -1,5 +1,5 @@
-/// What of the readings the outline does not explain, and whether its sampling came to an end, in
-/// words.
+/// What of the readings the outline does not explain, where they scatter more, and whether its
+/// sampling came to an end, in words.
 #pragma once
 
 #include <string>

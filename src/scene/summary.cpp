@@ -60,8 +60,8 @@ json part_json(const TumourPart& part, const Surface& surface) {
 /// known of a boundary.
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   for (const char* key :
-       {"certainty", "area_interval_mm2", "plateau_probability", "expected_missed_mm2",
-        "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
+       {"certainty", "area_interval_mm2", "plateau_probability", "noise_inside",
+        "expected_missed_mm2", "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
     summary[key] = nullptr;
   if (!episode.conclusion().model.band) summary["certainty"] = "off";
   const std::optional<Certainty>& certainty = episode.conclusion().certainty;
@@ -71,7 +71,10 @@ void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   summary["certainty"] = outlines ? "sampled" : "laplace";
   if (outlines && episode.conclusion().model.field.probe.indenter_radius_m == 0.0)
     summary["area_interval_mm2"] = {outlines->area_m2.least * kMm2, outlines->area_m2.most * kMm2};
-  if (outlines) summary["plateau_probability"] = outlines->plateau_probability;
+  if (outlines) {
+    summary["plateau_probability"] = outlines->plateau_probability;
+    summary["noise_inside"] = outlines->noise_inside.mean;
+  }
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;
   summary["expected_extra_mm2"] = certainty->expected.extra_m2 * kMm2;

@@ -19,7 +19,8 @@ constexpr double kMm = 1e-3;
 struct Readings {
   std::vector<Vec2> places;
   std::vector<double> when, off, variance;
-  BackgroundTerms terms;
+  BackgroundTerms terms{};
+  Eigen::VectorXd shares{};
 };
 
 /// In eight rows of eight, the rows made in turn, without residuals.
@@ -45,7 +46,7 @@ Readings raster(double variance) {
 }
 
 OutlineResiduals residuals_of(const Readings& readings, const ResidualPrior& prior = {}) {
-  return {readings.off, readings.variance, readings.terms, prior, prior.log_noise};
+  return {readings.off, readings.variance, readings.terms, readings.shares, prior, prior.log_noise};
 }
 
 Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
@@ -138,8 +139,7 @@ TEST(OutlineResiduals, OfReadingsThatTellNothingDoNotMatter) {
 // says.
 TEST(OutlineResiduals, AReadingTellsNothingAsOftenAsItShould) {
   const ResidualPrior prior{.noise_log_sd = 1e-9, .wild_density = 0.1};
-  Readings readings{
-      .places = {}, .when = {}, .off = {0.38, 0.0}, .variance = {0.01, 0.01}, .terms = {}};
+  Readings readings{.places = {}, .when = {}, .off = {0.38, 0.0}, .variance = {0.01, 0.01}};
   OutlineResiduals residuals = residuals_of(readings, prior);
   Random random(4);
   double nothing = 0.0;
@@ -191,6 +191,74 @@ TEST(OutlineResiduals, LearnTheNoise) {
   const double told = as_vector(readings.off).squaredNorm() / 200.0;
   EXPECT_NEAR(mean, 0.5 * std::log(told / 0.01), 0.01);
   EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0 / std::sqrt(400.0), 0.006);
+}
+
+/// The raster with noise three times as large on its right half, which counts as tumour.
+Readings noisier_on_the_right() {
+  Readings readings = raster(0.01);
+  readings.shares.setZero(64);
+  Random random(8);
+  for (std::size_t i = 0; i < 64; ++i) {
+    double& share = readings.shares[static_cast<Eigen::Index>(i)];
+    share = readings.places[i].x() > 10 * kMm ? 1.0 : 0.0;
+    readings.off[i] = 0.1 * std::pow(3.0, share) * random.normal();
+  }
+  return readings;
+}
+
+// What noise has grown by changes what a reading weighs, and its own density, alike.
+TEST(OutlineResiduals, WhoseNoiseGrowsAreWeighedFewAtATimeAsAllTogether) {
+  const Readings readings = noisier_on_the_right();
+  OutlineResiduals residuals = residuals_of(readings);
+  Random random(9);
+  double most = 0.0;
+  for (int round = 0; round < 20; ++round) {
+    residuals.redraw(random);
+    most = std::max(most, residuals.growth_of_noise());
+    const double before = residuals.log_density();
+    for (std::size_t i = 0; i < 5; ++i)
+      residuals.consider((round * 13 + i * 11) % 64, 0.2 * random.normal());
+    const double change = residuals.change();
+    residuals.keep();
+    EXPECT_NEAR(residuals.log_density() - before, change, 1e-8);
+  }
+  EXPECT_GT(most, 0.1);
+}
+
+// Without a background, with noise known where nothing is felt: the posterior
+// of one number, against its integral on a grid.
+TEST(OutlineResiduals, LearnHowMuchMoreNoiseThereIsOnATumour) {
+  Readings readings = noisier_on_the_right();
+  readings.terms = {};
+  OutlineResiduals residuals = residuals_of(readings, {.noise_log_sd = 1e-9, .wild_density = 1e-9});
+  double weights = 0.0, expected = 0.0, expected_square = 0.0;
+  for (double growth = 0.0; growth < 3.0; growth += 0.001) {
+    double log_weight = -std::log1p(growth * growth / (0.1 * 0.1));
+    for (std::size_t i = 0; i < readings.off.size(); ++i) {
+      const double log_sd = growth * readings.shares[static_cast<Eigen::Index>(i)];
+      const double z = readings.off[i] / (0.1 * std::exp(log_sd));
+      log_weight -= log_sd + 0.5 * z * z;
+    }
+    const double weight = std::exp(log_weight + 60.0);
+    weights += weight;
+    expected += weight * growth;
+    expected_square += weight * growth * growth;
+  }
+  expected /= weights;
+  const double expected_sd = std::sqrt(expected_square / weights - expected * expected);
+  Random random(10);
+  double mean = 0.0, square = 0.0;
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < 200 + kDraws; ++i) {
+    residuals.redraw(random);
+    if (i < 200) continue;
+    const double growth = residuals.growth_of_noise();
+    mean += growth / kDraws;
+    square += growth * growth / kDraws;
+  }
+  EXPECT_NEAR(expected, std::log(3.0), 0.3);
+  EXPECT_NEAR(mean, expected, 0.01);
+  EXPECT_NEAR(std::sqrt(square - mean * mean), expected_sd, 0.01);
 }
 
 }  // namespace

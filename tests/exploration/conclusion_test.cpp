@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "belief/tissue.h"
@@ -65,6 +66,29 @@ TEST(Conclude, NoiseThatOutlinesTellLetsMoreHide) {
   EXPECT_EQ(diameter_ruled_out_m(conclusion, 0.95).value(), before);
   conclusion.outlines->noise = 4.0;
   EXPECT_GT(diameter_ruled_out_m(conclusion, 0.95).value(), 1.1 * before);
+}
+
+// Readings that scatter four times as much on the tumour as beside it, and ones that do not.
+TEST(Conclude, ThatReadingsScatterMoreOnATumourIsLearned) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.0});
+  for (const double times : {1.0, 4.0}) {
+    Random random(6);
+    std::vector<Palpation> readings;
+    for (int i = 0; i < 150; ++i) {
+      Palpation reading = phantom.touch(
+          tissue.project(Vec3(0.025 * random.uniform(), 0.050 * random.uniform(), 0.0)), random);
+      const double share = 0.5 * (reading.reading - 7.0);
+      reading.reading += 0.06 * std::pow(times, share) * random.normal();
+      readings.push_back(reading);
+    }
+    const Conclusion conclusion = conclude(tissue, Model{}, readings, nullptr, 1);
+    ASSERT_TRUE(conclusion.outlines) << times;
+    const DrawnNumber& inside = conclusion.outlines->noise_inside;
+    EXPECT_LT(inside.least, times + 0.1);
+    EXPECT_GT(inside.most, times);
+    EXPECT_EQ(inside.least > 1.1, times > 1.1);
+  }
 }
 
 // Twenty readings of healthy tissue whose noise has heavy tails: they gather on two plateaus, but

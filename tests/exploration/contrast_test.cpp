@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "belief/tissue.h"
 #include "exploration/search_goal.h"
@@ -77,6 +78,20 @@ TEST(Transform, PutsTheLevelHalfWayBetweenTheLogarithms) {
   EXPECT_LT(*level.stddev, 0.05);
   for (std::size_t i = 0; i < conclusion.palpations.size(); ++i)
     EXPECT_GT(conclusion.palpations[i].reading, 0.1) << "as it was made, not its logarithm";
+}
+
+// Noise that is alike on both plateaus is so on one scale alone.
+TEST(Transform, IsToldByTheReadings) {
+  const Surface tissue = plane(51, 101);
+  const auto scale_of = [&](const std::function<double(double)>& change) {
+    return conclude(tissue, {.contrast = {.scale = {}}},
+                    felt_everywhere(tissue, one_disk(tissue), change))
+        .scale();
+  };
+  EXPECT_EQ(scale_of([](double felt) { return 0.2 * std::exp(2.0 * felt); }), ReadingScale::Log);
+  EXPECT_EQ(scale_of([](double felt) { return 0.2 + 2.0 * felt; }), ReadingScale::Raw);
+  EXPECT_EQ(scale_of([](double felt) { return std::exp(2.0 * felt) - 1.2; }), ReadingScale::Raw)
+      << "not positive";
 }
 
 TEST(Transform, TakesNoLevelThatHasNoLogarithm) {

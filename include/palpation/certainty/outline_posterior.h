@@ -55,6 +55,7 @@ struct OutlinePosterior {
   DrawnNumber area_m2;
   std::vector<ChangeLeft> left;  ///< of OutlineOptions::changes, those of zero and gain
   double noise = 1.0;            ///< standard deviation, over the belief's: the draws' mean
+  DrawnNumber noise_inside;      ///< standard deviation on the tumour, over that beside it
   Level level;                   ///< at the boundary of the largest part, in the belief's units
   /// That the largest part levels off: reaches nine tenths half way to where it is deepest.
   double plateau_probability = 1.0;

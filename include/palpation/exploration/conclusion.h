@@ -47,6 +47,7 @@ struct DoubtfulPart {
 /// Whether the readings tell of a tumour at all.
 struct Evidence {
   bool contrast_seen = false;
+  ReadingScale scale = ReadingScale::Raw;  ///< on which the readings are modelled
   /// Nats by which an edge makes the readings more probable than healthy tissue alone that waves
   /// (EdgeBelief::odds_over_waves); asked at the end, where a smooth field explains them as
   /// well. Where it is clearly less probable, and waves that are slower than a tumour is wide
@@ -107,7 +108,7 @@ struct Conclusion {
   bool tip_hides_all() const { return contour && contour->tip_hides_all; }
   /// That the field is modelled on: belief, marginals, component, level, edge and contour are in
   /// its units, so that with ReadingScale::Log exp of a mean is a reading (its median).
-  ReadingScale scale() const { return model.contrast.scale; }
+  ReadingScale scale() const { return evidence.scale; }
 };
 
 /// The readings, without what changed while they were made (Evidence::taken_back), in the belief's

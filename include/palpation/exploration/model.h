@@ -95,7 +95,9 @@ struct LevelRule {
 
 /// What counts as a tumour's contrast.
 struct Contrast {
-  ReadingScale scale = ReadingScale::Raw;  ///< of the readings, before a field is fitted to them
+  /// Of the readings, before a field is fitted to them. Nothing: logarithms where they make an edge
+  /// and the noise about it more probable (Evidence::scale).
+  std::optional<ReadingScale> scale = ReadingScale::Raw;
   /// Above healthy tissue, in the readings' unit (with ReadingScale::Log a factor): what surely
   /// stands out by less is texture, a vessel, a slow wave, and no tumour. Nothing: whatever stands
   /// out.
@@ -127,7 +129,7 @@ struct Model {
 
 /// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1), its
 /// place_sd_m is finite and not negative, and the least contrast is positive, or as a factor above
-/// 1.
+/// 1, of a scale that is given.
 void check(const Model& model);
 
 }  // namespace palpation

@@ -210,7 +210,7 @@ class Model:
         level_estimate: Literal["edge", "range"] = ...,
         band_probability: SupportsFloat | None = ...,
         safe_start: bool = ...,
-        transform: Literal["none", "log"] = ...,
+        transform: Literal["none", "log", "auto"] = ...,
         min_contrast: SupportsFloat | None = ...,
     ) -> None: ...
     def as_dict(self) -> dict[str, Any]: ...
