@@ -255,8 +255,8 @@ Remarks area_remarks(const Episode& episode, bool has_parts) {
   if (has_parts && certainty &&
       certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
     remarks.push_back("The area expected to be wrong is " +
-                      percent(certainty->expected.symmetric_difference_m2() / found_m2) +
-                      " of the area found: more readings are needed.");
+                      share_words(certainty->expected.symmetric_difference_m2() / found_m2) +
+                      " the area found: more readings are needed.");
   else if (const std::optional<double> times = over_reachable(episode);
            times && *times > kMuchOverReachable &&
            certainty->expected.symmetric_difference_m2() > kSmallShare * found_m2)

@@ -41,9 +41,11 @@ std::string band_words(const Certainty& certainty, const Surface& surface, doubl
   const double outer = superlevel_area(surface, certainty.score, -certainty.band_score) * 1e6;
   const double cut =
       superlevel_area(surface, certainty.score, Certainty::cut_score(cut_risk)) * 1e6;
-  return percent(certainty.probability) +
-         " confidence band: " + fixed(certainty.half_width_m * 1e3, 2) +
-         " mm to either side on average, " + fixed(inner, 1) + " mm2 within its inner curve, " +
+  const std::string half_width = certainty.half_width_m < std::sqrt(surface.area())
+                                     ? fixed(certainty.half_width_m * 1e3, 2) + " mm"
+                                     : "wider than the tissue";
+  return percent(certainty.probability) + " confidence band: " + half_width +
+         " to either side on average, " + fixed(inner, 1) + " mm2 within its inner curve, " +
          fixed(outer, 1) + " mm2 within its outer curve.\nExpected error: " +
          fixed(certainty.expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
          fixed(certainty.expected.missed_m2 * 1e6, 1) + " missed and " +
@@ -181,6 +183,10 @@ std::string counted(std::size_t count, const std::string& noun) {
 std::string percent(double probability) {
   const double value = 100.0 * probability;
   return fixed(value, value > 99.0 && value < 100.0 ? 1 : 0) + " %";
+}
+
+std::string share_words(double share) {
+  return share <= 1.0 ? percent(share) + " of" : fixed(share, 1) + " times";
 }
 
 std::string fixed(double value, int digits) {

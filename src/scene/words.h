@@ -29,6 +29,8 @@ std::string fixed(double value, int digits);
 /// "1 reading", "2 readings".
 std::string counted(std::size_t count, const std::string& noun);
 std::string percent(double probability);
+/// Of something: "30 % of", "3.0 times".
+std::string share_words(double share);
 /// Readings have any unit: three digits behind the point where that says something.
 std::string reading_text(double value);
 /// "(5.0, 14.0, 0.0) mm".

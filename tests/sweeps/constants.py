@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What halving or doubling a constant does to the band, the error and what is said of it: a table, a constant a row.
 
-Copies the source tree, changes one constant at a time, builds palpate there and runs one and the same set of worlds with it. The worlds' readings follow the plan, so
-that only constants that no plan asks (those of src/certainty/outline_*) are compared reading by reading; the others change what is felt as well.
+Copies the source tree, changes one constant at a time, builds palpate there and runs one and the same set of worlds with it. Readings follow the plan: with constants
+that no plan asks (those of src/certainty/outline_*) they are the same ones, with the others what is felt differs as well.
 
 usage: constants.py WORK [--world NAME] [--trials N] [--first-seed N] [FILE:NAME ...]        needs Python 3, and what a build needs
 FILE:NAME, such as src/certainty/outline_model.cpp:kLean, is a constant as it is defined there: `constexpr double kLean = 0.3;`, or a member with a default value;
@@ -20,16 +20,13 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPIED = ("CMakeLists.txt", "CMakePresets.json", "src", "include", "meshes", "examples", "tests", "README.md", "LICENSE")
-OUTLINES = "src/certainty/outline_"
 CONSTANTS = [
-    OUTLINES + "start.cpp:" + name for name in ("kTurn", "kWaves", "kDrift", "kTilt", "kSpacing_m")
-] + [
-    OUTLINES + "model.cpp:" + name
-    for name in ("kTurnLogSd", "kUnbentLogSd", "kBentLogSd", "kLean", "kPieceLogSd", "kSpacingLogSd", "kWildReach")
-] + [OUTLINES + "residuals.cpp:kSdLogSd", OUTLINES + "cut.cpp:kLength_m"] + [
-    "include/palpation/certainty/edge_belief.h:" + name
-    for name in ("slope_per_m", "slope_log_sd", "correction_sd_m", "correction_length_m")
-] + ["include/palpation/belief/hyperparameters.h:kLengthMedian_m"]
+    f"src/certainty/outline_{name}"
+    for name in ("model.cpp:kTurnLogSd", "start.cpp:kTurn", "start.cpp:kWaves", "model.cpp:kUnbentLogSd", "model.cpp:kBentLogSd", "model.cpp:kLean",
+                 "scatter.cpp:kGrowth", "model.cpp:kPieceLogSd", "start.cpp:kDrift", "start.cpp:kTilt", "residuals.cpp:kSdLogSd", "model.cpp:kWildReach",
+                 "cut.cpp:kRadius_m", "cut.cpp:kHalfLength_m", "start.cpp:kSpacing_m", "model.cpp:kSpacingLogSd")
+] + [f"include/palpation/certainty/edge_belief.h:{name}" for name in ("slope_per_m", "slope_log_sd", "correction_sd_m", "correction_length_m")
+     ] + ["include/palpation/belief/hyperparameters.h:length_median_m"]
 
 
 def scaled(text, name, factor):

@@ -95,6 +95,7 @@ TEST(BoundKeys, WhatElseHasADefaultSetsNoSingleMember) {
                                        "surface.weld",
                                        "surface.plane.vertices",
                                        "surface.patch.within_deg",  // which tissue
+                                       "field.heavy_tails",         // does nothing
                                        "plan.acquisition",
                                        "plan.gamma",
                                        "plan.scaling",

@@ -55,7 +55,7 @@ class Tool(InFolder):
         scene = self.write("flat.json", json.dumps({"version": 1, "surface": {"plane": {"size_mm": [20, 20], "vertices": [21, 21]}}}))
         tilted = [f"{x / 1000},{y / 1000},0,{7 + 0.1 * x + dice.gauss(0, 0.1)}" for x in range(2, 20, 2) for y in range(2, 20, 2)]
         for rows, words in ((healthy[:-1] + ["0.017,0.017,0,9"], "One reading, 9.000 at (17.0, 17.0, 0.0) mm"),
-                            ([row.rsplit(",", 1)[0] + ",7" for row in healthy[:7]], "all 7 readings are equal, 7.000, to the last digit"),
+                            ([row.rsplit(",", 1)[0] + ",7" for row in healthy], "all 36 readings are equal, 7.000, to the last digit"),
                             (tilted, "Readings slope all over the tissue: they rise by 0.99"),
                             (healthy + healthy[:5], "5 rows repeat earlier ones, place and reading alike to every digit, and are set aside: line 38 repeats line 2")):
             measured = self.write("odd.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
@@ -64,7 +64,7 @@ class Tool(InFolder):
             self.assertIn(words, result.stderr + result.stdout)
             self.assertIn("Nothing found", result.stdout)
         stuck = self.write("stuck.csv", "x,y,z,reading\n" + "".join(f"0.00{x},0.00{y},0,7\n" for y in range(2, 9) for x in range(2, 9)))
-        result = palpate("boundary", scene, "--measurements", stuck)
+        result = palpate("boundary", scene, "--measurements", stuck, "--set", "field.screening=true")
         self.assertIn("49 readings (49 set aside).\nAll readings are set aside, so nothing is known.", result.stdout)
         self.assertIn("49 readings set aside (frozen", result.stderr)
 

@@ -45,8 +45,9 @@ inline const std::string kBeyondTissue =
 /// As fine as anything is felt with a tip of 4.5 mm.
 inline constexpr double kShortLength_m = 0.0035;
 
-/// The same readings, with those set aside that no tissue gives: frozen ones, and whatever the
-/// order in which they were made, those far below all others or contradicted by those around them.
+/// The same readings, with those set aside that no tissue gives: frozen ones, where others are not,
+/// and whatever the order in which they were made, those far below all others or contradicted by
+/// those around them.
 /// What was set aside before stays so and tells nothing. `length_m`: over which stiffness changes,
 /// at least.
 std::vector<Palpation> plausible(const Surface& surface, std::span<const Palpation> palpations,
