@@ -171,8 +171,9 @@ Certainty certainty_of(const Surface& surface, const Model& model, const Believe
                        const Marginals& component, const BoundaryFit& boundary) {
   const ProbeModel& probe = model.field.probe;
   Certainty certainty = known_before_faults(surface, model, believed, component, boundary);
-  certainty =
-      with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);
+  if (probe.screening)
+    certainty =
+        with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);
   if (model.band->place_sd_m > 0.0) {
     const Field offset_sd_m =
         boundary.edge ? *boundary.offset_sd() : mean_offset_sd(surface, certainty);

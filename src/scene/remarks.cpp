@@ -54,6 +54,7 @@ std::vector<std::string> screening_remarks(const Exploration& exploration) {
     if (std::string words = set_aside_words(exploration, reason); !words.empty())
       remarks.push_back(std::move(words));
   }
+  if (!exploration.conclusion().model.field.probe.screening) return remarks;
   if (const std::optional<FadingContact> fading =
           fading_contact(exploration.surface(), readings_as_if_unchanged(exploration.conclusion())))
     remarks.push_back("Contact fades towards (" + fixed(fading->towards.x(), 2) + ", " +

@@ -229,11 +229,13 @@ std::vector<SceneKey> make_scene_keys() {
              "drawn that much inwards; 0: not at all"),
       truth("field.heavy_tails", false,
             "does nothing: that a reading may tell nothing is part of the noise, always"),
-      truth("field.screening", kBound,
-            "the readings are scans whose rows may be at fault, which is set aside with the reason "
-            "in measurements.csv: jams, start-ups, base steps between rows; tissue that is stiff "
-            "along a row would be taken for such. A sensor that hangs, lost contact here and there "
-            "and what readings around contradict are found without it"),
+      truth(
+          "field.screening", kBound,
+          "the readings are scans whose rows may be at fault, which is set aside with the reason "
+          "in measurements.csv: jams, start-ups, base steps between rows; and contact may fade to "
+          "one side; tissue that is stiff along a row, or half of it, would be taken for such. A "
+          "sensor that hangs, lost contact here and there "
+          "and what readings around contradict are found without it"),
       number_or_learn("field.lag_mm", "mm", -10.0, 10.0,
                       "how far behind the probe's travel its readings belong; 0: "
                       "readings belong where they are made; "

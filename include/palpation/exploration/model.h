@@ -41,9 +41,9 @@ struct ProbeModel {
   Learnable lag_m = 0.0;           ///< how late readings come (lag.h)
   double indenter_radius_m = 0.0;  ///< of a round tip, which feels edges by as much too early:
                                    ///< boundary and band lie that much inwards
-  /// The readings are scans whose rows may jam, start up or step (screened of screening.h): over
-  /// tissue that is stiff along a row those would be faults, too. What no tissue gives (plausible)
-  /// is set aside in any case. Judged anew after every batch.
+  /// The readings are scans whose rows may jam, start up or step (screened of screening.h), or fade
+  /// to one side: tissue that is stiff along a row, or half of it, would be taken for such. What no
+  /// tissue gives (plausible) is set aside in any case. Judged anew after every batch.
   bool screening = false;
 
   bool has_lag() const { return lag_m != Learnable(0.0); }
