@@ -6,12 +6,12 @@
 namespace palpation {
 namespace {
 
-constexpr double kGrowth = 0.1;
+constexpr double kGrowth = 0.1, kMostGrowth = 2.3;
 
 }  // namespace
 
 double log_growth_density(double growth) {
-  if (growth < 0.0) return -std::numeric_limits<double>::infinity();
+  if (growth < 0.0 || growth > kMostGrowth) return -std::numeric_limits<double>::infinity();
   return -std::log1p(growth * growth / (kGrowth * kGrowth));
 }
 

@@ -8,8 +8,8 @@ namespace palpation {
 
 /// Of the logarithm by which the noise's standard deviation is larger on a plateau than beside it,
 /// beforehand, but for a constant: half a Cauchy law, half within a tenth more and one in twenty
-/// beyond three times. Less noise on a tumour is no sensor's; healthy tissue would seem to make it,
-/// where it is uneven.
+/// beyond three times, up to ten times: healthy readings that are all alike tell of no noise. Less
+/// noise on a tumour is no sensor's; healthy tissue would seem to make it, where it is uneven.
 double log_growth_density(double growth);
 
 struct ReadingScatter {

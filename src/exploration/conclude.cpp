@@ -53,7 +53,7 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
                     ConclusionCache* cache, std::optional<std::uint64_t> sampling_seed) {
   check(model);
   ConclusionCache own;
-  std::vector<Palpation> felt = felt_among(readings, model);
+  std::vector<Palpation> felt = live(surface, felt_among(readings, model));
   const ReadingScale scale =
       model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt);
   const Model scaled = on_scale(scale, model);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "readings/lost_contact.h"
 #include "readings/outliers.h"
@@ -16,26 +18,59 @@ namespace {
 // The probe of Garg et al. 2016, section VII: a tip 4.5 mm wide.
 constexpr double kTipWidth_m = 0.0045;
 constexpr std::size_t kLeastFrozen =
-    8;                           // readings: chance repeats the last digit of a plateau a few times
-constexpr double kAcross = 0.6;  // of the longest pass: a row that crosses most of the tissue
-constexpr double kMostOfAll = 0.5;  // of all readings lie on rows, or it is no scan
+    8;  // readings: chance repeats the last digit of a plateau a few times
+constexpr double kRareRun = 0.01;     // of chance, in all readings
+constexpr double kAmongOthers = 0.3;  // of a run, where the probe goes to and fro
+constexpr double kAcross = 0.6;       // of the longest pass: a row that crosses most of the tissue
+constexpr double kMostOfAll = 0.5;    // of all readings lie on rows, or it is no scan
 constexpr std::size_t kLeastToBeGross = 20;
 constexpr double kGrossBelow = 10.0;  // ranges of nine tenths of the readings
 constexpr double kGrossAbove =
     1000.0;  // the same: a tumour stands out of noise of 0.1 % by three hundred
 
-/// Runs of one number while the probe moves. A sensor with few steps repeats itself by nature, and
-/// so does a plateau without noise, which is felt again elsewhere.
+/// How often a reading repeats the one before it, but for those from `first` to `last`.
+double repeats_without(const Screen& screen, std::size_t first, std::size_t last) {
+  double pairs = 2.0, alike = 1.0;  // one of two beforehand
+  for (std::size_t i = 1; i < screen.places.size(); ++i) {
+    if (i >= first && i <= last + 1) continue;
+    ++pairs;
+    alike += screen.reading(i) == screen.reading(i - 1);
+  }
+  return alike / pairs;
+}
+
+/// Part of the readings from `first` to `last` that lie nearest to one that was made at another
+/// time.
+double part_among_others(const Screen& screen, std::size_t first, std::size_t last) {
+  double among_others = 0.0;
+  for (std::size_t here = first; here <= last; ++here) {
+    std::size_t nearest = here;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < screen.places.size(); ++i) {
+      const double square = (screen.places[i] - screen.places[here]).squaredNorm();
+      if (i != here && square < least) std::tie(nearest, least) = std::pair(i, square);
+    }
+    among_others += nearest < first || nearest > last;
+  }
+  return among_others / static_cast<double>(last - first + 1);
+}
+
+/// At the end of the readings' range, and not far from those beside it: a plateau without noise, or
+/// the limit of a sensor.
+bool ends_range(const Screen& screen, const std::vector<double>& sorted, std::size_t first,
+                std::size_t last) {
+  const double gap = kGapWidth * (sorted.back() - sorted.front());
+  const auto [least, above] = std::ranges::equal_range(sorted, screen.reading(first));
+  const bool is_least = least == sorted.begin(), is_greatest = above == sorted.end();
+  if (is_least == is_greatest) return false;
+  const double to_next = is_least ? *above - *least : *least - *(least - 1);
+  return to_next < gap || part_among_others(screen, first, last) < kAmongOthers;
+}
+
+/// Runs of one number while the probe moves, longer than a sensor with few steps makes by chance.
 void find_frozen(Screen& screen) {
   std::vector<double> sorted = used_readings(screen.palpations);
   std::sort(sorted.begin(), sorted.end());
-  std::vector<double> distinct;
-  std::ranges::unique_copy(sorted, std::back_inserter(distinct));
-  const bool is_coarse = distinct.size() > 1 && distinct.size() < sorted.size() / 4;
-  if (is_coarse) return;
-  const auto times_felt = [&](double reading) {
-    return std::ranges::equal_range(sorted, reading).size();
-  };
   for (std::size_t first = 0, last = 0; first < screen.places.size(); first = last + 1) {
     double path_m = 0.0;
     for (last = first;
@@ -43,10 +78,11 @@ void find_frozen(Screen& screen) {
          ++last) {
       path_m += (screen.places[last + 1] - screen.places[last]).norm();
     }
-    const std::size_t in_run = last - first + 1;
-    if (in_run < kLeastFrozen || path_m <= kTipWidth_m ||
-        times_felt(screen.reading(first)) > in_run)
-      continue;
+    const std::size_t run = last - first + 1;
+    if (run < kLeastFrozen || path_m <= kTipWidth_m) continue;
+    const double by_chance = static_cast<double>(sorted.size()) *
+                             std::pow(repeats_without(screen, first, last), last - first);
+    if (by_chance > kRareRun || ends_range(screen, sorted, first, last)) continue;
     for (std::size_t i = first; i <= last; ++i) screen.set_aside(i, kFrozen);
   }
 }
@@ -106,9 +142,16 @@ std::vector<Palpation> plausible(const Surface& surface, std::span<const Palpati
                                  double length_m) {
   std::vector<Palpation> result(palpations.begin(), palpations.end());
   Screen screen{result, places_of(surface, palpations)};
-  // Where all are alike, so may tissue and sensor be.
-  if (!all_equal(used_readings(result))) find_frozen(screen);
   find_implausible(screen, length_m);
+  return result;
+}
+
+std::vector<Palpation> live(const Surface& surface, std::span<const Palpation> palpations) {
+  std::vector<Palpation> result(palpations.begin(), palpations.end());
+  // Where all are alike, so may tissue and sensor be.
+  if (all_equal(used_readings(result))) return result;
+  Screen screen{result, places_of(surface, palpations)};
+  find_frozen(screen);
   return result;
 }
 

@@ -71,7 +71,7 @@ TEST(Conclude, NoiseThatOutlinesTellLetsMoreHide) {
 // Readings that scatter four times as much on the tumour as beside it, and ones that do not.
 TEST(Conclude, ThatReadingsScatterMoreOnATumourIsLearned) {
   const Surface tissue = plane(26, 51);
-  const Phantom phantom(tissue, {Disk{Vec3(0.0115, 0.030, 0.0), 0.00625}}, {.noise = 0.0});
+  const Phantom phantom(tissue, {Disk{Vec3(0.0125, 0.028, 0.0), 0.0095}}, {.noise = 0.0});
   for (const double times : {1.0, 4.0}) {
     Random random(6);
     std::vector<Palpation> readings;

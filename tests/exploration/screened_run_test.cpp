@@ -136,8 +136,9 @@ TEST(Exploration, FindsATumourThatASecondReadingConfirms) {
 TEST(ScreenedExploration, FindsASensorThatHangsAndKeepsTheReasonWithTheReading) {
   const Surface tissue = plane(26, 51);
   std::vector<Palpation> hung;
+  constexpr double kLive[] = {7.0, 7.04, 7.01, 7.05, 7.03};
   for (int vertex = 0; vertex < 20; ++vertex)
-    hung.push_back(touch(tissue, 26 * vertex, 7.0 + 0.01 * std::min(vertex, 5)));
+    hung.push_back(touch(tissue, 26 * vertex, vertex < 5 ? kLive[vertex] : 7.02));
   Exploration exploration(tissue);
   exploration.take_up(hung);
   const std::vector<Palpation>& told = exploration.conclusion().palpations;

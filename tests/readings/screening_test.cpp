@@ -146,7 +146,42 @@ TEST(Screened, ASensorThatSaysTheSameElsewhereDoesNotHang) {
   const Scan exact =
       scan([](double counts, int, double) { return 1e-3 * std::round(1e3 * counts); }, 0.001, 0.0);
   EXPECT_EQ(found_in(exact), Found{});
-  EXPECT_EQ(reasons(plausible(exact.tissue, exact.palpations)), Found{});
+  EXPECT_EQ(reasons(live(exact.tissue, exact.palpations)), Found{});
+}
+
+// Most of the time; with few digits, so that chance repeats one in three; and at nothing, far
+// below.
+TEST(Screened, ASensorThatHangsIsSetAsideHoweverItReads) {
+  const Surface tissue = sheet();
+  const auto found_of = [&](std::size_t first, std::size_t count, double digit, double value) {
+    Random random(2);
+    std::vector<Palpation> felt;
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 place(0.030 * random.uniform(), 0.050 * random.uniform(), 0.0);
+      const double reading = digit * std::round((counts(place) + 20.0 * random.normal()) / digit);
+      felt.push_back({.where = tissue.project(place), .reading = reading});
+    }
+    for (std::size_t i = first; i < first + count; ++i) felt[i].reading = value;
+    return reasons(live(tissue, felt))[kFrozen];
+  };
+  EXPECT_EQ(found_of(20, 80, 0.01, 7700.0), 80);
+  EXPECT_EQ(found_of(40, 25, 30.0, 7025.0), 25);
+  EXPECT_EQ(found_of(60, 40, 0.01, 0.0), 40);
+  EXPECT_EQ(found_of(0, 0, 30.0, 0.0), 0);
+  EXPECT_EQ(found_of(0, 0, 400.0, 0.0), 0);
+}
+
+// Row by row, first what lies at the sensor's lower limit, then a steep tumour.
+TEST(Screened, ASensorAtItsLimitDoesNotHang) {
+  const Surface tissue = sheet();
+  Random random(3);
+  std::vector<Palpation> felt;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 place(0.0015 + 0.003 * (i % 10), 0.0025 + 0.005 * (i / 10), 0.0);
+    felt.push_back(
+        {.where = tissue.project(place), .reading = i < 60 ? 1.5 : 5.0 + 0.1 * random.normal()});
+  }
+  EXPECT_EQ(reasons(live(tissue, felt)), Found{});
 }
 
 TEST(Screened, TheStartOfRowsIsSetAsideWhereAllBeginAlike) {

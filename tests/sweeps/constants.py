@@ -68,7 +68,7 @@ def main():
     parser.add_argument("--world", default="shape")
     parser.add_argument("--trials", type=int, default=5)
     parser.add_argument("--first-seed", type=int, default=64000)
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     work = arguments.work.resolve()
     tree = work / "tree"
     for part in COPIED if not tree.exists() else ():

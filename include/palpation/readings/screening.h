@@ -7,7 +7,7 @@
 ///   levels there are readings, between
 ///     those of tissue and of a jam next to none;
 ///   - over a path longer than the tip is wide a working sensor does not say the same number to its
-///   last digit, unless it says so elsewhere, too;
+///   last digit more often than by chance, unless that is the end of its range;
 ///   - a scan's row crosses more tissue than tumour, so that its lower readings are the healthy
 ///   tissue's, alike from row to row;
 ///   - rows that start from rest all start in the same way;
@@ -45,11 +45,13 @@ inline const std::string kBeyondTissue =
 /// As fine as anything is felt with a tip of 4.5 mm.
 inline constexpr double kShortLength_m = 0.0035;
 
-/// The same readings, with those set aside that no tissue gives: frozen ones, where others are not,
-/// and whatever the order in which they were made, those far below all others or contradicted by
-/// those around them.
-/// What was set aside before stays so and tells nothing. `length_m`: over which stiffness changes,
-/// at least.
+/// The same readings, in the order in which they were made and as the sensor told them, with those
+/// set aside that are frozen, unless all are alike.
+std::vector<Palpation> live(const Surface& surface, std::span<const Palpation> palpations);
+
+/// The same readings, with those set aside that no tissue gives whatever the order in which they
+/// were made: far below all others, or contradicted by those around them. What was set aside
+/// before stays so and tells nothing. `length_m`: over which stiffness changes, at least.
 std::vector<Palpation> plausible(const Surface& surface, std::span<const Palpation> palpations,
                                  double length_m = kShortLength_m);
 
