@@ -26,6 +26,7 @@ constexpr double kFarthestMove_m = 0.008;
 /// Steps of a closer look, in metres and in readings; halved twice.
 constexpr double kFirstStep_m = 0.001, kLastStep_m = 0.00025;
 constexpr std::ptrdiff_t kReadingsOfStep = 4;
+constexpr int kMostSteps = 30;  ///< of each length
 /// What stands out by less of what it did is no gain of a sensor that works.
 constexpr double kLeastGain = 0.1;
 
@@ -187,7 +188,8 @@ void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surfa
         known_by(surface, model,
                  believe(surface, model, with_changes_taken_back(surface, felt, changes), apart));
     if (!known.boundary.edge) return;
-    for (bool is_better = true; is_better;) {
+    bool is_better = true;
+    for (int step = 0; is_better && step < kMostSteps; ++step) {
       const Misfit move = changes[which];
       std::vector<Misfit> tried = {move};
       for (const Vec3& way : {across, along}) {
