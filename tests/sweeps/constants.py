@@ -42,6 +42,7 @@ def rows_of(work, name, arguments):
     """Of the tree as it stands: built and run once."""
     out = work / "rows" / name
     if not (out / "done").exists():
+        shutil.rmtree(out, ignore_errors=True)
         subprocess.run([work / "tree/src/cmake/build", "ci", "palpate"], check=True, stdout=subprocess.DEVNULL)
         subprocess.run(
             [work / "tree/build/ci/bin/palpate", "experiment", "coverage", "--world", arguments.world, "--trials", str(arguments.trials),
@@ -83,7 +84,11 @@ def main():
     print(line_of("as they are", rows_of(work, "as-they-are", arguments)), flush=True)
     for constant in arguments.constants or CONSTANTS:
         path, name = constant.split(":")
-        text = (tree / path).read_text()
+        as_copied = work / "as-copied" / path  # what a run that was killed leaves in the tree is not
+        if not as_copied.exists():
+            as_copied.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(tree / path, as_copied)
+        text = as_copied.read_text()
         for factor in (0.5, 2.0):
             changed, was = scaled(text, name, factor)
             (tree / path).write_text(changed)
