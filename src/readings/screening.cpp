@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -78,12 +79,13 @@ void find_frozen(Screen& screen) {
          ++last) {
       path_m += (screen.places[last + 1] - screen.places[last]).norm();
     }
-    const std::size_t run = last - first + 1;
-    if (run < kLeastFrozen || path_m <= kTipWidth_m) continue;
+    const auto run = std::views::iota(first, last + 1);
+    const bool is_used = std::ranges::any_of(run, [&](std::size_t i) { return screen.uses(i); });
+    if (run.size() < kLeastFrozen || path_m <= kTipWidth_m || !is_used) continue;
     const double by_chance = static_cast<double>(sorted.size()) *
                              std::pow(repeats_without(screen, first, last), last - first);
     if (by_chance > kRareRun || ends_range(screen, sorted, first, last)) continue;
-    for (std::size_t i = first; i <= last; ++i) screen.set_aside(i, kFrozen);
+    for (const std::size_t i : run) screen.set_aside(i, kFrozen);
   }
 }
 

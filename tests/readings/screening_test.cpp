@@ -304,6 +304,12 @@ TEST(Screened, FewOrConstantReadingsHaveADefinedAnswer) {
   for (Palpation& palpation : grid) palpation.reading = 7000.0;
   EXPECT_EQ(reasons(screened(tissue, grid)),
             (Found{{kFrozen, static_cast<int>(grid.size())}}));  // a sensor that is off
+  for (Palpation& palpation : grid) palpation.set_aside = "the probe slipped";
+  EXPECT_EQ(reasons(screened(tissue, grid)), reasons(grid));
+  EXPECT_EQ(reasons(live(tissue, grid)), reasons(grid));
+  grid.back().set_aside.clear();
+  grid.back().reading = 6900.0;
+  EXPECT_EQ(reasons(screened(tissue, grid)), reasons(grid)) << "all but one set aside, and higher";
 }
 
 }  // namespace
