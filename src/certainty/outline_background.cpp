@@ -83,7 +83,6 @@ BackgroundTerms background_terms(const BackgroundReadings& readings) {
     if (part.cols() > 0) terms.of_readings.middleCols(columns, part.cols()) = part;
     columns += part.cols();
   }
-  terms.information = information_of(terms, readings.variance);
   return terms;
 }
 

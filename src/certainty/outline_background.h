@@ -24,7 +24,6 @@ namespace palpation {
 struct BackgroundTerms {
   Eigen::MatrixXd of_readings;
   std::vector<Eigen::Index> waves;  ///< columns of each length, the shortest first
-  Eigen::MatrixXd information;      ///< that readings have of the coefficients
   double median_sd = 1.0;  ///< of waves of one length beforehand, in reading units; the spread of
                            ///< its logarithm is 1
   double drift_sd = 1.0;   ///< in reading units
@@ -46,14 +45,13 @@ struct ResidualScales {
 
 struct BackgroundReadings {
   std::span<const Vec2> places;
-  std::span<const double> variance;  ///< of the noise
-  std::span<const double> when;      ///< any numbers that rise as time goes on
+  std::span<const double> when;  ///< any numbers that rise as time goes on
   Eigen::MatrixXd
       slow_waves{};         ///< what one sd of each adds to each reading: as many rows, or none
   Eigen::MatrixXd steps{};  ///< what one unit of each adds to each reading: as many rows, or none
 };
 BackgroundTerms background_terms(const BackgroundReadings& readings);
-/// That readings have of the coefficients: F' V^-1 F.
+/// That readings of such variances have of the coefficients: F' V^-1 F.
 Eigen::MatrixXd information_of(const BackgroundTerms& terms, std::span<const double> variance);
 
 }  // namespace palpation

@@ -56,7 +56,7 @@ OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<do
       prior_(prior),
       off_(std::move(off)),
       scatter_(scatter_of(variance)),
-      information_(terms.information),
+      information_(information_of(terms, variance)),
       scales_{.log_noise = log_noise,
               .log_sd = std::vector(terms.waves.size(), 0.0),
               .wild = static_cast<double>(kWild) / (kWild + kTelling)} {
@@ -125,7 +125,7 @@ OutlineResiduals::Told OutlineResiduals::told() const {
 }
 
 Eigen::VectorXd OutlineResiduals::sds(const std::vector<double>& log_sd) const {
-  Eigen::VectorXd sd(terms_->information.rows());
+  Eigen::VectorXd sd(information_.rows());
   Eigen::Index first = 0;
   for (std::size_t length = 0; length < log_sd.size(); ++length) {
     sd.segment(first, terms_->waves[length])

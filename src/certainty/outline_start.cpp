@@ -120,7 +120,6 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   }
   readings.background =
       background_terms({.places = readings.places,
-                        .variance = readings.variance,
                         .when = when,
                         .slow_waves = slow_waves_of(layout, options.slow_waves, in_order),
                         .steps = steps_of(changes, before)});

@@ -19,11 +19,9 @@ namespace {
 bool is_judged_anew(const Palpation& palpation, const Model& model) {
   const std::string& reason = palpation.set_aside;
   if (reason == kStandsAlone) return model.needs_contrast();
-  const auto is_among = [&](std::initializer_list<std::string> reasons) {
-    return std::ranges::find(reasons, reason) != reasons.end();
-  };
-  return is_among({kNoContact, kFrozen, kOutlier, kBeyondTissue}) ||
-         (model.field.probe.screening && is_among({kJammed, kStartUp, kBaseStep}));
+  const auto is_any_of = [&](const auto&... reasons) { return ((reason == reasons) || ...); };
+  return is_any_of(kNoContact, kFrozen, kOutlier, kBeyondTissue) ||
+         (model.field.probe.screening && is_any_of(kJammed, kStartUp, kBaseStep));
 }
 
 /// Those that were made, as they were made.

@@ -21,8 +21,7 @@ struct Touched {
   std::vector<double> when;
 
   BackgroundTerms terms(const Eigen::MatrixXd& steps = {}) const {
-    const std::vector<double> variance(places.size(), 1.0);
-    return background_terms({.places = places, .variance = variance, .when = when, .steps = steps});
+    return background_terms({.places = places, .when = when, .steps = steps});
   }
 };
 

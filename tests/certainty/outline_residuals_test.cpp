@@ -34,10 +34,8 @@ Readings raster(double variance) {
   readings.variance.assign(64, variance);
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(64, 1);
   step.bottomRows(20).setOnes();
-  readings.terms = background_terms({.places = readings.places,
-                                     .variance = readings.variance,
-                                     .when = readings.when,
-                                     .steps = step});
+  readings.terms =
+      background_terms({.places = readings.places, .when = readings.when, .steps = step});
   readings.terms.median_sd = 0.1;
   readings.terms.drift_sd = 0.5;
   readings.terms.tilt_sd = 0.4;

@@ -196,8 +196,7 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   OutlineReadings readings = felt_around(truth, 80, random);
   OutlinePrior prior = prior_of(start);
   add_changes({MisfitKind::Moved, MisfitKind::Gain}, readings, prior);
-  readings.background = background_terms(
-      {.places = readings.places, .variance = readings.variance, .when = readings.reading});
+  readings.background = background_terms({.places = readings.places, .when = readings.reading});
   readings.background.median_sd = 0.1;
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
@@ -233,8 +232,7 @@ TEST(OutlineChain, ItsDensityIsTheSameWhereverTheTissueLies) {
   const OutlineNodes outline = rectangle(8 * kMm, 6 * kMm, 28);
   OutlineReadings readings = felt_around(outline, 60, random);
   const auto add_background = [&] {
-    readings.background = background_terms(
-        {.places = readings.places, .variance = readings.variance, .when = readings.reading});
+    readings.background = background_terms({.places = readings.places, .when = readings.reading});
   };
   add_background();
   const OutlinePrior prior = prior_of(outline);
