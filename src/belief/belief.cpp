@@ -99,13 +99,14 @@ std::optional<ReducedRank> Belief::reduced_rank() const {
 
 Vec3 Belief::slope() const { return prior().slope().sd.cwiseProduct(state_->regression.tilt()); }
 
-std::vector<Palpation> Belief::detrended_palpations() const {
-  std::vector<Palpation> detrended = palpations();
-  if (!prior().has_slope()) return detrended;
-  for (Palpation& palpation : detrended)
+std::vector<Palpation> Belief::detrended_palpations() const { return detrended(palpations()); }
+
+std::vector<Palpation> Belief::detrended(std::vector<Palpation> palpations) const {
+  if (!prior().has_slope()) return palpations;
+  for (Palpation& palpation : palpations)
     palpation.reading -=
         state_->regression.tilt().dot(prior().tilt(prior().coordinates(palpation.where)));
-  return detrended;
+  return palpations;
 }
 
 double Belief::log_marginal_likelihood() const {

@@ -98,8 +98,13 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
 }  // namespace
 
 EdgeData gathered_for_edge(const Belief& belief) {
+  return gathered_for_edge(belief, belief.palpations());
+}
+
+EdgeData gathered_for_edge(const Belief& belief, std::vector<Palpation> one_by_one) {
   EdgeData data;
-  const std::vector<Site> sites = gather_sites(belief.prior(), belief.detrended_palpations());
+  const std::vector<Site> sites =
+      gather_sites(belief.prior(), belief.detrended(std::move(one_by_one)));
   const auto count = static_cast<Eigen::Index>(sites.size());
   data.reading.resize(count);
   data.variance.resize(count);

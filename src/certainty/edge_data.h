@@ -13,6 +13,8 @@ inline constexpr Eigen::Index kMany = 300;
 
 /// One reading per place, of those that are used; depths are still to be measured.
 EdgeData gathered_for_edge(const Belief& belief);
+/// The same of the belief's readings `one_by_one`, where it knows some of them together.
+EdgeData gathered_for_edge(const Belief& belief, std::vector<Palpation> one_by_one);
 
 /// Of the same readings as one plateau and noise of which nothing is known but how many readings
 /// each is the mean of, as EdgeBelief::log_evidence is: without what depends on their number alone,

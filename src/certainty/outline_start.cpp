@@ -88,7 +88,8 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   const std::vector<Misfit>& changes = options.changes;
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
-  EdgeData data = gathered_for_edge(belief);
+  EdgeData data = options.one_by_one.empty() ? gathered_for_edge(belief)
+                                             : gathered_for_edge(belief, options.one_by_one);
   Eigen::VectorXd of_vertices;
   if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
     data = with_plateaus_merged(layout, data);

@@ -133,8 +133,8 @@ Believed believe(const Surface& surface, const Model& model, std::vector<Palpati
   const auto result = [&] {
     std::optional<double> of_smooth_field;
     if (field.learns()) of_smooth_field = fit.field.signal_evidence;
-    return Believed{std::move(all), std::move(fit.field.belief), fit.lag, std::move(evidence),
-                    of_smooth_field};
+    return Believed{std::move(all),  std::move(fit.field.belief),    fit.lag, std::move(evidence),
+                    of_smooth_field, std::move(fit.field.one_by_one)};
   };
   if (all.empty() || evidence.trend_is_missing) return result();
   const std::vector<Palpation> flat =

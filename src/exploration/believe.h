@@ -18,6 +18,8 @@ struct Believed {
   /// Nats by which the field, with what it has learned, makes the readings more probable than noise
   /// alone; nothing where it was not learned.
   std::optional<double> of_smooth_field{};
+  /// Where they belong, if the belief knows some of them together (FieldFit).
+  std::vector<Palpation> one_by_one{};
 };
 
 /// The readings as they were made, with the reasons why some are set aside.

@@ -31,19 +31,18 @@ constexpr std::size_t kMostForEvidence = 300;
 bool is_on_the_way(const Palpation& palpation) { return palpation.kind == TouchKind::Way; }
 
 /// All stops, and every so many of the readings on the way, so that there are no more than `most`
-/// in all if the stops allow.
+/// in all if the stops allow; of what counts.
 std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
-  const auto on_the_way = [](const Palpation& palpation) {
-    return palpation.kind == TouchKind::Way && palpation.set_aside.empty();
-  };
-  const auto ways = static_cast<std::size_t>(std::ranges::count_if(palpations, on_the_way));
-  const std::size_t stops = palpations.size() - ways;
-  if (ways == 0 || palpations.size() <= most) return {palpations.begin(), palpations.end()};
-  const std::size_t kept = most > stops ? most - stops : 0;
+  const auto used = static_cast<std::size_t>(std::ranges::count_if(palpations, counts));
+  const auto ways = static_cast<std::size_t>(std::ranges::count_if(
+      palpations, [](const Palpation& one) { return counts(one) && is_on_the_way(one); }));
+  if (ways == 0 || used <= most) return {palpations.begin(), palpations.end()};
+  const std::size_t stops = used - ways, kept = most > stops ? most - stops : 0;
   std::vector<Palpation> chosen;
   std::size_t passed = 0;
   for (const Palpation& palpation : palpations) {
-    if (on_the_way(palpation)) {
+    if (!counts(palpation)) continue;
+    if (is_on_the_way(palpation)) {
       ++passed;
       if (passed * kept / ways == (passed - 1) * kept / ways) continue;
     }
@@ -179,22 +178,22 @@ FieldFit grown_field(const Surface& surface, const FieldModel& field,
 
 FieldFit belief_of(const Surface& surface, const FieldModel& field,
                    std::span<const Palpation> palpations, const LearnedField& taught) {
-  const auto conditioned = [&](const LearnedField& by) {
+  const auto fit = [&](const LearnedField& by) -> FieldFit {
     if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way))
-      return by.blank.condition_on(palpations);
+      return {by.blank.condition_on(palpations), by.signal_evidence};
     const double length_m = kernel_of(field.kernel).length_m;
     const double noise_sd = by.in_force().noise_sd;
-    return by.blank.condition_on(
-        merged_on_the_way(surface, palpations, kMergeWithin * length_m, noise_sd * noise_sd));
+    return {by.blank.condition_on(merged_on_the_way(surface, palpations, kMergeWithin * length_m,
+                                                    noise_sd * noise_sd)),
+            by.signal_evidence,
+            {palpations.begin(), palpations.end()}};
   };
   try {
-    return {conditioned(taught), taught.signal_evidence};
+    return fit(taught);
   } catch (const NumericalError&) {
     // Less noise than parts the readings that were left out: all of them together say so.
     if (!taught.from_some) throw;
-    const LearnedField by_all =
-        learn_field(surface, field, palpations, taught.learned, palpations.size());
-    return {conditioned(by_all), by_all.signal_evidence};
+    return fit(learn_field(surface, field, palpations, taught.learned, palpations.size()));
   }
 }
 

@@ -50,6 +50,7 @@ LearnedField learn_field(const Surface& surface, const FieldModel& field,
 struct FieldFit {
   Belief belief;
   double signal_evidence = 0.0;
+  std::vector<Palpation> one_by_one{};  ///< its readings, where it knows some of them together
 };
 
 /// The belief that knows them too, those on the way merged within three tenths of the length that a

@@ -162,6 +162,7 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
                       {.fraction = model.level.fraction,
                        .noise_log_sd = noise_log_sd_of(model, believed.belief),
                        .seed = seed,
+                       .one_by_one = believed.one_by_one,
                        .changes = with_gains_of_sessions(believed.evidence.taken_back),
                        .slow_waves = slow_waves_among(believed.evidence.taken_back)});
   if (boundary.outlines) boundary.level = boundary.outlines->level;

@@ -87,6 +87,8 @@ class Belief {
   /// The palpations less the mean slope at their places: readings of c + g. The same where the
   /// prior has no slope.
   std::vector<Palpation> detrended_palpations() const;
+  /// The same of others, in the belief's units.
+  std::vector<Palpation> detrended(std::vector<Palpation> palpations) const;
 
   /// Log density of the readings, the slope integrated out; restricted to what does not depend on
   /// the constant where that is unknown (REML, without the term log|H'H|/2).

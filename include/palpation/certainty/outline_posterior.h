@@ -24,6 +24,9 @@ struct OutlineOptions {
   double noise_log_sd = 0.0;  ///< of the belief's noise, as EdgeBelief::around has it
   std::uint64_t seed = 1;
   int draws = 200;
+  /// The belief's readings, where it knows some of them together: across an edge a mean of two is
+  /// not what lies between them. Empty where it knows each.
+  std::vector<Palpation> one_by_one{};
   /// What changed while one touched and is taken back in the belief's readings, in time; what is
   /// left of it is among the unknown.
   std::vector<Misfit> changes{};
