@@ -15,6 +15,9 @@ namespace {
 
 /// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
+/// Finer than a probe feels: errors that one reading hands on to the next, as a filter's do, and
+/// how high they may be, of how the readings spread.
+constexpr std::array kErrors = {0.03, 0.1, 0.3, 1.0};
 /// Texture of real tissue beside an edge and slow waves, and how high it may be, of how the
 /// readings spread.
 constexpr double kTexture_m = 0.005;
@@ -38,6 +41,17 @@ SlowWaves waves_of(const Prior& correction, double length_m, const EdgeData& dat
 
 WavesFound likeliest(std::vector<WavesFound> found) {
   return *std::ranges::max_element(found, {}, &WavesFound::log_density);
+}
+
+/// By errors that pass from reading to reading, without waves.
+double level_in_errors(const Rows& rows, double spread, const Eigen::MatrixXd& errors) {
+  double level = -std::numeric_limits<double>::infinity();
+  for (const double height : kErrors) {
+    Rows erring = rows;
+    erring.covariance += std::pow(height * spread, 2) * errors;
+    level = std::max(level, WithWaves(erring, spread).level());
+  }
+  return level;
 }
 
 /// By texture and slow waves.
@@ -94,9 +108,17 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
   const Fit& fit = most_likely();
   const InWaves here(surface_, fit, taken_back);
   const double spread = spread_of(here.readings);
-  const WithWaves edge(here.rows, spread), none(without_edge(here.rows, here.readings), spread);
+  const Rows flat = without_edge(here.rows, here.readings);
+  const WithWaves edge(here.rows, spread), none(flat, spread);
   EdgeOdds odds;
   double with_edge = edge.level(), without = none.level();
+  const Eigen::MatrixXd terms = waves_of(fit.correction, kHandedOn_m, fit.data).terms(),
+                        errors = terms * terms.transpose();
+  with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
+  if (const double by_errors = level_in_errors(flat, spread, errors); by_errors > without) {
+    without = by_errors;
+    odds.wave_length_m = kHandedOn_m;
+  }
   for (const double length_m : kLengths_m) {
     const SlowWaves waves = waves_of(fit.correction, length_m, fit.data);
     with_edge = std::max(with_edge, likeliest(edge.of(waves.terms())).log_density);

@@ -94,7 +94,9 @@ constexpr int kMostTakenBack = 8;
 /// That is slower than a tumour of 4 cm2 is wide.
 constexpr double kSlowWave_m = 0.0225;
 
-/// Slow waves of healthy tissue have no edge. Shorter ones may be tumours in tissue that waves.
+/// Slow waves of healthy tissue have no edge, nor have errors that last from reading to reading.
+/// Waves between these may be tumours in tissue that waves. Where readings on the way are many, a
+/// few of them taught the field, and what they say of it is not what all say.
 void weigh_against_waves(Known& known) {
   const std::optional<EdgeBelief>& edge = known.boundary.edge;
   const std::optional<double>& of_smooth_field = known.believed.of_smooth_field;
@@ -102,11 +104,14 @@ void weigh_against_waves(Known& known) {
   const std::vector<Misfit>& changes = known.believed.evidence.taken_back;
   const auto waves = std::ranges::find(changes, MisfitKind::Waves, &Misfit::kind);
   const double of_field = log_evidence_without_edge(known.believed.belief) + *of_smooth_field;
-  if (waves == changes.end() && edge->log_evidence() > of_field + surprising()) return;
+  if (waves == changes.end() && known.believed.one_by_one.empty() &&
+      edge->log_evidence() > of_field + surprising())
+    return;
   const EdgeOdds odds =
       edge->odds_over_waves(waves == changes.end() ? Field() : waves->background.waves);
-  known.believed.evidence.of_edge = odds.log_odds;
-  if (odds.log_odds < -surprising() && odds.wave_length_m >= kSlowWave_m) known.boundary = {};
+  known.believed.evidence.of_edge = odds;
+  const bool is_healthy = odds.wave_length_m >= kSlowWave_m || odds.wave_length_m <= kHandedOn_m;
+  if (odds.log_odds < -surprising() && is_healthy) known.boundary = {};
 }
 
 }  // namespace

@@ -234,10 +234,10 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
         percent(conclusion.outlines->plateau_probability) +
         " probable): how stiff its core is was not felt, and something buried deep, or "
         "healthy tissue that stiffens by and by, feels alike.");
-  if (conclusion.evidence.of_edge && *conclusion.evidence.of_edge < surprising())
-    remarks.push_back(
-        "Healthy tissue that waves explains the readings no worse than the edge that was found: it "
-        "may be no tumour, or a tumour may lie elsewhere.");
+  if (const auto& odds = conclusion.evidence.of_edge; odds && odds->log_odds < surprising())
+    remarks.push_back(instead_of_edge(*odds) +
+                      " explains the readings no worse than the edge that was found: it may be no "
+                      "tumour, or a tumour may lie elsewhere.");
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   return remarks;

@@ -141,6 +141,20 @@ std::string weaker_words(const Exploration& exploration) {
 
 namespace {
 
+/// Why what is highest is no tumour, and where it might be one all the same.
+std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
+  if (!of_edge)
+    return ", and no edge fits them: touch there again. Where it is a tumour all the same";
+  const std::string less_probable =
+      "a tumour's edge makes them less probable by a factor of e^" + fixed(-of_edge->log_odds, 0);
+  if (of_edge->wave_length_m <= kHandedOn_m)
+    return ", but readings that lie close together err alike, as a sensor's filter makes them, "
+           "and " +
+           less_probable + ". Where it is a tumour all the same";
+  return ", as slowly as healthy tissue may, and " + less_probable +
+         ". Where a tumour may lie so deep";
+}
+
 /// Where the field is highest, and why that is no tumour.
 std::string no_edge_words(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
@@ -150,16 +164,16 @@ std::string no_edge_words(const Exploration& exploration) {
   return "Nothing found that has an edge: readings rise by " + reading_text(most - least) +
          ", most around " +
          place_words(exploration.surface().vertex(static_cast<int>(highest)), 1) +
-         (conclusion.evidence.of_edge
-              ? ", as slowly as healthy tissue may, and a tumour's edge makes them less probable "
-                "by "
-                "a factor of e^" +
-                    fixed(-*conclusion.evidence.of_edge, 0) + ". Where a tumour may lie so deep"
-              : ", and no edge fits them: touch there again. Where it is a tumour all the same") +
+         without_edge_words(conclusion.evidence.of_edge) +
          ", level.estimate range draws where half of that is reached.";
 }
 
 }  // namespace
+
+std::string instead_of_edge(const EdgeOdds& odds) {
+  return odds.wave_length_m > kHandedOn_m ? "Healthy tissue that waves"
+                                          : "Noise that lasts from reading to reading";
+}
 
 std::string no_level_words(const Exploration& exploration) {
   if (exploration.conclusion().evidence.trend_is_missing) return kTooFewForTrend;

@@ -19,6 +19,8 @@ inline constexpr const char* kTooFewForTrend =
 
 /// What was taken out as weaker than plan.min_contrast: where, and by how much it stands out.
 std::string weaker_words(const Exploration& exploration);
+/// What explains readings without an edge.
+std::string instead_of_edge(const EdgeOdds& odds);
 /// What is said where no level could be found.
 std::string no_level_words(const Exploration& exploration);
 

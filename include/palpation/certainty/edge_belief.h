@@ -57,9 +57,13 @@ struct PartContrast {
   double stddev = 0.0;        ///< of that; 0: taken for the same
 };
 
+/// Over which errors may last that one reading hands on to the next: finer than a probe feels.
+inline constexpr double kHandedOn_m = 0.002;
+
 struct EdgeOdds {
   double log_odds = 0.0;
-  double wave_length_m = 0.0;  ///< of the likeliest waves without an edge
+  /// Of the likeliest waves without an edge: kHandedOn_m where those are errors.
+  double wave_length_m = 0.0;
 };
 
 /// An edge in healthy tissue that waves slowly.
@@ -101,9 +105,10 @@ class EdgeBelief {
   /// freedom costs: compares with that of another belief of as many.
   double log_evidence() const;
   /// By how much more probable the readings are with this edge than without one, with healthy
-  /// tissue that waves over 8 mm or more in both. Waves and noise are as probable as they can be
-  /// made, and the outline's freedom has its price. `taken_back`: waves that the readings are
-  /// without (with_changes_taken_back), at the vertices; with them, they are weighed.
+  /// tissue that waves over 8 mm or more, or errors that last over kHandedOn_m, in both. Waves and
+  /// noise are as probable as they can be made, and the outline's freedom has its price.
+  /// `taken_back`: waves that the readings are without (with_changes_taken_back), at the vertices;
+  /// with them, they are weighed.
   EdgeOdds odds_over_waves(const Field& taken_back = {}) const;
   /// How probable this edge makes the readings, waves that were taken back included, where tissue
   /// waves over 40 mm or more: compares as log_evidence does. Noise is as probable as it can be

@@ -48,11 +48,12 @@ struct DoubtfulPart {
 struct Evidence {
   bool contrast_seen = false;
   ReadingScale scale = ReadingScale::Raw;  ///< on which the readings are modelled
-  /// Nats by which an edge makes the readings more probable than healthy tissue alone that waves
-  /// (EdgeBelief::odds_over_waves); asked at the end, where a smooth field explains them as
-  /// well. Where it is clearly less probable, and waves that are slower than a tumour is wide
-  /// explain the most, there is no level: no tumour was felt.
-  std::optional<double> of_edge{};
+  /// By how much an edge makes the readings more probable than healthy tissue alone that waves, or
+  /// errors that last from reading to reading (EdgeBelief::odds_over_waves); asked at the end,
+  /// where a smooth field explains them as well or some were made on the way. Where it is clearly
+  /// less probable, and waves that are slower than a tumour is wide, or errors, explain the most,
+  /// there is no level: no tumour was felt.
+  std::optional<EdgeOdds> of_edge{};
   bool trend_is_missing = false;  ///< a trend is modelled, but too few places are touched yet to
                                   ///< tell a tumour from a tilt
   /// Readings that lie farther from all others than those from each other (readings_apart), the
