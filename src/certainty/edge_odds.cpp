@@ -104,7 +104,7 @@ struct EdgeBelief::InWaves {
   }
 };
 
-EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
+EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back, bool may_last) const {
   const Fit& fit = most_likely();
   const InWaves here(surface_, fit, taken_back);
   const double spread = spread_of(here.readings);
@@ -112,12 +112,14 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
   const WithWaves edge(here.rows, spread), none(flat, spread);
   EdgeOdds odds;
   double with_edge = edge.level(), without = none.level();
-  const Eigen::MatrixXd terms = waves_of(fit.correction, kHandedOn_m, fit.data).terms(),
-                        errors = terms * terms.transpose();
-  with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
-  if (const double by_errors = level_in_errors(flat, spread, errors); by_errors > without) {
-    without = by_errors;
-    odds.wave_length_m = kHandedOn_m;
+  if (may_last) {
+    const Eigen::MatrixXd terms = waves_of(fit.correction, kHandedOn_m, fit.data).terms(),
+                          errors = terms * terms.transpose();
+    with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
+    if (const double alone = level_in_errors(flat, spread, errors); alone > without) {
+      without = alone;
+      odds.wave_length_m = kHandedOn_m;
+    }
   }
   for (const double length_m : kLengths_m) {
     const SlowWaves waves = waves_of(fit.correction, length_m, fit.data);

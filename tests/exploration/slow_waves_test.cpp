@@ -86,17 +86,16 @@ TEST(SlowWaves, AreTakenBackFromTissueWithATumour) {
   }
 }
 
-/// Rows 2.5 mm apart, a reading each half millimetre, each of whose errors keeps seven tenths of
-/// the one before.
+/// Rows 2.5 mm apart, a reading each half millimetre, each of whose errors keeps a part of the one
+/// before.
 std::vector<Palpation> slides(const Surface& surface, const Stiffness& stiffness,
-                              std::uint64_t seed) {
-  constexpr double kKept = 0.7, kSd = 0.15;
+                              std::uint64_t seed, double kept, double sd) {
   Random random(seed);
   std::vector<Palpation> palpations;
-  double error = kSd * random.normal();
+  double error = sd * random.normal();
   for (int row = 0; row < 15; ++row) {
     for (int i = 0; i < 60; ++i) {
-      error = kKept * error + std::sqrt(1.0 - kKept * kKept) * kSd * random.normal();
+      error = kept * error + std::sqrt(1.0 - kept * kept) * sd * random.normal();
       const Vec3 place(0.005 + 0.0005 * i, 0.006 + 0.0025 * row, 0.0);
       palpations.push_back({.where = surface.project(place),
                             .reading = 7.0 + stiffness(place) + error,
@@ -113,7 +112,7 @@ TEST(NoiseThatLasts, IsNoTumour) {
   const Surface surface = tissue();
   for (const std::uint64_t seed : {1, 2, 3}) {
     const std::vector<Palpation> healthy = slides(
-        surface, [](const Vec3&) { return 0.0; }, seed);
+        surface, [](const Vec3&) { return 0.0; }, seed, 0.7, 0.15);
     const Conclusion conclusion =
         conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, healthy, nullptr, 1);
     EXPECT_FALSE(conclusion.level) << seed;
@@ -126,7 +125,7 @@ TEST(NoiseThatLasts, IsNoTumour) {
 TEST(NoiseThatLasts, HidesNoTumour) {
   const Surface surface = tissue();
   const Conclusion conclusion = conclude(surface, {.level = {.estimate = LevelEstimate::Edge}},
-                                         slides(surface, disk, 1), nullptr, 1);
+                                         slides(surface, disk, 1, 0.7, 0.15), nullptr, 1);
   ASSERT_TRUE(conclusion.outlines);
   EXPECT_GT(conclusion.evidence.of_edge->log_odds, 10.0);
   EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 49.0, 25.0);

@@ -105,11 +105,11 @@ class EdgeBelief {
   /// freedom costs: compares with that of another belief of as many.
   double log_evidence() const;
   /// By how much more probable the readings are with this edge than without one, with healthy
-  /// tissue that waves over 8 mm or more, or errors that last over kHandedOn_m, in both. Waves and
-  /// noise are as probable as they can be made, and the outline's freedom has its price.
-  /// `taken_back`: waves that the readings are without (with_changes_taken_back), at the vertices;
-  /// with them, they are weighed.
-  EdgeOdds odds_over_waves(const Field& taken_back = {}) const;
+  /// tissue that waves over 8 mm or more in both. Waves and noise are as probable as they can be
+  /// made, and the outline's freedom has its price. `taken_back`: waves that the readings are
+  /// without (with_changes_taken_back), at the vertices; with them, they are weighed. `may_last`:
+  /// whether noise that lasts over kHandedOn_m may stand in for such waves.
+  EdgeOdds odds_over_waves(const Field& taken_back = {}, bool may_last = false) const;
   /// How probable this edge makes the readings, waves that were taken back included, where tissue
   /// waves over 40 mm or more: compares as log_evidence does. Noise is as probable as it can be
   /// made.
