@@ -21,9 +21,8 @@ constexpr double kSlopeToHalfContrast = 1.5;
 /// What half the contrast is taken for where it is not known: half of the readings' range.
 constexpr double kHalf = 0.5;
 
-/// Readings on the way this close together, over the length of the field, are one: two of a field
-/// of 3.5 mm read once per mm. A sigmoid of 1,400 per metre, the steepest edge there is, is
-/// flattened by it by 4 %.
+/// Readings on the way this close together, over the length of the field, may be one: two of a
+/// field of 3.5 mm read once per mm.
 constexpr double kMergeWithin = 0.3;
 
 constexpr std::size_t kMostForEvidence = 300;

@@ -8,6 +8,8 @@ namespace palpation {
 namespace {
 
 constexpr double kSameDirection = 0.999;  // cosine
+/// Standard deviations of a difference of two: 95 % of those of one plateau differ by less.
+constexpr double kAlike = 2.0;
 
 }  // namespace
 
@@ -28,6 +30,8 @@ std::vector<Palpation> merged_on_the_way(const Surface& surface,
     const auto joins = [&](const Palpation& next) {
       return may_merge(one) && may_merge(next) && next.batch == one.batch &&
              next.session == one.session && next.travel.dot(one.travel) > kSameDirection &&
+             std::abs(next.reading - one.reading) <=
+                 kAlike * std::sqrt(variance_of(one) + variance_of(next)) &&
              (surface.position(next.where) - start).norm() <= within_m;
     };
     end = first + 1;

@@ -9,10 +9,12 @@
 
 namespace palpation {
 
-/// Readings on the way that follow each other in one direction within `within_m` as one, in their
-/// middle, with their precisions added up. The field is all but linear over so short a piece, so
-/// nothing is lost but their number, whose third power all else costs. A noise of zero is not for
-/// averaging: then nothing changes. `noise_variance`: of readings whose own is not given.
+/// Readings on the way that follow each other in one direction within `within_m`, and differ from
+/// the first of them by no more than noise does, as one, in their middle, with their precisions
+/// added up. Where they differ by more there is an edge, over which a mean is not what lies in the
+/// middle; what noise alone makes them differ by tells nothing of their mean. So nothing is lost
+/// but their number, whose third power all else costs. A noise of zero is not for averaging: then
+/// nothing changes. `noise_variance`: of readings whose own is not given.
 std::vector<Palpation> merged_on_the_way(const Surface& surface,
                                          std::span<const Palpation> palpations, double within_m,
                                          double noise_variance);

@@ -86,17 +86,17 @@ TEST(SlowWaves, AreTakenBackFromTissueWithATumour) {
   }
 }
 
-/// Rows 2.5 mm apart, a reading each half millimetre, each of whose errors keeps a part of the one
+/// Rows 3 mm apart, a reading each half millimetre, each of whose errors keeps a part of the one
 /// before.
 std::vector<Palpation> slides(const Surface& surface, const Stiffness& stiffness,
                               std::uint64_t seed, double kept, double sd) {
   Random random(seed);
   std::vector<Palpation> palpations;
   double error = sd * random.normal();
-  for (int row = 0; row < 15; ++row) {
-    for (int i = 0; i < 60; ++i) {
+  for (int row = 0; row < 12; ++row) {
+    for (int i = 0; i < 50; ++i) {
       error = kept * error + std::sqrt(1.0 - kept * kept) * sd * random.normal();
-      const Vec3 place(0.005 + 0.0005 * i, 0.006 + 0.0025 * row, 0.0);
+      const Vec3 place(0.006 + 0.0005 * i, 0.006 + 0.003 * row, 0.0);
       palpations.push_back({.where = surface.project(place),
                             .reading = 7.0 + stiffness(place) + error,
                             .kind = TouchKind::Way,
