@@ -54,8 +54,8 @@ struct FieldFit {
 };
 
 /// The belief that knows them too, those on the way merged within three tenths of the length that a
-/// field is likely to have. Where readings that did not teach are too close together for the noise
-/// that was learned, all teach.
+/// field is likely to have where they are alike but for noise. Where readings that did not teach
+/// are too close together for the noise that was learned, all teach.
 FieldFit belief_of(const Surface& surface, const FieldModel& field,
                    std::span<const Palpation> palpations, const LearnedField& taught);
 
