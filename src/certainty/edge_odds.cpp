@@ -118,7 +118,7 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back, bool may_last) con
     with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
     if (const double alone = level_in_errors(flat, spread, errors); alone > without) {
       without = alone;
-      odds.wave_length_m = kHandedOn_m;
+      odds.noise_lasts = true;
     }
   }
   for (const double length_m : kLengths_m) {
@@ -128,6 +128,7 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back, bool may_last) con
     if (waves_alone > without) {
       without = waves_alone;
       odds.wave_length_m = length_m;
+      odds.noise_lasts = false;
     }
   }
   odds.log_odds = with_edge - freedom_ - without;

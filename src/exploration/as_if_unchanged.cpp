@@ -129,7 +129,7 @@ void weigh_against_waves(Known& known) {
   const EdgeOdds odds = edge->odds_over_waves(
       waves == changes.end() ? Field() : waves->background.waves, may_be_errors(known));
   known.believed.evidence.of_edge = odds;
-  const bool is_healthy = odds.wave_length_m >= kSlowWave_m || odds.wave_length_m <= kHandedOn_m;
+  const bool is_healthy = odds.wave_length_m >= kSlowWave_m || odds.noise_lasts;
   if (odds.log_odds < -surprising() && is_healthy) known.boundary = {};
 }
 

@@ -147,7 +147,7 @@ std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
     return ", and no edge fits them: touch there again. Where it is a tumour all the same";
   const std::string less_probable =
       "a tumour's edge makes them less probable by a factor of e^" + fixed(-of_edge->log_odds, 0);
-  if (of_edge->wave_length_m <= kHandedOn_m)
+  if (of_edge->noise_lasts)
     return ", but readings that lie close together err alike, as a sensor's filter makes them, "
            "and " +
            less_probable + ". Where it is a tumour all the same";
@@ -171,8 +171,8 @@ std::string no_edge_words(const Exploration& exploration) {
 }  // namespace
 
 std::string instead_of_edge(const EdgeOdds& odds) {
-  return odds.wave_length_m > kHandedOn_m ? "Healthy tissue that waves"
-                                          : "Noise that lasts from reading to reading";
+  return odds.noise_lasts ? "Noise that lasts from reading to reading"
+                          : "Healthy tissue that waves";
 }
 
 std::string no_level_words(const Exploration& exploration) {

@@ -62,8 +62,8 @@ inline constexpr double kHandedOn_m = 0.002;
 
 struct EdgeOdds {
   double log_odds = 0.0;
-  /// Of the likeliest waves without an edge: kHandedOn_m where those are errors.
-  double wave_length_m = 0.0;
+  double wave_length_m = 0.0;  ///< of the likeliest waves without an edge; 0: noise explains more
+  bool noise_lasts = false;    ///< that noise lasts from reading to reading, over kHandedOn_m
 };
 
 /// An edge in healthy tissue that waves slowly.
