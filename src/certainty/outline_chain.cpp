@@ -104,7 +104,9 @@ double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
 
 /// How far it is off the profile.
 double OutlineChain::off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
-  const double rise = law.gain[epoch_of(reading)] * law.contrast[part_of(felt)] * felt.share;
+  const int part = part_of(felt);
+  const double by_core = part == law.cored ? share_by_core(law, place_of(reading)) : 1.0,
+               rise = law.gain[epoch_of(reading)] * law.contrast[part] * by_core * felt.share;
   return readings_->reading[reading] - law.low - rise;
 }
 

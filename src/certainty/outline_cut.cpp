@@ -17,16 +17,6 @@ Vec2 direction_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
 
-double Stadium::depth_at(const Vec2& place) const {
-  return radius_m - std::sqrt(squared_distance(place, from, to));
-}
-
-Stadium OutlineCut::stadium() const {
-  const double radius = std::exp(log_radius);
-  const Vec2 middle = anchor_place + radius * offset, half = half_length_m * direction_at(angle);
-  return {radius, middle - half, middle + half};
-}
-
 double log_cut_density(const OutlineCut& cut) {
   if (cut.offset.squaredNorm() > 1.0 || cut.half_length_m < 0.0)
     return -std::numeric_limits<double>::infinity();

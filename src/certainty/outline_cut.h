@@ -8,20 +8,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
-#include "certainty/outline_nodes.h"
+#include "certainty/stadium.h"
 #include "palpation/base/random.h"
 
 namespace palpation {
-
-struct Stadium {
-  double radius_m = 0.0;
-  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< of its segment
-
-  /// Distance from its border, positive inside.
-  double depth_at(const Vec2& place) const;
-};
 
 struct OutlineCut {
   bool is_present = false;
@@ -32,7 +25,10 @@ struct OutlineCut {
   double half_length_m = 0.0;
   double angle = 0.0;
 
-  Stadium stadium() const;
+  Stadium stadium() const {
+    const double radius = std::exp(log_radius);
+    return stadium_about(anchor_place + radius * offset, radius, half_length_m, angle);
+  }
 };
 
 inline constexpr int kCuts = 2;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "certainty/outline_lines.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
@@ -17,10 +18,7 @@ using Draws = std::vector<OutlineDraw>;
 
 double area_of(const OutlineNodes& outline) {
   double area = 0.0;
-  for (const NodeLoop& loop : outline.loops) {
-    const auto first = outline.place.begin() + loop.first;
-    area += enclosed_area({first, first + loop.count});
-  }
+  for (const NodeLoop& loop : outline.loops) area += enclosed_area(line_of(outline, loop));
   return area;
 }
 

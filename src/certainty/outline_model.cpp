@@ -80,12 +80,22 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
     for (const int change : changes) log_gain += profile.log_gain[change];
     law.gain.push_back(std::exp(log_gain));
   }
+  if (profile.core) {
+    law.cored = profile.core->part;
+    law.beside_core = profile.core->beside;
+    law.core = profile.core->stadium();
+  }
   return law;
 }
 
 double steepness_at(const ReadingLaw& law, const Vec2& place) {
   const Vec2 off = place - law.middle;
   return std::exp(law.lean.dot(off) / std::sqrt(off.squaredNorm() + law.radius_m * law.radius_m));
+}
+
+double share_by_core(const ReadingLaw& law, const Vec2& place) {
+  const double in_core = sigmoid(law.slope_per_m * law.core.depth_at(place));
+  return law.beside_core + (1.0 - law.beside_core) * in_core;
 }
 
 double share_at(const ReadingLaw& law, double depth_m, double steepness) {
@@ -149,7 +159,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() / kMoveSd_m);
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
-  return std::log(Kinds(profile).both()) - sum;
+  const double of_core = profile.core ? log_core_density(*profile.core, prior.radius_m) : 0.0;
+  return std::log(Kinds(profile).both()) - sum + of_core;
 }
 
 double plateau_probability(const OutlineProfile& profile) {

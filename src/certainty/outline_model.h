@@ -17,11 +17,13 @@
 /// boundary and goes on as t^k, with a k for each side: a round top or a sharp one, the wide skirt
 /// of something that lies deep or none. The slope may be another on each side, its logarithm that
 /// in the middle + lean . x / (x^2 + radius^2)^(1/2) at x from there. Cuts take from the inside
-/// (outline_cut.h).
+/// (outline_cut.h), and contrast may be less beyond a core (outline_core.h).
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "certainty/outline_core.h"
 #include "certainty/outline_nodes.h"
 #include "certainty/outline_residuals.h"
 #include "palpation/certainty/misfit.h"
@@ -54,6 +56,7 @@ struct OutlineProfile {
   double log_turn = 0.0;             ///< of the law's half width, radians
   std::vector<double> log_spacing;   ///< of each loop's pieces, metres
   std::vector<double> log_contrast;  ///< of each part, the first one's 0
+  std::optional<OutlineCore> core{};
   /// What is left of each change once it is taken back: later readings were made so much farther on
   /// than they are said to be, and are so many times as far from `low`.
   std::vector<Vec2> moved_m{};
@@ -82,11 +85,16 @@ struct ReadingLaw {
   double radius_m;
   std::vector<double> contrast;  ///< of each part
   std::vector<double> gain;      ///< of readings of each epoch
+  int cored = -1;                ///< the part that has a core, if one does;
+  double beside_core = 1.0;      ///< the contrast beyond it, over that of the part,
+  Stadium core{};                ///< and where it is
 };
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
 
 /// How many times as steep as in the middle.
 double steepness_at(const ReadingLaw& law, const Vec2& place);
+/// What share of its contrast tissue of the part that has a core has there, however deep it is.
+double share_by_core(const ReadingLaw& law, const Vec2& place);
 /// What share of its contrast tissue has at a depth.
 double share_at(const ReadingLaw& law, double depth_m, double steepness = 1.0);
 /// The depth at which it has so much of it, which lies in (0, 1).

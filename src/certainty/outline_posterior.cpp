@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "certainty/drawn_core.h"
+#include "certainty/outline_core_start.h"
 #include "certainty/outline_draws.h"
 #include "certainty/outline_pruning.h"
 #include "palpation/base/error.h"
@@ -138,15 +140,6 @@ double mean_edge_m(const Surface& surface) {
   return std::sqrt(2.0 * surface.area() / surface.face_count());
 }
 
-/// Of numbers, one a draw.
-DrawnNumber summed_up(std::vector<double> numbers) {
-  std::ranges::sort(numbers);
-  const auto count = numbers.size();
-  DrawnNumber sum{.least = numbers[count / 40], .most = numbers[count - 1 - count / 40]};
-  for (const double number : numbers) sum.mean += number / static_cast<double>(count);
-  return sum;
-}
-
 /// Standard deviation of the depths at each vertex.
 Field spread_of(const Eigen::MatrixXf& depths) {
   Field spread(depths.cols());
@@ -240,7 +233,9 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   if (!surface.has_chart()) return std::nullopt;
   std::optional<OutlineStart> first = outline_start(belief, edge, options);
   if (!first) return std::nullopt;
-  const OutlineStart start = pruned(*std::move(first), options.seed);
+  const OutlineStart start =
+      with_core_if_paid(pruned(*std::move(first), options.seed), surface,
+                        belief.at_vertices(Part::Detrended).mean, options.seed);
   const auto [draws, disagreement] = draws_from(start, options.draws, options.seed);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
@@ -252,6 +247,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .noise = mean_noise(draws),
                              .noise_inside = noise_inside(draws),
                              .level = mean_and_sd(levels),
+                             .core = core_of(surface, draws, depths),
                              .plateau_probability = mean_and_sd(has_plateau).value,
                              .disagreement = disagreement};
   add_areas(surface, depths, posterior);

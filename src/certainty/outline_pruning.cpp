@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "certainty/outline_lines.h"
 #include "certainty/outline_walk.h"
 
 namespace palpation {
@@ -37,10 +38,16 @@ Loops without(const Loops& all, const NodeLoop& lost) {
       part = static_cast<int>(kept.profile.log_contrast.size());
       kept.profile.log_contrast.push_back(all.profile.log_contrast[loop.part]);
     }
-    const auto first = all.outline.place.begin() + loop.first;
-    kept.outline.add({first, first + loop.count}, part);
+    kept.outline.add(line_of(all.outline, loop), part);
     kept.profile.log_spacing.push_back(all.profile.log_spacing[i]);
     kept.prior.median.log_spacing.push_back(all.prior.median.log_spacing[i]);
+  }
+  if (kept.profile.core) {
+    const int part = part_now[kept.profile.core->part];
+    if (part < 0)
+      kept.profile.core.reset();
+    else
+      kept.profile.core->part = part;
   }
   kept.prior.median.log_contrast.resize(kept.profile.log_contrast.size());
   return kept;
@@ -53,12 +60,14 @@ double length_of(const OutlineNodes& outline, const NodeLoop& loop) {
   return length;
 }
 
-double price_of(const OutlineNodes& outline, const NodeLoop& lost, std::size_t readings) {
+double price_of(const OutlineNodes& outline, const NodeLoop& loop, std::size_t readings) {
+  return price_of_loop(length_of(outline, loop), ShapePrior{}, readings);
+}
+
+double price_of_losing(const OutlineNodes& outline, const NodeLoop& lost, std::size_t readings) {
   double price = 0.0;
-  for (const NodeLoop& loop : outline.loops) {
-    if (goes_with(loop, lost))
-      price += price_of_loop(length_of(outline, loop), ShapePrior{}, readings);
-  }
+  for (const NodeLoop& loop : outline.loops)
+    price += goes_with(loop, lost) ? price_of(outline, loop, readings) : 0.0;
   return price;
 }
 
@@ -76,13 +85,19 @@ std::size_t unpaid_loop(const OutlineReadings& readings, const Loops& loops,
   for (std::size_t i = 1; i < loops.outline.loops.size(); ++i) {
     const NodeLoop& loop = loops.outline.loops[i];
     const double gained = evidence_of(without(loops, loop)) - with_all +
-                          price_of(loops.outline, loop, readings.places.size());
+                          price_of_losing(loops.outline, loop, readings.places.size());
     if (gained > most) std::tie(most, unpaid) = std::pair(gained, i);
   }
   return unpaid;
 }
 
 }  // namespace
+
+double price_of_loops(const OutlineNodes& outline, std::size_t readings) {
+  double price = 0.0;
+  for (const NodeLoop& loop : outline.loops) price += price_of(outline, loop, readings);
+  return price;
+}
 
 OutlineStart pruned(OutlineStart start, std::uint64_t seed) {
   Loops first{std::move(start.outline), std::move(start.prior), std::move(start.profile)};

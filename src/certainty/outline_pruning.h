@@ -11,6 +11,9 @@
 
 namespace palpation {
 
+/// What the freedom of an outline's loops costs, nats.
+double price_of_loops(const OutlineNodes& outline, std::size_t readings);
+
 /// Without loops that make the readings more probable by less than their freedom costs
 /// (price_of_loop), asked once a chain from here has settled a little; the largest stays. The holes
 /// of a part that goes, go along.

@@ -8,16 +8,13 @@
 
 #include "base/sigmoid.h"
 #include "certainty/edge_data.h"
+#include "certainty/outline_lines.h"
 #include "certainty/slow_waves.h"
-#include "palpation/boundary/level_set.h"
 #include "palpation/geometry/chart_place.h"
 
 namespace palpation {
 namespace {
 
-/// Pieces: a probe's tip is some millimetres wide, and nothing finer is felt.
-constexpr double kSpacing_m = 0.001;
-constexpr int kLeastNodes = 12;
 constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
 /// Of a noise that is given: edges are no perfect sigmoids.
 constexpr double kGivenNoiseLogSd = 0.3;
@@ -133,56 +130,6 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   return readings;
 }
 
-std::vector<std::vector<Vec2>> lines_of(const Surface& surface, const Field& depth) {
-  std::vector<std::vector<Vec2>> lines;
-  for (const LevelLoop& loop : level_loops(surface, depth, 0.0)) {
-    lines.emplace_back();
-    for (const SurfacePoint& point : loop.points)
-      lines.back().push_back(chart_place(surface, point));
-  }
-  std::ranges::stable_sort(lines, std::greater<>(), [](const std::vector<Vec2>& line) {
-    return std::abs(enclosed_area(line));
-  });
-  return lines;
-}
-
-std::vector<Vec2> as_nodes(const std::vector<Vec2>& line) {
-  double length = 0.0;
-  for (std::size_t i = 0; i < line.size(); ++i)
-    length += (line[(i + 1) % line.size()] - line[i]).norm();
-  return evenly_spaced(line, std::max(kLeastNodes, static_cast<int>(length / kSpacing_m)));
-}
-
-OutlineNodes alone(const std::vector<Vec2>& line) {
-  OutlineNodes outline;
-  outline.add(line, 0);
-  return outline;
-}
-
-/// Lines that enclose a reading, and the largest of all: of the others nothing is known. Holes
-/// belong to the part that they lie in.
-OutlineNodes outline_from(const std::vector<std::vector<Vec2>>& lines,
-                          const std::vector<Vec2>& readings) {
-  OutlineNodes outline;
-  std::vector<OutlineNodes> parts;
-  for (const std::vector<Vec2>& line : lines) {
-    const OutlineNodes nodes = alone(as_nodes(line));
-    const auto encloses = [&](const Vec2& place) { return is_inside(nodes, place); };
-    if (!parts.empty() && std::ranges::none_of(readings, encloses)) continue;
-    int part = static_cast<int>(parts.size());
-    if (nodes.loops.front().turns < 0.0) {
-      const auto holds = [&](const OutlineNodes& of) { return is_inside(of, nodes.place.front()); };
-      const auto around = std::ranges::find_if(parts, holds);
-      if (around == parts.end()) continue;
-      part = static_cast<int>(around - parts.begin());
-    } else {
-      parts.push_back(nodes);
-    }
-    outline.add(nodes.place, part);
-  }
-  return outline;
-}
-
 /// What would take each move back again, where the tumour is deepest: of another change, nothing.
 std::vector<Vec2> unmoved(const Surface& surface, const EdgeBelief& edge,
                           std::span<const Misfit> changes) {
@@ -197,6 +144,21 @@ std::vector<Vec2> unmoved(const Surface& surface, const EdgeBelief& edge,
 }
 
 }  // namespace
+
+void begin_with(const OutlineNodes& outline, OutlineStart& start) {
+  start.outline = outline;
+  start.prior.median.log_spacing.assign(outline.loops.size(), std::log(kSpacing_m));
+  start.profile.log_spacing = start.prior.median.log_spacing;
+  int parts = 1;
+  for (const NodeLoop& loop : outline.loops) parts = std::max(parts, loop.part + 1);
+  start.prior.median.log_contrast.assign(static_cast<std::size_t>(parts), 0.0);
+  start.profile.log_contrast = start.prior.median.log_contrast;
+  const std::vector<Vec2> largest = line_of(outline, outline.loops.front());
+  start.prior.middle = Vec2::Zero();
+  for (const Vec2& node : largest)
+    start.prior.middle += node / static_cast<double>(largest.size());
+  start.prior.radius_m = std::sqrt(std::abs(enclosed_area(largest)) / std::numbers::pi);
+}
 
 bool moves_zero(const Misfit& change) {
   return change.kind == MisfitKind::Zero ||
@@ -213,17 +175,8 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   if (lines.empty() || !(range > 0.0)) return std::nullopt;
   OutlineStart start;
   start.readings = readings_in_plane(belief, edge, range, options, start.prior.epochs);
-  start.outline = outline_from(lines, start.readings.places);
-  while (!is_simple(start.outline)) {
-    if (start.outline.loops.size() == 1) return std::nullopt;
-    OutlineNodes fewer;
-    for (std::size_t i = 0; i + 1 < start.outline.loops.size(); ++i) {
-      const NodeLoop& loop = start.outline.loops[i];
-      const auto first = start.outline.place.begin() + loop.first;
-      fewer.add({first, first + loop.count}, loop.part);
-    }
-    start.outline = fewer;
-  }
+  const OutlineNodes outline = outline_from(lines, start.readings.places);
+  if (outline.loops.empty()) return std::nullopt;
   const Field mean = belief.at_vertices(Part::Detrended).mean;
   const ShapePrior shape;
   OutlineProfile& median = start.prior.median;
@@ -232,7 +185,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
             .log_slope = std::log(shape.slope_per_m),
             .log_noise = 0.0,
             .log_turn = std::log(kTurn),
-            .log_spacing = std::vector(start.outline.loops.size(), std::log(kSpacing_m)),
+            .log_spacing = {},
             .log_contrast = {},
             .moved_m = unmoved(surface, edge, changes),
             .log_gain = std::vector(changes.size(), 0.0)};
@@ -240,24 +193,16 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
     start.prior.changes.push_back(change.kind);
     start.prior.gain_log_sd.push_back(change.session > 0 ? kSessionGainLogSd : kGainLogSd);
   }
-  int parts = 1;
-  for (const NodeLoop& loop : start.outline.loops) parts = std::max(parts, loop.part + 1);
-  median.log_contrast.assign(static_cast<std::size_t>(parts), 0.0);
   start.prior.plateau_sd = plateau_sd(belief, median.high - median.low);
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;
-  const NodeLoop& largest = start.outline.loops.front();
-  const std::span<const Vec2> nodes(start.outline.place.begin() + largest.first,
-                                    static_cast<std::size_t>(largest.count));
-  for (const Vec2& node : nodes) start.prior.middle += node / largest.count;
-  start.prior.radius_m =
-      std::sqrt(std::abs(enclosed_area({nodes.begin(), nodes.end()})) / std::numbers::pi);
   start.profile = median;
   start.profile.moved_m.assign(changes.size(), Vec2::Zero());
   start.profile.low = profile.low;
   start.profile.high = profile.high;
   start.profile.log_slope = std::log(profile.slope_per_m);
+  begin_with(outline, start);
   return start;
 }
 

@@ -20,6 +20,9 @@ struct OutlineStart {
 /// does.
 bool moves_zero(const Misfit& change);
 
+/// Makes it start with this outline: its loops, its parts, and what of the prior is about them.
+void begin_with(const OutlineNodes& outline, OutlineStart& start);
+
 /// Nothing where there is no boundary. The readings are sorted, so that their order tells nothing.
 std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief& edge,
                                           const OutlineOptions& options);

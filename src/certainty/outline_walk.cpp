@@ -82,6 +82,7 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
     felt_since_.push_back(share_since(readings, prior, static_cast<int>(change), outline));
   lengths_.of_profile.fill(0.1);
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
+  lengths_.of_core = {kFirst_m, kFirst_m, 0.1, kFirst_m, 0.3, 0.05};
 }
 
 void OutlineWalk::settle(int sweeps) {
@@ -132,7 +133,10 @@ void OutlineWalk::sweep() {
     for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
   }
   for (int i = 0; i < kSizes; ++i) move_size();
-  for (int round = 0; round < kProfileRounds; ++round) move_profile();
+  for (int round = 0; round < kProfileRounds; ++round) {
+    move_profile();
+    move_core();
+  }
   move_changes();
   if (swept_++ % kResidualsEvery == 0) steps_ = chain_.redraw_residuals(random_);
   move_cuts();
@@ -218,6 +222,18 @@ void OutlineWalk::move_profile() {
     OutlineProfile profile = chain_.profile();
     profile.log_spacing[loop] += kSpacingStep * random_.normal();
     chain_.move_profile(profile, true, random_);
+  }
+}
+
+void OutlineWalk::move_core() {
+  if (!chain_.profile().core) return;
+  for (int i = 0; i < kOfCore; ++i) {
+    OutlineProfile profile = chain_.profile();
+    OutlineCore& core = *profile.core;
+    double* const number[kOfCore] = {&core.middle.x(),    &core.middle.y(), &core.log_radius,
+                                     &core.half_length_m, &core.angle,      &core.beside};
+    *number[i] += lengths_.of_core[i] * random_.normal();
+    tune(lengths_.of_core[i], chain_.move_profile(profile, false, random_), kOfNumbers, 1.0);
   }
 }
 

@@ -40,7 +40,7 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 6, kOfCut = 4;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 6, kOfCut = 4, kOfCore = 6;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres
@@ -49,6 +49,7 @@ class OutlineWalk {
     std::vector<double> of_moves;  ///< with nodes, metres
     std::array<double, kOfProfile> of_profile;
     std::array<double, kOfCut> of_cuts;
+    std::array<double, kOfCore> of_core;
     double of_size = 0.03;  ///< logarithm
   };
 
@@ -58,6 +59,7 @@ class OutlineWalk {
   void move_loop(int loop, int kind);
   void move_size();
   void move_profile();
+  void move_core();
   void move_changes();
   void move_with_nodes(std::size_t change);
   void trade_gain(std::size_t change);

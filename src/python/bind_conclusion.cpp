@@ -85,6 +85,15 @@ py::list changes_of(const Conclusion& conclusion) {
   return changes;
 }
 
+py::object core_of(const Conclusion& all) {
+  if (!all.outlines || !all.outlines->core) return py::none();
+  const DrawnCore& core = *all.outlines->core;
+  const Vec3 at = all.belief.prior().surface().position(core.where);
+  return py::dict("position_m"_a = py::make_tuple(at.x(), at.y(), at.z()),
+                  "area_m2"_a = core.area_m2.mean, "beside"_a = core.beside.mean,
+                  "beside_interval"_a = py::make_tuple(core.beside.least, core.beside.most));
+}
+
 py::dict summary(const Concluded& here) {
   const Conclusion& all = here.conclusion;
   const Belief& belief = all.belief;
@@ -114,6 +123,7 @@ py::dict summary(const Concluded& here) {
     result["plateau_probability"] = all.outlines->plateau_probability;
     result["noise_inside"] = all.outlines->noise_inside.mean;
   }
+  result["core"] = core_of(all);
   result["taken_back"] = changes_of(all);
   py::list doubtful;
   for (const DoubtfulPart& part : all.evidence.doubtful) {

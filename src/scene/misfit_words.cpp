@@ -13,6 +13,7 @@ constexpr std::size_t kSessionsTold = 5;
 constexpr double kTiltOver_m = 0.01;
 constexpr double kSeen = 2.0;         // standard deviations, of a session's zero
 constexpr double kMoreScatter = 1.1;  // times, surely
+constexpr double kSurelyLower = 0.9;  // beside a core, over its own height
 constexpr double kChainsApart = 1.0;  // standard deviations: chance makes less of fifty draws
 
 std::string apart_words(double disagreement) {
@@ -192,6 +193,16 @@ std::string scatter_words(const DrawnNumber& inside) {
          " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there.";
 }
 
+/// Nothing unless what lies beside it is surely lower.
+std::string core_words(const Surface& surface, const DrawnCore& core) {
+  if (core.beside.most > kSurelyLower) return "";
+  return "The stiff region has a core of " + fixed(core.area_m2.mean * 1e6, 0) + " mm2 around " +
+         place_words(surface.position(core.where), 1) +
+         "; beside it tissue stands out " + fixed(core.beside.mean, 2) + " times as much (" +
+         fixed(core.beside.least, 2) + " to " + fixed(core.beside.most, 2) +
+         "). The outline holds both, and goes half way up to either.";
+}
+
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
@@ -203,6 +214,8 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(scatter_words(conclusion.outlines->noise_inside));
+    if (conclusion.outlines->core)
+      words.push_back(core_words(surface, *conclusion.outlines->core));
     if (conclusion.outlines->disagreement > kChainsApart)
       words.push_back(apart_words(conclusion.outlines->disagreement));
   }

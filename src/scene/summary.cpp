@@ -56,11 +56,21 @@ json part_json(const TumourPart& part, const Surface& surface) {
   return result;
 }
 
+/// Of a tumour of two heights; null of others.
+json core_json(const std::optional<DrawnCore>& core, const Surface& surface) {
+  if (!core) return nullptr;
+  const Vec3 at = surface.position(core->where);
+  return {{"position_mm", {at.x() * kMm, at.y() * kMm, at.z() * kMm}},
+          {"area_mm2", core->area_m2.mean * kMm2},
+          {"beside", core->beside.mean},
+          {"beside_interval", {core->beside.least, core->beside.most}}};
+}
+
 /// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is
 /// known of a boundary.
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   for (const char* key :
-       {"certainty", "area_interval_mm2", "plateau_probability", "noise_inside",
+       {"certainty", "area_interval_mm2", "plateau_probability", "noise_inside", "core",
         "expected_missed_mm2", "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
     summary[key] = nullptr;
   if (!episode.conclusion().model.band) summary["certainty"] = "off";
@@ -74,6 +84,7 @@ void add_certainty(json& summary, const Episode& episode, double cut_risk) {
   if (outlines) {
     summary["plateau_probability"] = outlines->plateau_probability;
     summary["noise_inside"] = outlines->noise_inside.mean;
+    summary["core"] = core_json(outlines->core, surface);
   }
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;

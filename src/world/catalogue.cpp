@@ -63,6 +63,10 @@ std::vector<Recipe> several_parts() {
          add_nodules(d, 2);
          d.world.design.lumps.back().contrast = d.between(0.3, 0.7);
        }},
+      {{"touching", "parts", "two lobes that touch, one of them of 45 to 80 % of the contrast"},
+       [](Draft& d) { add_touching(d, d.between(0.45, 0.8)); }},
+      {{"core", "parts", "a nodule in a softer rim of 45 to 80 % of its contrast"},
+       [](Draft& d) { add_cored(d, d.between(0.45, 0.8)); }},
   };
 }
 

@@ -93,6 +93,23 @@ void add_nodules(Draft& draft, int count) {
   for (const Vec3& centre : centres) draft.add(Disk{centre, kNodule_m});
 }
 
+void add_touching(Draft& draft, double contrast) {
+  const double radius_m = draft.between(0.0035, 0.005), other_m = draft.between(0.0035, 0.005);
+  const double apart_m = draft.between(0.7, 0.95) * (radius_m + other_m);
+  const Vec3 middle = draft.anywhere(0.5 * (apart_m + radius_m + other_m)),
+             half = 0.5 * apart_m * draft.direction();
+  draft.add(Disk{middle - half, radius_m});
+  draft.add(Disk{middle + half, other_m}).contrast = contrast;
+}
+
+void add_cored(Draft& draft, double contrast) {
+  const double radius_m = draft.between(0.006, 0.008),
+               core_m = radius_m - draft.between(0.0025, 0.004);
+  const Vec3 centre = draft.anywhere(radius_m + 0.001);
+  draft.add(Disk{centre, radius_m}).contrast = contrast;
+  draft.add(Disk{centre + 0.5 * (radius_m - core_m) * draft.direction(), core_m});
+}
+
 void add_vessel(Draft& draft, double height) {
   const Vec3 middle = draft.anywhere(0.006), along = draft.direction();
   const double far = draft.area.size_m.norm();

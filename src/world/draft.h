@@ -33,6 +33,10 @@ void add_ring(Draft& draft);
 void add_over_border(Draft& draft);
 /// Nodules of 9 mm, apart by 2 mm at least. Throws InvalidInput where they do not fit.
 void add_nodules(Draft& draft, int count);
+/// Two disks that overlap, the second of so much of the first one's contrast.
+void add_touching(Draft& draft, double contrast);
+/// A disk, and a wider one of so much of its contrast that holds it.
+void add_cored(Draft& draft, double contrast);
 /// Of so much of a tumour's contrast.
 void add_vessel(Draft& draft, double height);
 void add_wave(Draft& draft, double height);

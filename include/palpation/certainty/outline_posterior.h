@@ -48,6 +48,13 @@ struct ChangeLeft {
   DrawnNumber gain;  ///< by which what stands out does so since
 };
 
+/// Of a tumour of two heights what stands out the most; the outline holds what lies beside it, too.
+struct DrawnCore {
+  SurfacePoint where;   ///< its middle
+  DrawnNumber area_m2;  ///< within the outline
+  DrawnNumber beside;   ///< contrast beside it, over its own
+};
+
 struct OutlinePosterior {
   Field depth;   ///< at the vertices, metres, positive inside: the median of the draws', so that it
                  ///< is positive where a place is inside in more than half of them
@@ -60,6 +67,8 @@ struct OutlinePosterior {
   double noise = 1.0;            ///< standard deviation, over the belief's: the draws' mean
   DrawnNumber noise_inside;      ///< standard deviation on the tumour, over that beside it
   Level level;                   ///< at the boundary of the largest part, in the belief's units
+  /// Where the readings lie on two plateaus within one part. `level` is the core's then.
+  std::optional<DrawnCore> core{};
   /// That the largest part levels off: reaches nine tenths half way to where it is deepest.
   double plateau_probability = 1.0;
   /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not

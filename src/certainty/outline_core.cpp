@@ -1,0 +1,22 @@
+#include "certainty/outline_core.h"
+
+#include <cmath>
+#include <limits>
+
+namespace palpation {
+namespace {
+
+/// Of the tumour's radius, the core's, median; a factor of four either way is within two sd.
+constexpr double kOfTumour = 0.5, kCoreLogSd = 0.7;
+
+}  // namespace
+
+double log_core_density(const OutlineCore& core, double tumour_radius_m) {
+  if (core.half_length_m < 0.0 || !(core.beside >= kLeastOfStrongest && core.beside <= 1.0))
+    return -std::numeric_limits<double>::infinity();
+  const double median = kOfTumour * tumour_radius_m,
+               z = (core.log_radius - std::log(median)) / kCoreLogSd;
+  return -0.5 * z * z - core.half_length_m / median;
+}
+
+}  // namespace palpation

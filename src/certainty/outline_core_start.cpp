@@ -1,0 +1,195 @@
+#include "certainty/outline_core_start.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "certainty/outline_lines.h"
+#include "certainty/outline_pruning.h"
+#include "certainty/outline_walk.h"
+#include "palpation/base/parallel.h"
+
+namespace palpation {
+namespace {
+
+/// Contrasts beside a core that are tried, of its own.
+constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
+constexpr double kFalseAlarms = 0.02;
+constexpr double kLevel = 0.9;       ///< of the way up: it levels off
+constexpr double kLeastLevel = 0.1;  ///< of the readings inside
+constexpr int kNumbers = 6;  ///< that are a core's
+constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
+
+/// Of one part.
+OutlineNodes part_of(const OutlineNodes& outline, int part) {
+  OutlineNodes alone;
+  for (const NodeLoop& loop : outline.loops)
+    if (loop.part == part) alone.add(line_of(outline, loop), 0);
+  return alone;
+}
+
+bool overlap(const OutlineNodes& some, const OutlineNodes& others) {
+  const auto holds_a_node = [](const OutlineNodes& outline, const OutlineNodes& nodes) {
+    return std::ranges::any_of(nodes.place,
+                               [&](const Vec2& node) { return is_inside(outline, node); });
+  };
+  return holds_a_node(some, others) || holds_a_node(others, some);
+}
+
+int parts_of(const OutlineNodes& outline) {
+  int parts = 0;
+  for (const NodeLoop& loop : outline.loops) parts = std::max(parts, loop.part + 1);
+  return parts;
+}
+
+/// About places, each of which stands for as much area: as far from their middle on average.
+OutlineCore core_about(const std::vector<Vec2>& places, double beside) {
+  Vec2 middle = Vec2::Zero();
+  const auto count = static_cast<double>(places.size());
+  for (const Vec2& place : places) middle += place / count;
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const Vec2& place : places)
+    spread += (place - middle) * (place - middle).transpose() / count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+  // A disk's variance along an axis is a quarter of its radius' square, an even line's a third.
+  const double radius = std::max(2.0 * std::sqrt(std::max(axes.eigenvalues()[0], 0.0)), kSpacing_m),
+               length = 2.0 * std::sqrt(std::max(axes.eigenvalues()[1], 0.0));
+  const Vec2 along = axes.eigenvectors().col(1);
+  return {.middle = middle,
+          .log_radius = std::log(radius),
+          .half_length_m = std::max(length - radius, 0.0),
+          .angle = std::atan2(along.y(), along.x()),
+          .beside = beside};
+}
+
+/// Half way up to what lies beside a core, where the field is highest; elsewhere the parts as they
+/// were.
+std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface& surface,
+                                       const Field& mean, double beside) {
+  // The edge may take what rises up to its middle for part of something higher.
+  const double low = plain.profile.low,
+               range = std::min(plain.profile.high, mean.maxCoeff()) - low;
+  const OutlineNodes halfway =
+      outline_from(lines_of(surface, mean.array() - (low + 0.5 * beside * range)),
+                   plain.readings.places);
+  const auto place_of = [&](Eigen::Index vertex) -> Vec2 {
+    return surface.chart().uv.row(vertex).transpose();
+  };
+  Eigen::Index highest = 0;
+  mean.maxCoeff(&highest);
+  OutlineNodes part;
+  for (int i = 0; i < parts_of(halfway) && part.loops.empty(); ++i) {
+    OutlineNodes one = part_of(halfway, i);
+    if (is_inside(one, place_of(highest))) part = std::move(one);
+  }
+  std::vector<Vec2> in_core;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    if (mean[vertex] > low + 0.5 * (1.0 + beside) * range && is_inside(part, place_of(vertex)))
+      in_core.push_back(place_of(vertex));
+  }
+  if (in_core.empty()) return std::nullopt;
+  OutlineNodes outline = part;
+  for (int i = 0; i < parts_of(plain.outline); ++i) {
+    const OutlineNodes other = part_of(plain.outline, i);
+    if (overlap(part, other)) continue;
+    const int number = parts_of(outline);
+    for (const NodeLoop& loop : other.loops) outline.add(line_of(other, loop), number);
+  }
+  if (!is_simple(outline)) return std::nullopt;
+  OutlineStart start = plain;
+  begin_with(outline, start);
+  start.profile.core = core_about(in_core, beside);
+  start.profile.high = low + range;
+  return start;
+}
+
+/// What the readings say for one, as it is first.
+double evidence_of(const OutlineStart& start) {
+  return OutlineChain(start.readings, start.prior, start.outline, start.profile)
+      .residuals()
+      .log_density();
+}
+
+/// Of a walk that has settled, on average.
+struct Settled {
+  double evidence = 0.0;  ///< log density of the readings
+  double shape = 0.0;     ///< and of the nodes
+  double price = 0.0;     ///< of as smooth an outline's freedom
+  double inside = 0.0;    ///< readings,
+  double level = 0.0;     ///< and those of them that lie on the plateau beside the core
+  int nodes = 0;
+};
+
+void count_inside(const OutlineChain& chain, const std::vector<Vec2>& places, Settled& sum) {
+  const ReadingLaw& law = chain.law();
+  for (const Vec2& place : places) {
+    const double depth = depth_in(chain.outline(), place);
+    if (depth < 0.0) continue;
+    sum.inside += 1.0 / kWeighed;
+    if (law.cored >= 0 && share_at(law, depth, steepness_at(law, place)) > kLevel &&
+        share_by_core(law, place) < law.beside_core + (1.0 - kLevel) * (1.0 - law.beside_core))
+      sum.level += 1.0 / kWeighed;
+  }
+}
+
+Settled settled(const OutlineStart& start, std::uint64_t seed) {
+  OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
+  walk.settle(kSettling);
+  Settled sum{.nodes = start.outline.count()};
+  for (int i = 0; i < kWeighed; ++i) {
+    walk.settle(1);
+    const OutlineChain& chain = walk.chain();
+    sum.evidence += chain.residuals().log_density() / kWeighed;
+    sum.shape += log_shape_density(chain.outline(), chain.profile()) / kWeighed;
+    sum.price += price_of_loops(chain.outline(), start.readings.places.size()) / kWeighed;
+    count_inside(chain, start.readings.places, sum);
+  }
+  return sum;
+}
+
+/// How finely a node is known is taken to be the same with and without a core, and such that the
+/// smoother outline's freedom costs Schwarz's price: fingers, whose nodes turn as the prior seldom
+/// does, cost what they are less probable by. Readings alone must say so, too, and some of them
+/// must lie where what is beside the core levels off: tissue that rises all the way up to its
+/// middle has no core.
+bool is_paid(const Settled& plain, const Settled& cored) {
+  const double chance = -std::log(kFalseAlarms);
+  const auto per_node = [](const Settled& one) { return (one.shape + one.price) / one.nodes; };
+  const double finely = std::max(per_node(plain), per_node(cored));
+  const auto weight = [&](const Settled& one) {
+    return one.evidence + one.shape - one.nodes * finely;
+  };
+  const double price = 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0));
+  return cored.evidence - plain.evidence > chance &&
+         weight(cored) - weight(plain) > chance + price &&
+         cored.level >= kLeastLevel * cored.inside;
+}
+
+}  // namespace
+
+OutlineStart with_core_if_paid(OutlineStart plain, const Surface& surface, const Field& mean,
+                               std::uint64_t seed) {
+  std::optional<OutlineStart> cored;
+  double most = 0.0;
+  for (const double beside : kBeside) {
+    std::optional<OutlineStart> start = start_with(plain, surface, mean, beside);
+    if (!start) continue;
+    const double weight = evidence_of(*start);
+    if (cored && weight < most) continue;
+    most = weight;
+    cored = std::move(start);
+  }
+  if (!cored) return plain;
+  *cored = pruned(*std::move(cored), seed);
+  if (!cored->profile.core) return plain;
+  std::array<Settled, 2> both;
+  for_ranges(2, 1, [&](int first, int last) {
+    for (int i = first; i < last; ++i) both[i] = settled(i == 0 ? plain : *cored, seed);
+  });
+  return is_paid(both[0], both[1]) ? *std::move(cored) : plain;
+}
+
+}  // namespace palpation

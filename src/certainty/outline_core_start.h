@@ -1,0 +1,17 @@
+/// Whether an outline of two heights explains the readings, where one of one height does so by
+/// fingers.
+#pragma once
+
+#include <cstdint>
+
+#include "certainty/outline_start.h"
+
+namespace palpation {
+
+/// An outline with a core in place of this one, where that makes the readings more probable by more
+/// than chance and what its freedom costs, asked once chains from both have settled a little; else
+/// this one. `mean`: of the field at the vertices, whose levels such an outline starts from.
+OutlineStart with_core_if_paid(OutlineStart plain, const Surface& surface, const Field& mean,
+                               std::uint64_t seed);
+
+}  // namespace palpation
