@@ -23,7 +23,8 @@ int middle_of(const Surface& surface, const std::vector<int>& times) {
   double least = std::numeric_limits<double>::infinity();
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
     const double square = (surface.vertex(vertex) - middle).squaredNorm();
-    if (times[vertex] > often && square < least) std::tie(nearest, least) = std::pair(vertex, square);
+    if (times[vertex] > often && square < least)
+      std::tie(nearest, least) = std::pair(vertex, square);
   }
   return nearest;
 }
@@ -40,10 +41,10 @@ DrawnNumber summed_up(std::vector<double> numbers) {
 
 std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<OutlineDraw>& draws,
                                  const Eigen::MatrixXf& depths) {
-  if (!draws.front().profile.core) return std::nullopt;
   std::vector<double> areas, beside;
   std::vector<int> times(static_cast<std::size_t>(surface.vertex_count()), 0);
   for (std::size_t draw = 0; draw < draws.size(); ++draw) {
+    if (!draws[draw].profile.core) continue;
     const ReadingLaw& law = draws[draw].law;
     double area = 0.0;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
@@ -57,9 +58,11 @@ std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<Outli
     beside.push_back(law.beside_core);
   }
   if (std::ranges::count(times, 0) == surface.vertex_count()) return std::nullopt;
+  const double probability = static_cast<double>(areas.size()) / static_cast<double>(draws.size());
   return DrawnCore{.where = surface.at_vertex(middle_of(surface, times)),
                    .area_m2 = summed_up(std::move(areas)),
-                   .beside = summed_up(std::move(beside))};
+                   .beside = summed_up(std::move(beside)),
+                   .probability = probability};
 }
 
 }  // namespace palpation

@@ -18,9 +18,9 @@ namespace {
 /// Contrasts beside a core that are tried, of its own.
 constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
 constexpr double kFalseAlarms = 0.02;
-constexpr double kLevel = 0.9;       ///< of the way up: it levels off
-constexpr double kLeastLevel = 0.1;  ///< of the readings inside
-constexpr int kNumbers = 6;  ///< that are a core's
+constexpr double kLevel = 0.9;                 ///< of the way up: it levels off
+constexpr double kLeastLevel = 0.1;            ///< of the readings inside
+constexpr int kNumbers = 6;                    ///< that are a core's
 constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
 
 /// Of one part.
@@ -70,11 +70,9 @@ OutlineCore core_about(const std::vector<Vec2>& places, double beside) {
 std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface& surface,
                                        const Field& mean, double beside) {
   // The edge may take what rises up to its middle for part of something higher.
-  const double low = plain.profile.low,
-               range = std::min(plain.profile.high, mean.maxCoeff()) - low;
-  const OutlineNodes halfway =
-      outline_from(lines_of(surface, mean.array() - (low + 0.5 * beside * range)),
-                   plain.readings.places);
+  const double low = plain.profile.low, range = std::min(plain.profile.high, mean.maxCoeff()) - low;
+  const OutlineNodes halfway = outline_from(
+      lines_of(surface, mean.array() - (low + 0.5 * beside * range)), plain.readings.places);
   const auto place_of = [&](Eigen::Index vertex) -> Vec2 {
     return surface.chart().uv.row(vertex).transpose();
   };
@@ -150,46 +148,55 @@ Settled settled(const OutlineStart& start, std::uint64_t seed) {
   return sum;
 }
 
+enum class Told { Nothing, Either, Core };
+
 /// How finely a node is known is taken to be the same with and without a core, and such that the
 /// smoother outline's freedom costs Schwarz's price: fingers, whose nodes turn as the prior seldom
-/// does, cost what they are less probable by. Readings alone must say so, too, and some of them
-/// must lie where what is beside the core levels off: tissue that rises all the way up to its
-/// middle has no core.
-bool is_paid(const Settled& plain, const Settled& cored) {
+/// does, cost what they are less probable by. Readings alone must say so, too. Where none lie on a
+/// plateau beside the core, tissue may as well rise all the way up to its middle: then readings
+/// that pay for all of it tell neither.
+Told told_by(const Settled& plain, const Settled& cored) {
   const double chance = -std::log(kFalseAlarms);
   const auto per_node = [](const Settled& one) { return (one.shape + one.price) / one.nodes; };
   const double finely = std::max(per_node(plain), per_node(cored));
-  const auto weight = [&](const Settled& one) {
-    return one.evidence + one.shape - one.nodes * finely;
-  };
-  const double price = 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0));
-  return cored.evidence - plain.evidence > chance &&
-         weight(cored) - weight(plain) > chance + price &&
-         cored.level >= kLeastLevel * cored.inside;
+  const auto of_shape = [&](const Settled& one) { return one.shape - one.nodes * finely; };
+  const double price = 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0)),
+               gained = cored.evidence - plain.evidence,
+               paid = gained + of_shape(cored) - of_shape(plain) - price;
+  if (paid < chance || gained < chance) return Told::Nothing;
+  if (cored.level >= kLeastLevel * cored.inside) return Told::Core;
+  return gained > chance + price ? Told::Either : Told::Nothing;
 }
 
 }  // namespace
 
-OutlineStart with_core_if_paid(OutlineStart plain, const Surface& surface, const Field& mean,
-                               std::uint64_t seed) {
+ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface, const Field& mean,
+                              std::uint64_t seed) {
   std::optional<OutlineStart> cored;
   double most = 0.0;
   for (const double beside : kBeside) {
     std::optional<OutlineStart> start = start_with(plain, surface, mean, beside);
     if (!start) continue;
-    const double weight = evidence_of(*start);
-    if (cored && weight < most) continue;
-    most = weight;
+    const double evidence = evidence_of(*start);
+    if (cored && evidence < most) continue;
+    most = evidence;
     cored = std::move(start);
   }
-  if (!cored) return plain;
-  *cored = pruned(*std::move(cored), seed);
-  if (!cored->profile.core) return plain;
+  if (cored) cored = pruned(*std::move(cored), seed);
+  if (!cored || !cored->profile.core) return {plain, plain};
   std::array<Settled, 2> both;
   for_ranges(2, 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) both[i] = settled(i == 0 ? plain : *cored, seed);
   });
-  return is_paid(both[0], both[1]) ? *std::move(cored) : plain;
+  switch (told_by(both[0], both[1])) {
+    case Told::Core:
+      return {*cored, *cored};
+    case Told::Either:
+      return {plain, *cored};
+    case Told::Nothing:
+      break;
+  }
+  return {plain, plain};
 }
 
 }  // namespace palpation

@@ -36,11 +36,15 @@ double disagreement_of(const Draws& draws) {
 
 }  // namespace
 
-OutlineDraws draws_from(const OutlineStart& start, int count, std::uint64_t seed) {
+OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed) {
+  const bool are_alike =
+      starts.front().profile.core.has_value() == starts.back().profile.core.has_value();
   std::vector<OutlineWalk> walks;
-  for (int chain = 0; chain < kChains; ++chain)
+  for (int chain = 0; chain < kChains; ++chain) {
+    const OutlineStart& start = starts[chain];
     walks.emplace_back(start.readings, start.prior, start.outline, start.profile,
                        kChains * seed + static_cast<std::uint64_t>(chain));
+  }
   const int each = count / kChains;
   OutlineDraws result;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -53,6 +57,7 @@ OutlineDraws draws_from(const OutlineStart& start, int count, std::uint64_t seed
     });
     result.draws = std::move(of_chain[0]);
     for (OutlineDraw& draw : of_chain[1]) result.draws.push_back(std::move(draw));
+    if (!are_alike) break;
     result.disagreement = disagreement_of(result.draws);
     if (result.disagreement < kDisagree) break;
   }

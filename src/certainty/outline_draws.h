@@ -2,6 +2,7 @@
 /// it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,12 +13,15 @@ namespace palpation {
 
 inline constexpr int kChains = 2;
 
+using ChainStarts = std::array<OutlineStart, kChains>;
+
 struct OutlineDraws {
   std::vector<OutlineDraw> draws;  ///< of two chains, one after the other
   double disagreement = 0.0;       ///< as OutlinePosterior has it
 };
 
-/// So many, of chains that go on for longer where they do not agree.
-OutlineDraws draws_from(const OutlineStart& start, int count, std::uint64_t seed);
+/// So many, of chains that go on for longer where they do not agree: those of two kinds, with a
+/// core and without, are not asked to.
+OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed);
 
 }  // namespace palpation

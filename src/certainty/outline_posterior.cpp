@@ -233,10 +233,10 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   if (!surface.has_chart()) return std::nullopt;
   std::optional<OutlineStart> first = outline_start(belief, edge, options);
   if (!first) return std::nullopt;
-  const OutlineStart start =
+  const ChainStarts starts =
       with_core_if_paid(pruned(*std::move(first), options.seed), surface,
                         belief.at_vertices(Part::Detrended).mean, options.seed);
-  const auto [draws, disagreement] = draws_from(start, options.draws, options.seed);
+  const auto [draws, disagreement] = draws_from(starts, options.draws, options.seed);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
                              .spread = spread_of(depths),

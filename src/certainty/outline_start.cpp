@@ -155,8 +155,7 @@ void begin_with(const OutlineNodes& outline, OutlineStart& start) {
   start.profile.log_contrast = start.prior.median.log_contrast;
   const std::vector<Vec2> largest = line_of(outline, outline.loops.front());
   start.prior.middle = Vec2::Zero();
-  for (const Vec2& node : largest)
-    start.prior.middle += node / static_cast<double>(largest.size());
+  for (const Vec2& node : largest) start.prior.middle += node / static_cast<double>(largest.size());
   start.prior.radius_m = std::sqrt(std::abs(enclosed_area(largest)) / std::numbers::pi);
 }
 

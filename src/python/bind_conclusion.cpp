@@ -90,7 +90,8 @@ py::object core_of(const Conclusion& all) {
   const DrawnCore& core = *all.outlines->core;
   const Vec3 at = all.belief.prior().surface().position(core.where);
   return py::dict("position_m"_a = py::make_tuple(at.x(), at.y(), at.z()),
-                  "area_m2"_a = core.area_m2.mean, "beside"_a = core.beside.mean,
+                  "probability"_a = core.probability, "area_m2"_a = core.area_m2.mean,
+                  "beside"_a = core.beside.mean,
                   "beside_interval"_a = py::make_tuple(core.beside.least, core.beside.most));
 }
 

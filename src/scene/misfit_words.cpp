@@ -193,14 +193,19 @@ std::string scatter_words(const DrawnNumber& inside) {
          " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there.";
 }
 
-/// Nothing unless what lies beside it is surely lower.
+/// Nothing unless what lies beside it is surely lower, or it is not known to be there.
 std::string core_words(const Surface& surface, const DrawnCore& core) {
+  if (core.probability < 1.0)
+    return "The stiff region either rises all the way up to its middle, or has a core around " +
+           place_words(surface.position(core.where), 1) +
+           " in softer tumour, which reaches farther: the readings tell neither, and the band "
+           "holds "
+           "both. Touch farther out from its boundary.";
   if (core.beside.most > kSurelyLower) return "";
   return "The stiff region has a core of " + fixed(core.area_m2.mean * 1e6, 0) + " mm2 around " +
-         place_words(surface.position(core.where), 1) +
-         "; beside it tissue stands out " + fixed(core.beside.mean, 2) + " times as much (" +
-         fixed(core.beside.least, 2) + " to " + fixed(core.beside.most, 2) +
-         "). The outline holds both, and goes half way up to either.";
+         place_words(surface.position(core.where), 1) + "; beside it tissue stands out " +
+         fixed(core.beside.mean, 2) + " times as much (" + fixed(core.beside.least, 2) + " to " +
+         fixed(core.beside.most, 2) + "). The outline holds both, and goes half way up to either.";
 }
 
 }  // namespace
@@ -214,8 +219,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(scatter_words(conclusion.outlines->noise_inside));
-    if (conclusion.outlines->core)
-      words.push_back(core_words(surface, *conclusion.outlines->core));
+    if (conclusion.outlines->core) words.push_back(core_words(surface, *conclusion.outlines->core));
     if (conclusion.outlines->disagreement > kChainsApart)
       words.push_back(apart_words(conclusion.outlines->disagreement));
   }

@@ -61,6 +61,7 @@ json core_json(const std::optional<DrawnCore>& core, const Surface& surface) {
   if (!core) return nullptr;
   const Vec3 at = surface.position(core->where);
   return {{"position_mm", {at.x() * kMm, at.y() * kMm, at.z() * kMm}},
+          {"probability", core->probability},
           {"area_mm2", core->area_m2.mean * kMm2},
           {"beside", core->beside.mean},
           {"beside_interval", {core->beside.least, core->beside.most}}};

@@ -11,6 +11,7 @@
 #include "exploration/search_goal.h"
 #include "palpation/base/error.h"
 #include "palpation/exploration/exploration.h"
+#include "palpation/geometry/make_plane.h"
 #include "palpation/world/phantom.h"
 
 namespace palpation {
@@ -89,6 +90,33 @@ TEST(Conclude, ThatReadingsScatterMoreOnATumourIsLearned) {
     EXPECT_GT(inside.most, times);
     EXPECT_EQ(inside.least > 1.1, times > 1.1);
   }
+}
+
+// A core of 4.5 mm in a rim half as stiff, felt all over. One line half way up to the core would
+// lie on the rim, and be anything.
+TEST(Conclude, ATumourOfTwoHeightsIsOneOutline) {
+  Random random(8);
+  const Surface tissue(make_plane({.size_m = Vec2(0.05, 0.05), .columns = 51, .rows = 51}, random));
+  PhantomDesign design;
+  design.lumps.resize(2);
+  design.lumps[0].outline = Disk{Vec3(0.025, 0.025, 0.0), 0.009};
+  design.lumps[0].contrast = 0.5;
+  design.lumps[1].outline = Disk{Vec3(0.026, 0.025, 0.0), 0.0045};
+  design.model.noise = 0.03;
+  const Phantom phantom(tissue, design);
+  std::vector<Palpation> readings;
+  for (int i = 0; i < 300; ++i)
+    readings.push_back(phantom.touch(
+        tissue.project(Vec3(0.05 * random.uniform(), 0.05 * random.uniform(), 0.0)), random));
+  const Conclusion conclusion = conclude(tissue, Model{}, readings, nullptr, 1);
+  ASSERT_TRUE(conclusion.outlines && conclusion.outlines->core);
+  const DrawnCore& core = *conclusion.outlines->core;
+  EXPECT_EQ(core.probability, 1.0);
+  EXPECT_LE(core.beside.least, 0.5);
+  EXPECT_GE(core.beside.most, 0.5);
+  EXPECT_LT((tissue.position(core.where) - Vec3(0.026, 0.025, 0.0)).norm(), 0.0015);
+  EXPECT_LE(conclusion.outlines->area_m2.least, 254e-6);
+  EXPECT_GE(conclusion.outlines->area_m2.most, 254e-6);
 }
 
 // Twenty readings of healthy tissue whose noise has heavy tails: they gather on two plateaus, but

@@ -53,6 +53,9 @@ struct DrawnCore {
   SurfacePoint where;   ///< its middle
   DrawnNumber area_m2;  ///< within the outline
   DrawnNumber beside;   ///< contrast beside it, over its own
+  /// That there is one. A half where readings may as well rise all the way up to the middle: then
+  /// one chain's draws are of either kind, and all that is concluded is of both.
+  double probability = 1.0;
 };
 
 struct OutlinePosterior {

@@ -1,0 +1,166 @@
+// Tumours of two heights: what is felt of one, its prior, and when readings tell of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "certainty/outline_core_start.h"
+#include "certainty/outline_lines.h"
+#include "certainty/outline_walk.h"
+#include "palpation/geometry/make_plane.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kMm = 1e-3, kSlope_per_m = 2000.0;
+
+using Share = std::function<double(const Vec2& place)>;
+
+double sigmoid_of(double steps) { return 1.0 / (1.0 + std::exp(-steps)); }
+
+/// Of a disk of 4 mm and a wider one of so much of its contrast that holds it.
+Share cored(double beside) {
+  return [beside](const Vec2& place) {
+    const auto disk = [&](const Vec2& middle, double radius_m) {
+      return sigmoid_of(kSlope_per_m * (radius_m - (place - middle).norm()));
+    };
+    return std::max(disk(kMm * Vec2(19, 20), 4 * kMm), beside * disk(kMm * Vec2(20, 20), 9 * kMm));
+  };
+}
+
+/// It is highest in its middle, and falls evenly to nothing.
+double cone(const Vec2& place) {
+  return std::clamp(1.0 - (place - kMm * Vec2(20, 20)).norm() / (12 * kMm), 0.0, 1.0);
+}
+
+Surface tissue() {
+  Random random(1);
+  return Surface(make_plane({.size_m = Vec2(0.04, 0.04), .columns = 81, .rows = 81}, random));
+}
+
+Field field_of(const Surface& surface, const Share& share) {
+  Field field(surface.vertex_count());
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
+    field[vertex] = 7.0 + 2.0 * share(surface.chart().uv.row(vertex).transpose());
+  return field;
+}
+
+/// Felt every 2 mm with a noise of 0.1, about the line half way up to the highest.
+OutlineStart start_of(const Surface& surface, const Share& share) {
+  OutlineStart start;
+  Random random(2);
+  for (int x = 1; x < 40; x += 2) {
+    for (int y = 1; y < 40; y += 2) {
+      start.readings.places.push_back(kMm * Vec2(x, y));
+      start.readings.reading.push_back(7.0 + 2.0 * share(kMm * Vec2(x, y)) + 0.1 * random.normal());
+      start.readings.variance.push_back(0.01);
+    }
+  }
+  OutlineProfile& median = start.prior.median;
+  median.low = 7.0;
+  median.high = 9.0;
+  median.log_slope = std::log(1200.0);
+  median.log_turn = std::log(0.12);
+  start.profile = median;
+  const Field depth = field_of(surface, share).array() - 8.0;
+  begin_with(outline_from(lines_of(surface, depth), start.readings.places), start);
+  return start;
+}
+
+ChainStarts starts_of(const Share& share) {
+  const Surface surface = tissue();
+  return with_core_if_paid(start_of(surface, share), surface, field_of(surface, share), 3);
+}
+
+OutlineCore core_at(const Vec2& middle, double radius_m, double beside) {
+  return {.middle = middle, .log_radius = std::log(radius_m), .beside = beside};
+}
+
+TEST(OutlineCore, TissueBesideItStandsOutBySoMuchLess) {
+  OutlinePrior prior;
+  OutlineProfile profile;
+  profile.low = 7.0;
+  profile.high = 9.0;
+  profile.log_slope = std::log(4000.0);
+  profile.log_contrast = {0.0};
+  profile.core = core_at(kMm * Vec2(3, 2), 4 * kMm, 0.5);
+  const ReadingLaw law = law_of(profile, prior);
+  EXPECT_NEAR(share_by_core(law, kMm * Vec2(3, 2)), 1.0, 1e-6);
+  EXPECT_NEAR(share_by_core(law, kMm * Vec2(7, 2)), 0.75, 1e-12);
+  EXPECT_NEAR(share_by_core(law, kMm * Vec2(12, 2)), 0.5, 1e-6);
+}
+
+// What a chain adds up step by step is what a fresh one says of where it has come to.
+TEST(OutlineCore, StepsLeaveTheDensityWhatItIs) {
+  const Surface surface = tissue();
+  OutlineStart start = start_of(surface, cored(0.6));
+  start.profile.core = core_at(kMm * Vec2(19, 20), 4 * kMm, 0.6);
+  OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, 5);
+  walk.settle(20);
+  const OutlineChain& chain = walk.chain();
+  ASSERT_TRUE(chain.profile().core);
+  EXPECT_NE(chain.profile().core->beside, 0.6);
+  EXPECT_NE(chain.profile().core->middle, start.profile.core->middle);
+  const OutlineChain fresh(start.readings, start.prior, chain.outline(), chain.profile(),
+                           chain.cuts(), &chain.residuals());
+  EXPECT_NEAR(chain.log_density(), fresh.log_density(), 1e-7);
+}
+
+// Readings that tell nothing: its radius, over half of the tumour's, is lognormal, its length
+// exponential, and what lies beside it anything from 0.4 to all of its contrast.
+TEST(OutlineCore, IsDrawnFromItsPriorWhereReadingsTellNothing) {
+  const Surface surface = tissue();
+  OutlineStart start = start_of(surface, cored(0.6));
+  for (double& variance : start.readings.variance) variance = 1e12;
+  start.prior.noise_log_sd = 0.01;
+  const double median_m = 0.5 * start.prior.radius_m;
+  start.profile.core = core_at(kMm * Vec2(19, 20), median_m, 0.6);
+  OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, 6);
+  walk.settle(200);
+  constexpr int kDraws = 1200;
+  double beside = 0.0, square = 0.0, z_mean = 0.0, z_square = 0.0, length_m = 0.0;
+  for (const OutlineDraw& draw : walk.draws(kDraws, kDraws)) {
+    const OutlineCore& core = *draw.profile.core;
+    const double z = (core.log_radius - std::log(median_m)) / 0.7;
+    beside += core.beside / kDraws;
+    square += core.beside * core.beside / kDraws;
+    z_mean += z / kDraws;
+    z_square += z * z / kDraws;
+    length_m += core.half_length_m / kDraws;
+  }
+  EXPECT_NEAR(beside, 0.7, 0.02);
+  EXPECT_NEAR(std::sqrt(square - beside * beside), 0.6 / std::sqrt(12.0), 0.01);
+  EXPECT_NEAR(z_mean, 0.0, 0.15);
+  EXPECT_NEAR(std::sqrt(z_square - z_mean * z_mean), 1.0, 0.12);
+  EXPECT_NEAR(length_m, median_m, 0.2 * median_m);
+}
+
+TEST(OutlineCore, IsFoundWhereReadingsLieOnAPlateauBesideIt) {
+  const auto [start, other] = starts_of(cored(0.55));
+  ASSERT_TRUE(start.profile.core);
+  EXPECT_TRUE(other.profile.core);
+  OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, 4);
+  walk.settle(300);
+  double area_m2 = 0.0, beside = 0.0;
+  for (const OutlineDraw& draw : walk.draws(300, 100)) {
+    beside += draw.profile.core->beside / 100.0;
+    area_m2 += enclosed_area(draw.outline.place) / 100.0;
+  }
+  EXPECT_NEAR(beside, 0.55, 0.03);
+  EXPECT_NEAR(area_m2, std::numbers::pi * 81e-6, 8e-6);
+}
+
+TEST(OutlineCore, IsNotFoundInATumourOfOneHeight) {
+  const Share disk = [](const Vec2& place) {
+    return sigmoid_of(kSlope_per_m * (9 * kMm - (place - kMm * Vec2(20, 20)).norm()));
+  };
+  for (const OutlineStart& start : starts_of(disk)) EXPECT_FALSE(start.profile.core);
+}
+
+// It has no plateau anywhere: that it has a core is never all that is said.
+TEST(OutlineCore, IsNotClaimedOfACone) { EXPECT_FALSE(starts_of(cone).front().profile.core); }
+
+}  // namespace
+}  // namespace palpation
