@@ -49,13 +49,13 @@ std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<Outli
     double area = 0.0;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
       const Vec2 place = surface.chart().uv.row(vertex).transpose();
-      if (depths(static_cast<Eigen::Index>(draw), vertex) < 0.0F || law.core.depth_at(place) < 0.0)
+      if (depths(static_cast<Eigen::Index>(draw), vertex) < 0.0F || law.in_core.depth_at(place) < 0.0)
         continue;
       area += surface.vertex_areas()[vertex];
       ++times[vertex];
     }
     areas.push_back(area);
-    beside.push_back(law.beside_core);
+    beside.push_back(law.core->beside);
   }
   if (std::ranges::count(times, 0) == surface.vertex_count()) return std::nullopt;
   const double probability = static_cast<double>(areas.size()) / static_cast<double>(draws.size());

@@ -73,7 +73,7 @@ OutlineResiduals OutlineChain::fresh_residuals() const {
   std::vector<double> off;
   for (std::size_t i = 0; i < felt_.size(); ++i) off.push_back(off_from(i, felt_[i], law_));
   return {std::move(off),    readings_->variance,     readings_->background,
-          readings_->shares, residual_prior(*prior_), profile_.log_noise};
+          readings_->shares, residual_prior(*prior_), 0.0};
 }
 
 int OutlineChain::epoch_of(std::size_t reading) const {
@@ -105,7 +105,7 @@ double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
 /// How far it is off the profile.
 double OutlineChain::off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
   const int part = part_of(felt);
-  const double by_core = part == law.cored ? share_by_core(law, place_of(reading)) : 1.0,
+  const double by_core = law.has_core(part) ? share_by_core(law, place_of(reading)) : 1.0,
                rise = law.gain[epoch_of(reading)] * law.contrast[part] * by_core * felt.share;
   return readings_->reading[reading] - law.low - rise;
 }

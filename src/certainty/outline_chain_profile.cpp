@@ -63,10 +63,6 @@ bool OutlineChain::move_tissue_and_nodes(int change, const Vec2& moved_m,
   return taken;
 }
 
-Eigen::VectorXd OutlineChain::redraw_residuals(Random& random) {
-  Eigen::VectorXd steps = residuals_.redraw(random);
-  profile_.log_noise = residuals_.log_noise();
-  return steps;
-}
+Eigen::VectorXd OutlineChain::redraw_residuals(Random& random) { return residuals_.redraw(random); }
 
 }  // namespace palpation

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -73,20 +74,21 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
   const double low = plain.profile.low, range = std::min(plain.profile.high, mean.maxCoeff()) - low;
   const OutlineNodes halfway = outline_from(
       lines_of(surface, mean.array() - (low + 0.5 * beside * range)), plain.readings.places);
-  const auto place_of = [&](Eigen::Index vertex) -> Vec2 {
+  const auto place_of = [&](int vertex) -> Vec2 {
     return surface.chart().uv.row(vertex).transpose();
   };
-  Eigen::Index highest = 0;
-  mean.maxCoeff(&highest);
   OutlineNodes part;
-  for (int i = 0; i < parts_of(halfway) && part.loops.empty(); ++i) {
-    OutlineNodes one = part_of(halfway, i);
-    if (is_inside(one, place_of(highest))) part = std::move(one);
-  }
   std::vector<Vec2> in_core;
-  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    if (mean[vertex] > low + 0.5 * (1.0 + beside) * range && is_inside(part, place_of(vertex)))
-      in_core.push_back(place_of(vertex));
+  for (int i = 0; i < parts_of(halfway); ++i) {
+    const OutlineNodes one = part_of(halfway, i);
+    std::vector<Vec2> within;
+    for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+      if (mean[vertex] > low + 0.5 * (1.0 + beside) * range && is_inside(one, place_of(vertex)))
+        within.push_back(place_of(vertex));
+    }
+    if (within.size() <= in_core.size()) continue;
+    part = one;
+    in_core = std::move(within);
   }
   if (in_core.empty()) return std::nullopt;
   OutlineNodes outline = part;
@@ -113,59 +115,60 @@ double evidence_of(const OutlineStart& start) {
 
 /// Of a walk that has settled, on average.
 struct Settled {
-  double evidence = 0.0;  ///< log density of the readings
-  double shape = 0.0;     ///< and of the nodes
-  double price = 0.0;     ///< of as smooth an outline's freedom
+  double evidence = 0.0;  ///< log density of the readings,
+  double price = 0.0;     ///< and what the outline's freedom costs
   double inside = 0.0;    ///< readings,
   double level = 0.0;     ///< and those of them that lie on the plateau beside the core
-  int nodes = 0;
+  double alike = 0.0;     ///< how improbable it is that those read alike by chance, nats
 };
 
-void count_inside(const OutlineChain& chain, const std::vector<Vec2>& places, Settled& sum) {
+void count_inside(const OutlineChain& chain, const OutlineReadings& readings, Settled& sum) {
   const ReadingLaw& law = chain.law();
-  for (const Vec2& place : places) {
+  const double noise = std::exp(chain.residuals().log_noise());
+  for (std::size_t i = 0; i < readings.places.size(); ++i) {
+    const Vec2& place = readings.places[i];
     const double depth = depth_in(chain.outline(), place);
     if (depth < 0.0) continue;
     sum.inside += 1.0 / kWeighed;
-    if (law.cored >= 0 && share_at(law, depth, steepness_at(law, place)) > kLevel &&
-        share_by_core(law, place) < law.beside_core + (1.0 - kLevel) * (1.0 - law.beside_core))
-      sum.level += 1.0 / kWeighed;
+    if (!law.core || share_at(law, depth, steepness_at(law, place)) < kLevel ||
+        share_by_core(law, place) > law.core->beside + (1.0 - kLevel) * (1.0 - law.core->beside))
+      continue;
+    sum.level += 1.0 / kWeighed;
+    // Anywhere on the way from there to the core, or as noise scatters about one height.
+    const double way = law.contrast[law.core->part] * (1.0 - law.core->beside),
+                 scatter =
+                     std::sqrt(2.0 * std::numbers::pi * std::numbers::e * readings.variance[i]);
+    sum.alike += std::max(std::log(way / (noise * scatter)), 0.0) / kWeighed;
   }
 }
 
 Settled settled(const OutlineStart& start, std::uint64_t seed) {
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
   walk.settle(kSettling);
-  Settled sum{.nodes = start.outline.count()};
+  Settled sum;
   for (int i = 0; i < kWeighed; ++i) {
     walk.settle(1);
     const OutlineChain& chain = walk.chain();
     sum.evidence += chain.residuals().log_density() / kWeighed;
-    sum.shape += log_shape_density(chain.outline(), chain.profile()) / kWeighed;
     sum.price += price_of_loops(chain.outline(), start.readings.places.size()) / kWeighed;
-    count_inside(chain, start.readings.places, sum);
+    count_inside(chain, start.readings, sum);
   }
   return sum;
 }
 
 enum class Told { Nothing, Either, Core };
 
-/// How finely a node is known is taken to be the same with and without a core, and such that the
-/// smoother outline's freedom costs Schwarz's price: fingers, whose nodes turn as the prior seldom
-/// does, cost what they are less probable by. Readings alone must say so, too. Where none lie on a
-/// plateau beside the core, tissue may as well rise all the way up to its middle: then readings
-/// that pay for all of it tell neither.
+/// An outline of one height follows such readings as lie on a plateau beside the core by fingers,
+/// and could have followed any: that they read alike speaks for the core. Where none lie there,
+/// tissue may as well rise all the way up to its middle: then readings that pay for a core by
+/// themselves tell neither.
 Told told_by(const Settled& plain, const Settled& cored) {
-  const double chance = -std::log(kFalseAlarms);
-  const auto per_node = [](const Settled& one) { return (one.shape + one.price) / one.nodes; };
-  const double finely = std::max(per_node(plain), per_node(cored));
-  const auto of_shape = [&](const Settled& one) { return one.shape - one.nodes * finely; };
-  const double price = 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0)),
-               gained = cored.evidence - plain.evidence,
-               paid = gained + of_shape(cored) - of_shape(plain) - price;
-  if (paid < chance || gained < chance) return Told::Nothing;
-  if (cored.level >= kLeastLevel * cored.inside) return Told::Core;
-  return gained > chance + price ? Told::Either : Told::Nothing;
+  const double needed =
+      0.5 * kNumbers * std::log(std::max(cored.inside, 1.0)) - std::log(kFalseAlarms);
+  const double gained = cored.evidence - cored.price - plain.evidence + plain.price;
+  if (cored.level >= kLeastLevel * cored.inside)
+    return gained + cored.alike > needed ? Told::Core : Told::Nothing;
+  return gained > needed ? Told::Either : Told::Nothing;
 }
 
 }  // namespace

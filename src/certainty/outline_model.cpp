@@ -80,11 +80,8 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
     for (const int change : changes) log_gain += profile.log_gain[change];
     law.gain.push_back(std::exp(log_gain));
   }
-  if (profile.core) {
-    law.cored = profile.core->part;
-    law.beside_core = profile.core->beside;
-    law.core = profile.core->stadium();
-  }
+  law.core = profile.core;
+  if (law.core) law.in_core = law.core->stadium();
   return law;
 }
 
@@ -94,8 +91,8 @@ double steepness_at(const ReadingLaw& law, const Vec2& place) {
 }
 
 double share_by_core(const ReadingLaw& law, const Vec2& place) {
-  const double in_core = sigmoid(law.slope_per_m * law.core.depth_at(place));
-  return law.beside_core + (1.0 - law.beside_core) * in_core;
+  const double in_core = sigmoid(law.slope_per_m * law.in_core.depth_at(place));
+  return law.core->beside + (1.0 - law.core->beside) * in_core;
 }
 
 double share_at(const ReadingLaw& law, double depth_m, double steepness) {
@@ -110,8 +107,7 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
 }
 
 ResidualPrior residual_prior(const OutlinePrior& prior) {
-  return {.log_noise = prior.median.log_noise,
-          .noise_log_sd = prior.noise_log_sd,
+  return {.noise_log_sd = prior.noise_log_sd,
           .wild_density = 1.0 / (kWildReach * prior.plateau_sd)};
 }
 

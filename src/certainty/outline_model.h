@@ -52,7 +52,6 @@ struct OutlineProfile {
   Vec2 lean = Vec2::Zero();          ///< how that rises towards a side (OutlinePrior::middle)
   double log_shoulder = 0.0;         ///< of the power with which readings rise on inside
   double log_skirt = 0.0;            ///< and fall on outside
-  double log_noise = 0.0;            ///< of what the noise's standard deviations are multiplied by
   double log_turn = 0.0;             ///< of the law's half width, radians
   std::vector<double> log_spacing;   ///< of each loop's pieces, metres
   std::vector<double> log_contrast;  ///< of each part, the first one's 0
@@ -85,9 +84,10 @@ struct ReadingLaw {
   double radius_m;
   std::vector<double> contrast;  ///< of each part
   std::vector<double> gain;      ///< of readings of each epoch
-  int cored = -1;                ///< the part that has a core, if one does;
-  double beside_core = 1.0;      ///< the contrast beyond it, over that of the part,
-  Stadium core{};                ///< and where it is
+  std::optional<OutlineCore> core{};
+  Stadium in_core{};  ///< the core's places
+
+  bool has_core(int part) const { return core && core->part == part; }
 };
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
 

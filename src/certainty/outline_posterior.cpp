@@ -185,7 +185,7 @@ Level mean_and_sd(const std::vector<double>& numbers) {
 
 double mean_noise(const std::vector<OutlineDraw>& draws) {
   double sum = 0.0;
-  for (const OutlineDraw& draw : draws) sum += std::exp(draw.profile.log_noise);
+  for (const OutlineDraw& draw : draws) sum += std::exp(draw.log_noise);
   return sum / static_cast<double>(draws.size());
 }
 

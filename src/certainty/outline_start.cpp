@@ -182,7 +182,6 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   median = {.low = mean.minCoeff(),
             .high = mean.maxCoeff(),
             .log_slope = std::log(shape.slope_per_m),
-            .log_noise = 0.0,
             .log_turn = std::log(kTurn),
             .log_spacing = {},
             .log_contrast = {},

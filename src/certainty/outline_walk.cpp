@@ -14,9 +14,8 @@ namespace {
 /// Nodes to either side that move along with a stretch's middle.
 constexpr std::array kHalfWidths = {0, 1, 3, 7};
 constexpr double kFirst_m = 0.0003, kLeast_m = 1e-8, kMost_m = 0.008;
-/// Shares of steps that are taken where they are as long as they should be.
-constexpr double kOfNodes = 0.3, kOfNumbers = 0.4;
-constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
+constexpr double kOfNodes = 0.3;  ///< as kOfNumbers, of nodes
+constexpr double kGain = 0.3;     ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
 constexpr double kNear_m = 0.003, kNothingFelt = 1e-12;
 constexpr double kTradedGain = 0.2;
@@ -24,14 +23,8 @@ constexpr int kSizes = 4;                ///< a sweep
 constexpr double kSlopePerGrowth = 2.0;  ///< of their logarithms, how far they are tried
 constexpr int kProfileRounds = 2;
 constexpr int kResidualsEvery = 4;  ///< sweeps: it costs as much as they do
-constexpr int kSwitches = 3;        ///< of each cut, a sweep
 
 double angle_of(Random& random) { return 2.0 * std::numbers::pi * random.uniform(); }
-
-Vec2 direction_of(Random& random) {
-  const double angle = angle_of(random);
-  return {std::cos(angle), std::sin(angle)};
-}
 
 Vec2 middle_of(std::span<const Vec2> places) {
   Vec2 middle = Vec2::Zero();
@@ -66,6 +59,11 @@ std::vector<double> share_since(const OutlineReadings& readings, const OutlinePr
 }
 
 }  // namespace
+
+Vec2 direction_of(Random& random) {
+  const double angle = angle_of(random);
+  return {std::cos(angle), std::sin(angle)};
+}
 
 OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& prior,
                          OutlineNodes start, OutlineProfile profile, std::uint64_t seed)
@@ -109,6 +107,7 @@ OutlineDraw OutlineWalk::drawn() {
                    .has_plateau = random_.uniform() < plateau_probability(chain_.profile()),
                    .cuts = {},
                    .steps = steps_,
+                   .log_noise = chain_.residuals().log_noise(),
                    .noise_growth = chain_.residuals().growth_of_noise()};
   for (const OutlineCut& cut : chain_.cuts()) {
     if (cut.is_present) draw.cuts.push_back(cut.stadium());
@@ -225,18 +224,6 @@ void OutlineWalk::move_profile() {
   }
 }
 
-void OutlineWalk::move_core() {
-  if (!chain_.profile().core) return;
-  for (int i = 0; i < kOfCore; ++i) {
-    OutlineProfile profile = chain_.profile();
-    OutlineCore& core = *profile.core;
-    double* const number[kOfCore] = {&core.middle.x(),    &core.middle.y(), &core.log_radius,
-                                     &core.half_length_m, &core.angle,      &core.beside};
-    *number[i] += lengths_.of_core[i] * random_.normal();
-    tune(lengths_.of_core[i], chain_.move_profile(profile, false, random_), kOfNumbers, 1.0);
-  }
-}
-
 void OutlineWalk::move_changes() {
   for (std::size_t change = 0; change < lengths_.of_changes.size(); ++change) {
     double& length = lengths_.of_changes[change];
@@ -284,23 +271,6 @@ void OutlineWalk::trade_gain(std::size_t change) {
   profile.log_gain[change] += step;
   profile.log_gain[static_cast<std::size_t>(next - kinds.begin())] -= step;
   chain_.move_profile(profile, false, random_);
-}
-
-void OutlineWalk::move_cuts() {
-  for (int which = 0; which < kCuts; ++which) {
-    for (int i = 0; i < kSwitches; ++i) chain_.switch_cut(which, random_);
-    for (int i = 0; i < kOfCut && chain_.cuts()[which].is_present; ++i) {
-      OutlineCut next = chain_.cuts()[which];
-      double& length = lengths_.of_cuts[i];
-      const double step = length * random_.normal();
-      if (i == 0) next.offset += step * direction_of(random_);
-      if (i == 1) next.log_radius += step;
-      if (i == 2) next.half_length_m += step;
-      if (i == 3) next.angle += step;
-      tune(length, chain_.move_cut(which, next, random_), kOfNumbers, 10.0);
-      chain_.anchor_anew(which, random_);
-    }
-  }
 }
 
 }  // namespace palpation

@@ -13,6 +13,8 @@
 
 namespace palpation {
 
+Vec2 direction_of(Random& random);
+
 struct OutlineDraw {
   OutlineNodes outline;
   OutlineProfile profile;
@@ -23,6 +25,7 @@ struct OutlineDraw {
   bool has_plateau = true;
   std::vector<Stadium> cuts;
   Eigen::VectorXd steps;      ///< of the zero, of the changes that move it
+  double log_noise = 0.0;     ///< of what the noise's standard deviations are multiplied by
   double noise_growth = 0.0;  ///< logarithm: the noise on a tumour over that beside it
 };
 
@@ -40,6 +43,8 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
+  /// Share of steps that are taken where they are as long as they should be, of single numbers.
+  static constexpr double kOfNumbers = 0.4;
   static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 6, kOfCut = 4, kOfCore = 6;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres

@@ -149,9 +149,15 @@ std::vector<Misfit> misfits(const Conclusion& conclusion) {
   const std::vector<Palpation> readings = readings_as_if_unchanged(conclusion);
   std::vector<Misfit> found = misfits_of(on_scale(conclusion.scale(), conclusion.model),
                                          conclusion.edge, conclusion.belief, readings);
-  // What a session's zero and gain explain is drawn with the outlines.
+  if (!conclusion.outlines) return found;
+  // What a session's zero and gain explain is drawn with the outlines, and what stands out beside
+  // the edge may lie in them.
+  const Surface& surface = conclusion.belief.prior().surface();
   std::erase_if(found, [&](const Misfit& misfit) {
-    return conclusion.outlines &&
+    const bool is_held = misfit.kind == MisfitKind::WeakerPart && misfit.amount > 0.0 &&
+                         misfit.where &&
+                         surface.interpolate(conclusion.outlines->depth, *misfit.where) > 0.0;
+    return is_held ||
            as_of_its_session(misfit, conclusion.evidence.taken_back, readings).session > 0;
   });
   return found;

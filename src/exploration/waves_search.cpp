@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 
+#include "base/sigmoid.h"
 #include "exploration/background_search.h"
 #include "exploration/taken_back.h"
 #include "exploration/waves.h"
@@ -24,6 +26,10 @@ struct Waved {
   EdgeInWaves edge;
 };
 
+/// Of what an edge in level tissue leaves unexplained beyond noise, standard deviations: what waves
+/// may leave. Others make up for an edge that lies elsewhere.
+constexpr double kMayLeave = 0.5;
+
 /// While one sweeps over tissue, a zero that drifts passes for waves, and waves for it.
 bool has_moving_zero(const Known& known) {
   return std::ranges::any_of(known.believed.evidence.taken_back, [](const Misfit& change) {
@@ -44,11 +50,33 @@ bool is_all_but_a_patch(const Known& known) {
   return kOneIn * outside < count;
 }
 
+/// What an edge leaves of the readings that count, beyond noise: standard deviation.
+double left_by(const Known& known) {
+  const Surface& surface = known.believed.belief.prior().surface();
+  const EdgeBelief& edge = *known.boundary.edge;
+  const EdgeProfile& profile = edge.profile();
+  double square = 0.0;
+  int count = 0;
+  for (const Palpation& one : known.believed.palpations) {
+    if (!counts(one)) continue;
+    const double share =
+                     sigmoid(profile.slope_per_m * surface.interpolate(edge.depth(), one.where)),
+                 left = one.reading - profile.low - share * (profile.high - profile.low);
+    square += left * left;
+    ++count;
+  }
+  return std::sqrt(std::max(square / count - known.believed.belief.noise_variance(), 0.0));
+}
+
 class WavesSearch {
  public:
   WavesSearch(const Surface& surface, const std::vector<Palpation>& felt, const Known& flat,
               const KnownOf& known_of)
-      : surface_(surface), felt_(felt), known_of_(known_of), set_aside_(set_aside(flat)) {}
+      : surface_(surface),
+        felt_(felt),
+        flat_(flat),
+        known_of_(known_of),
+        set_aside_(set_aside(flat)) {}
 
   void ask(Field waves) {
     std::optional<Waved> waved = tried(std::move(waves));
@@ -57,6 +85,7 @@ class WavesSearch {
       if (!next || !(next->edge.log_evidence > waved->edge.log_evidence)) break;
       waved = std::move(next);
     }
+    if (waved && flat_.boundary.edge && left_by(waved->known) > kMayLeave * left_by(flat_)) return;
     if (waved && (!best_ || waved->edge.log_evidence > best_->edge.log_evidence))
       best_ = std::move(waved);
   }
@@ -87,6 +116,7 @@ class WavesSearch {
 
   const Surface& surface_;
   const std::vector<Palpation>& felt_;
+  const Known& flat_;
   const KnownOf& known_of_;
   std::ptrdiff_t set_aside_;
   std::optional<Waved> best_;
