@@ -49,7 +49,8 @@ std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<Outli
     double area = 0.0;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
       const Vec2 place = surface.chart().uv.row(vertex).transpose();
-      if (depths(static_cast<Eigen::Index>(draw), vertex) < 0.0F || law.in_core.depth_at(place) < 0.0)
+      if (depths(static_cast<Eigen::Index>(draw), vertex) < 0.0F ||
+          law.in_core.depth_at(place) < 0.0)
         continue;
       area += surface.vertex_areas()[vertex];
       ++times[vertex];

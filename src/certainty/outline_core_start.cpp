@@ -72,6 +72,7 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
                                        const Field& mean, double beside) {
   // The edge may take what rises up to its middle for part of something higher.
   const double low = plain.profile.low, range = std::min(plain.profile.high, mean.maxCoeff()) - low;
+  if (!(range > 0.0)) return std::nullopt;
   const OutlineNodes halfway = outline_from(
       lines_of(surface, mean.array() - (low + 0.5 * beside * range)), plain.readings.places);
   const auto place_of = [&](int vertex) -> Vec2 {
@@ -117,20 +118,23 @@ double evidence_of(const OutlineStart& start) {
 struct Settled {
   double evidence = 0.0;  ///< log density of the readings,
   double price = 0.0;     ///< and what the outline's freedom costs
-  double inside = 0.0;    ///< readings,
-  double level = 0.0;     ///< and those of them that lie on the plateau beside the core
+  double inside = 0.0;    ///< readings in the part that has the core, if one does,
+  double level = 0.0;     ///< and those of them that lie on the plateau beside it
   double alike = 0.0;     ///< how improbable it is that those read alike by chance, nats
 };
 
 void count_inside(const OutlineChain& chain, const OutlineReadings& readings, Settled& sum) {
   const ReadingLaw& law = chain.law();
+  const OutlineNodes& outline = chain.outline();
+  if (!law.core) return;
   const double noise = std::exp(chain.residuals().log_noise());
   for (std::size_t i = 0; i < readings.places.size(); ++i) {
     const Vec2& place = readings.places[i];
-    const double depth = depth_in(chain.outline(), place);
-    if (depth < 0.0) continue;
+    const double depth = depth_in(outline, place);
+    const int nearest = outline.loop_of[nearest_piece(outline, place).piece];
+    if (depth < 0.0 || outline.loops[nearest].part != law.core->part) continue;
     sum.inside += 1.0 / kWeighed;
-    if (!law.core || share_at(law, depth, steepness_at(law, place)) < kLevel ||
+    if (share_at(law, depth, steepness_at(law, place)) < kLevel ||
         share_by_core(law, place) > law.core->beside + (1.0 - kLevel) * (1.0 - law.core->beside))
       continue;
     sum.level += 1.0 / kWeighed;
