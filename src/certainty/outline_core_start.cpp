@@ -20,7 +20,6 @@ namespace {
 constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
 constexpr double kFalseAlarms = 0.02;
 constexpr double kLevel = 0.9;                 ///< of the way up: it levels off
-constexpr double kLeastLevel = 0.1;            ///< of the readings inside
 constexpr int kNumbers = 6;                    ///< that are a core's
 constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
 
@@ -119,8 +118,8 @@ struct Settled {
   double evidence = 0.0;  ///< log density of the readings,
   double price = 0.0;     ///< and what the outline's freedom costs
   double inside = 0.0;    ///< readings in the part that has the core, if one does,
-  double level = 0.0;     ///< and those of them that lie on the plateau beside it
-  double alike = 0.0;     ///< how improbable it is that those read alike by chance, nats
+  double alike = 0.0;     ///< and how improbable it is that those on the plateau beside it read
+                          ///< alike by chance, nats
 };
 
 void count_inside(const OutlineChain& chain, const OutlineReadings& readings, Settled& sum) {
@@ -137,7 +136,6 @@ void count_inside(const OutlineChain& chain, const OutlineReadings& readings, Se
     if (share_at(law, depth, steepness_at(law, place)) < kLevel ||
         share_by_core(law, place) > law.core->beside + (1.0 - kLevel) * (1.0 - law.core->beside))
       continue;
-    sum.level += 1.0 / kWeighed;
     // Anywhere on the way from there to the core, or as noise scatters about one height.
     const double way = law.contrast[law.core->part] * (1.0 - law.core->beside),
                  scatter =
@@ -163,15 +161,14 @@ Settled settled(const OutlineStart& start, std::uint64_t seed) {
 enum class Told { Nothing, Either, Core };
 
 /// An outline of one height follows such readings as lie on a plateau beside the core by fingers,
-/// and could have followed any: that they read alike speaks for the core. Where none lie there,
-/// tissue may as well rise all the way up to its middle: then readings that pay for a core by
+/// and could have followed any: that they read alike speaks for the core. Where that is not surely
+/// so, tissue may as well rise all the way up to its middle: then readings that pay for a core by
 /// themselves tell neither.
 Told told_by(const Settled& plain, const Settled& cored) {
-  const double needed =
-      0.5 * kNumbers * std::log(std::max(cored.inside, 1.0)) - std::log(kFalseAlarms);
+  const double chance = -std::log(kFalseAlarms),
+               needed = chance + 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0));
   const double gained = cored.evidence - cored.price - plain.evidence + plain.price;
-  if (cored.level >= kLeastLevel * cored.inside)
-    return gained + cored.alike > needed ? Told::Core : Told::Nothing;
+  if (cored.alike > chance && gained + cored.alike > needed) return Told::Core;
   return gained > needed ? Told::Either : Told::Nothing;
 }
 
