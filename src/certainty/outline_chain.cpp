@@ -104,10 +104,14 @@ double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
 
 /// How far it is off the profile.
 double OutlineChain::off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
-  const int part = part_of(felt);
-  const double by_core = law.has_core(part) ? share_by_core(law, place_of(reading)) : 1.0,
-               rise = law.gain[epoch_of(reading)] * law.contrast[part] * by_core * felt.share;
+  const double contrast = law.contrast[part_of(felt)] * share_by_core_of(reading, felt, law),
+               rise = law.gain[epoch_of(reading)] * contrast * felt.share;
   return readings_->reading[reading] - law.low - rise;
+}
+
+double OutlineChain::share_by_core_of(std::size_t reading, const Felt& felt,
+                                      const ReadingLaw& law) const {
+  return law.has_core(part_of(felt)) ? share_by_core(law, place_of(reading)) : 1.0;
 }
 
 double OutlineChain::share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {

@@ -22,9 +22,8 @@ OutlineChain::Plateaus OutlineChain::plateaus() const {
   const double low = prior_->median.low, high = prior_->median.high;
   Eigen::MatrixX3d columns(static_cast<Eigen::Index>(felt_.size()), 3);
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    const int part = part_of(felt_[i]);
-    const double by_core = law_.has_core(part) ? share_by_core(law_, place_of(i)) : 1.0,
-                 of_part = by_core * std::exp(profile_.log_contrast[part]),
+    const double of_part = share_by_core_of(i, felt_[i], law_) *
+                           std::exp(profile_.log_contrast[part_of(felt_[i])]),
                  rise = law_.gain[epoch_of(i)] * of_part * felt_[i].share;
     columns.row(static_cast<Eigen::Index>(i)) << 1.0 - rise, rise,
         readings_->reading[i] - low - (high - low) * rise;

@@ -39,12 +39,6 @@ bool overlap(const OutlineNodes& some, const OutlineNodes& others) {
   return holds_a_node(some, others) || holds_a_node(others, some);
 }
 
-int parts_of(const OutlineNodes& outline) {
-  int parts = 0;
-  for (const NodeLoop& loop : outline.loops) parts = std::max(parts, loop.part + 1);
-  return parts;
-}
-
 /// About places, each of which stands for as much area: as far from their middle on average.
 OutlineCore core_about(const std::vector<Vec2>& places, double beside) {
   Vec2 middle = Vec2::Zero();
@@ -79,7 +73,7 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
   };
   OutlineNodes part;
   std::vector<Vec2> in_core;
-  for (int i = 0; i < parts_of(halfway); ++i) {
+  for (int i = 0; i < halfway.parts(); ++i) {
     const OutlineNodes one = part_of(halfway, i);
     std::vector<Vec2> within;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
@@ -92,10 +86,10 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
   }
   if (in_core.empty()) return std::nullopt;
   OutlineNodes outline = part;
-  for (int i = 0; i < parts_of(plain.outline); ++i) {
+  for (int i = 0; i < plain.outline.parts(); ++i) {
     const OutlineNodes other = part_of(plain.outline, i);
     if (overlap(part, other)) continue;
-    const int number = parts_of(outline);
+    const int number = outline.parts();
     for (const NodeLoop& loop : other.loops) outline.add(line_of(other, loop), number);
   }
   if (!is_simple(outline)) return std::nullopt;

@@ -12,7 +12,6 @@ namespace {
 constexpr int kSettling = 400, kSweeps = 800;
 /// As often chains that do not agree go on, each time for as long as before.
 constexpr int kMostRounds = 3;
-constexpr double kDisagree = 1.0;
 
 using Draws = std::vector<OutlineDraw>;
 
@@ -59,7 +58,7 @@ OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed
     for (OutlineDraw& draw : of_chain[1]) result.draws.push_back(std::move(draw));
     if (!are_alike) break;
     result.disagreement = disagreement_of(result.draws);
-    if (result.disagreement < kDisagree) break;
+    if (result.do_agree()) break;
   }
   return result;
 }

@@ -18,6 +18,8 @@ using ChainStarts = std::array<OutlineStart, kChains>;
 struct OutlineDraws {
   std::vector<OutlineDraw> draws;  ///< of two chains, one after the other
   double disagreement = 0.0;       ///< as OutlinePosterior has it
+
+  bool do_agree() const { return disagreement < 1.0; }
 };
 
 /// So many, of chains that go on for longer where they do not agree: those of two kinds, with a

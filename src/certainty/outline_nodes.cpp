@@ -1,5 +1,6 @@
 #include "certainty/outline_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpation {
@@ -11,6 +12,12 @@ void OutlineNodes::add(const std::vector<Vec2>& line, int part) {
                    .turns = enclosed_area(line) < 0.0 ? -1.0 : 1.0});
   place.insert(place.end(), line.begin(), line.end());
   loop_of.resize(place.size(), static_cast<int>(loops.size()) - 1);
+}
+
+int OutlineNodes::parts() const {
+  int count = 0;
+  for (const NodeLoop& loop : loops) count = std::max(count, loop.part + 1);
+  return count;
 }
 
 double enclosed_area(const std::vector<Vec2>& line) {

@@ -31,6 +31,7 @@ struct OutlineNodes {
     const NodeLoop& loop = loops[loop_of[node]];
     return node > loop.first ? node - 1 : loop.first + loop.count - 1;
   }
+  int parts() const;
   /// Adds a line. Its direction is found from its area.
   void add(const std::vector<Vec2>& line, int part);
 };

@@ -212,6 +212,24 @@ std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
   return left;
 }
 
+/// Every second of either's, as two chains'.
+OutlineDraws halves_of(const OutlineDraws& some, const OutlineDraws& others) {
+  OutlineDraws both;
+  for (const OutlineDraws* of : {&some, &others}) {
+    for (std::size_t i = 0; i < of->draws.size(); i += 2) both.draws.push_back(of->draws[i]);
+  }
+  return both;
+}
+
+/// A core that is not the same however one comes to it is not all that is drawn.
+OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const Field& mean,
+                        const OutlineOptions& options) {
+  const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
+  OutlineDraws drawn = draws_from(starts, options.draws, options.seed);
+  if (!starts.front().profile.core || drawn.do_agree()) return drawn;
+  return halves_of(draws_from({plain, plain}, options.draws, options.seed), drawn);
+}
+
 }  // namespace
 
 double OutlinePosterior::band_score(double probability) const {
@@ -231,12 +249,11 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
           "must be at least " + std::to_string(kFewestDraws));
   const Surface& surface = belief.prior().surface();
   if (!surface.has_chart()) return std::nullopt;
-  std::optional<OutlineStart> first = outline_start(belief, edge, options);
+  const Field mean = belief.at_vertices(Part::Detrended).mean;
+  std::optional<OutlineStart> first = outline_start(belief, mean, edge, options);
   if (!first) return std::nullopt;
-  const ChainStarts starts =
-      with_core_if_paid(pruned(*std::move(first), options.seed), surface,
-                        belief.at_vertices(Part::Detrended).mean, options.seed);
-  const auto [draws, disagreement] = draws_from(starts, options.draws, options.seed);
+  const auto [draws, disagreement] =
+      drawn_from(pruned(*std::move(first), options.seed), surface, mean, options);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
                              .spread = spread_of(depths),

@@ -149,9 +149,7 @@ void begin_with(const OutlineNodes& outline, OutlineStart& start) {
   start.outline = outline;
   start.prior.median.log_spacing.assign(outline.loops.size(), std::log(kSpacing_m));
   start.profile.log_spacing = start.prior.median.log_spacing;
-  int parts = 1;
-  for (const NodeLoop& loop : outline.loops) parts = std::max(parts, loop.part + 1);
-  start.prior.median.log_contrast.assign(static_cast<std::size_t>(parts), 0.0);
+  start.prior.median.log_contrast.assign(static_cast<std::size_t>(outline.parts()), 0.0);
   start.profile.log_contrast = start.prior.median.log_contrast;
   const std::vector<Vec2> largest = line_of(outline, outline.loops.front());
   start.prior.middle = Vec2::Zero();
@@ -164,8 +162,8 @@ bool moves_zero(const Misfit& change) {
          (change.kind == MisfitKind::Gain && change.session == 0);
 }
 
-std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief& edge,
-                                          const OutlineOptions& options) {
+std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mean,
+                                          const EdgeBelief& edge, const OutlineOptions& options) {
   const Surface& surface = belief.prior().surface();
   const EdgeProfile& profile = edge.profile();
   const double range = profile.high - profile.low;
@@ -176,7 +174,6 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief
   start.readings = readings_in_plane(belief, edge, range, options, start.prior.epochs);
   const OutlineNodes outline = outline_from(lines, start.readings.places);
   if (outline.loops.empty()) return std::nullopt;
-  const Field mean = belief.at_vertices(Part::Detrended).mean;
   const ShapePrior shape;
   OutlineProfile& median = start.prior.median;
   median = {.low = mean.minCoeff(),

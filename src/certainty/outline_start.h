@@ -24,7 +24,8 @@ bool moves_zero(const Misfit& change);
 void begin_with(const OutlineNodes& outline, OutlineStart& start);
 
 /// Nothing where there is no boundary. The readings are sorted, so that their order tells nothing.
-std::optional<OutlineStart> outline_start(const Belief& belief, const EdgeBelief& edge,
-                                          const OutlineOptions& options);
+/// `mean`: the belief's at the vertices, without a trend.
+std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mean,
+                                          const EdgeBelief& edge, const OutlineOptions& options);
 
 }  // namespace palpation

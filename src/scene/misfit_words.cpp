@@ -13,7 +13,6 @@ constexpr std::size_t kSessionsTold = 5;
 constexpr double kTiltOver_m = 0.01;
 constexpr double kSeen = 2.0;         // standard deviations, of a session's zero
 constexpr double kMoreScatter = 1.1;  // times, surely
-constexpr double kSurelyLower = 0.9;  // beside a core, over its own height
 constexpr double kChainsApart = 1.0;  // standard deviations: chance makes less of fifty draws
 
 std::string apart_words(double disagreement) {
@@ -193,15 +192,13 @@ std::string scatter_words(const DrawnNumber& inside) {
          " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there.";
 }
 
-/// Nothing unless what lies beside it is surely lower, or it is not known to be there.
 std::string core_words(const Surface& surface, const DrawnCore& core) {
   if (core.probability < 1.0)
-    return "The stiff region either rises all the way up to its middle, or has a core around " +
+    return "Whether the stiff region has a core around " +
            place_words(surface.position(core.where), 1) +
-           " in softer tumour, which reaches farther: the readings tell neither, and the band "
-           "holds "
-           "both. Touch farther out from its boundary.";
-  if (core.beside.most > kSurelyLower) return "";
+           " in softer tumour, which reaches farther, the readings do not tell: the band is of "
+           "both. "
+           "Touch farther out from its boundary.";
   return "The stiff region has a core of " + fixed(core.area_m2.mean * 1e6, 0) + " mm2 around " +
          place_words(surface.position(core.where), 1) + "; beside it tissue stands out " +
          fixed(core.beside.mean, 2) + " times as much (" + fixed(core.beside.least, 2) + " to " +
