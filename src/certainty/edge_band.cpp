@@ -41,7 +41,7 @@ double variance_of_sigmoid(double straight, double slope_per_m) {
 /// Offsets at nodes along the boundary: how sure they are, and how they go together. Where the
 /// boundary lies, the readings decide between the kinds of outline. How sure that is, they do not:
 /// corners are few, and what most of an outline is like says little of the rest, so for that both
-/// kinds count alike.
+/// kinds of one explanation count alike.
 void EdgeBelief::survey_boundary() {
   const BoundaryNodes nodes = boundary_nodes(surface_, depth_);
   const auto count = static_cast<Eigen::Index>(nodes.points.size());
@@ -50,9 +50,8 @@ void EdgeBelief::survey_boundary() {
     Eigen::VectorXd off(count);
     for (Eigen::Index node = 0; node < count; ++node)
       off[node] = surface_.interpolate(fit->depth, nodes.points[node]);
-    covariance += fit->depth_covariance(nodes.points) + off * off.transpose();
+    covariance += fit->alike * (fit->depth_covariance(nodes.points) + off * off.transpose());
   }
-  covariance /= static_cast<double>(fits_.size());
   const Eigen::VectorXd straight = covariance.diagonal().cwiseMax(0.0);
   const Eigen::VectorXd sd = straight.unaryExpr([&](double variance) {
     return std::sqrt(variance_of_sigmoid(variance, profile_.slope_per_m));

@@ -190,7 +190,8 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
             start.distance,
             plateaus,
             start.edge.log_evidence,
-            start.weight};
+            start.weight,
+            1.0 / static_cast<double>(starts.size())};
     fit.depth = fit.depth_at_vertices();
     made.fits_.push_back(std::make_shared<const Fit>(std::move(fit)));
   }
@@ -215,7 +216,9 @@ EdgeBelief EdgeBelief::either(EdgeBelief one, EdgeBelief other) {
   for (const EdgeBelief* belief : {&one, &other}) {
     for (const std::shared_ptr<const Fit>& fit : belief->fits_) {
       Fit weighed = *fit;
-      weighed.weight *= (belief == &one ? 1.0 : odds) / (1.0 + odds);
+      const double probability = (belief == &one ? 1.0 : odds) / (1.0 + odds);
+      weighed.weight *= probability;
+      weighed.alike *= probability;
       fits.push_back(std::make_shared<const Fit>(std::move(weighed)));
     }
   }
@@ -238,6 +241,7 @@ void EdgeBelief::mix() {
     profile_.low += weight * one.low;
     profile_.high += weight * one.high;
     log_slope += weight * std::log(one.slope_per_m);
+    profile_.shift_m += weight * one.shift_m;
     profile_.level.value += weight * one.level.value;
     noise_variance_ += weight * (fit->touch_variance - most_likely().touch_variance);
   }

@@ -23,7 +23,7 @@ EdgeProfile EdgeBelief::Fit::edge_profile() const {
   return {.low = low,
           .high = high,
           .slope_per_m = std::exp(edge.profile[2]),
-          .shift_m = 0.0,
+          .shift_m = shift_m(),
           .level = {low + fraction * (high - low), std::sqrt(std::max(variance, 0.0))}};
 }
 

@@ -18,7 +18,8 @@ struct EdgeBelief::Fit {
   Field distance_m;       ///< of each vertex from the first boundary, signed
   std::vector<int> part;  ///< that each vertex is nearest to
   double log_evidence;    ///< by the field's noise; that by its own is the edge's
-  double weight = 1.0;    ///< posterior probability of its kind of outline
+  double weight = 1.0;    ///< posterior probability of its kind of outline and its explanation
+  double alike = 1.0;     ///< of its explanation, over its kinds of outline
   Field depth{};          ///< at the vertices
 
   /// Of the boundary below the middle of the profile: logit(fraction) / slope.

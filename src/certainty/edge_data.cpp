@@ -19,6 +19,7 @@ namespace {
 constexpr double kPlateauError = 0.25;
 
 constexpr double kRounding = 1e-13;
+constexpr double kLeastVariance = 1e-300;  // has an inverse
 constexpr double kDeep_m = 0.008;
 /// Of what is merged far from the boundary: something else that stands out there is still seen.
 constexpr double kCell_m = 0.004;
@@ -48,6 +49,13 @@ std::vector<std::vector<std::size_t>> rows_together(const EdgeData& data, std::s
                             rows.size()});
     if (is_new) rows.emplace_back();
     rows[known->second].push_back(i);
+  }
+  // In whatever order they were made.
+  for (std::vector<std::size_t>& together : rows) {
+    std::ranges::sort(together, {}, [&](std::size_t i) {
+      return std::array{at[i].x(), at[i].y(), at[i].z(),
+                        data.reading[static_cast<Eigen::Index>(i)]};
+    });
   }
   return rows;
 }
@@ -121,8 +129,10 @@ EdgeData gathered_for_edge(const Belief& belief, std::vector<Palpation> one_by_o
 }
 
 double log_evidence_without_edge(const Belief& belief) {
-  const EdgeData data = gathered_for_edge(belief);
+  EdgeData data = gathered_for_edge(belief);
   const auto count = static_cast<double>(data.reading.size());
+  const double rounding = kRounding * data.reading.cwiseAbs().maxCoeff();
+  data.variance = data.variance.cwiseMax(std::max(rounding * rounding, kLeastVariance));
   const Eigen::VectorXd precision = data.variance.cwiseInverse();
   const double mean = precision.dot(data.reading) / precision.sum();
   const double squares = precision.dot((data.reading.array() - mean).square().matrix());

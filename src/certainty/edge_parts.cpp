@@ -12,8 +12,6 @@ namespace {
 
 /// That parts of one contrast are told apart.
 constexpr double kFalseAlarms = 0.02;
-/// What stands out by less of the strongest's contrast is said, but not cut out.
-constexpr double kLeastCut = 0.4;
 
 }  // namespace
 

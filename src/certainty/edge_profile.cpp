@@ -120,6 +120,10 @@ Fit most_probable(std::span<const EdgeReading> readings, const EdgePrior& prior,
 
 }  // namespace
 
+double share_at_depth(const EdgeProfile& profile, double depth_m) {
+  return sigmoid(profile.slope_per_m * (depth_m + profile.shift_m));
+}
+
 EdgeProfile fit_edge(std::span<const EdgeReading> readings, double fraction,
                      const EdgePrior& prior) {
   check(readings, fraction, prior);

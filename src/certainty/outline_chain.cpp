@@ -193,6 +193,13 @@ bool OutlineChain::crosses_another(const Step& step) const {
   return false;
 }
 
+/// Without a crossing a loop passes over another only as a whole, or over a whole one.
+bool OutlineChain::may_swallow(const Step& step) const {
+  return step.moves_all() || std::ranges::any_of(outline_.loops, [&](const NodeLoop& other) {
+           return other.first != step.loop.first && step.ever.contains(outline_.place[other.first]);
+         });
+}
+
 /// Neither which side it lies on nor what is nearest to it can have changed.
 bool OutlineChain::is_untouched(const Step& step, std::size_t reading) const {
   const Vec2 place = place_of(reading);
@@ -261,7 +268,7 @@ bool OutlineChain::feel(Step& step, Random& random) {
     step.ever.extend(piece.from).extend(piece.to);
   }
   step.ever.extend(step.now);
-  bool taken = !crosses_another(step) && (!step.moves_all() || is_nested_as_before());
+  bool taken = !crosses_another(step) && (!may_swallow(step) || is_nested_as_before());
   if (taken) {
     consider_none();
     for (std::size_t i = 0; i < felt_.size(); ++i) {

@@ -97,6 +97,7 @@ class OutlineChain {
   std::vector<int> held_in(const std::vector<Felt>& felt) const;
   bool may_hold(const std::vector<int>& held) const;
   bool is_nested_as_before() const;
+  bool may_swallow(const Step& step) const;
   Plateaus plateaus() const;
   /// Another thought: nothing is considered.
   void consider_none();

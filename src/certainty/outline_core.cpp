@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "certainty/own_parts.h"
+
 namespace palpation {
 namespace {
 
@@ -11,8 +13,10 @@ constexpr double kOfTumour = 0.5, kCoreLogSd = 0.7;
 
 }  // namespace
 
-double log_core_density(const OutlineCore& core, double tumour_radius_m) {
-  if (core.half_length_m < 0.0 || !(core.beside >= kLeastOfStrongest && core.beside <= 1.0))
+double least_beside(double fraction) { return kLeastCut * fraction / 0.5; }
+
+double log_core_density(const OutlineCore& core, double tumour_radius_m, double fraction) {
+  if (core.half_length_m < 0.0 || !(core.beside >= least_beside(fraction) && core.beside <= 1.0))
     return -std::numeric_limits<double>::infinity();
   const double median = kOfTumour * tumour_radius_m,
                z = (core.log_radius - std::log(median)) / kCoreLogSd;

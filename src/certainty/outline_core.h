@@ -13,8 +13,9 @@
 
 namespace palpation {
 
-/// What stands out by less of the strongest's contrast is said, but not cut out.
-inline constexpr double kLeastOfStrongest = 0.4;
+/// What stands out beside a core by less of its contrast is said, but not cut out: where the
+/// boundary is half way up, as of parts (own_parts.h), and as much more as it lies higher.
+double least_beside(double fraction);
 
 struct OutlineCore {
   int part = 0;  ///< of the outline, which it belongs to: no other knows of it
@@ -29,8 +30,8 @@ struct OutlineCore {
   }
 };
 
-/// Of one's form and share in a tumour as wide as that; -infinity where it may not be. Its middle
-/// is as likely anywhere.
-double log_core_density(const OutlineCore& core, double tumour_radius_m);
+/// Of one's form and share in a tumour as wide as that, whose boundary is at that fraction of the
+/// way up; -infinity where it may not be. Its middle is as likely anywhere.
+double log_core_density(const OutlineCore& core, double tumour_radius_m, double fraction);
 
 }  // namespace palpation

@@ -173,6 +173,7 @@ ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface,
   std::optional<OutlineStart> cored;
   double most = 0.0;
   for (const double beside : kBeside) {
+    if (beside < least_beside(plain.prior.fraction)) continue;
     std::optional<OutlineStart> start = start_with(plain, surface, mean, beside);
     if (!start) continue;
     const double evidence = evidence_of(*start);

@@ -155,7 +155,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() / kMoveSd_m);
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
-  const double of_core = profile.core ? log_core_density(*profile.core, prior.radius_m) : 0.0;
+  const double of_core =
+      profile.core ? log_core_density(*profile.core, prior.radius_m, prior.fraction) : 0.0;
   return std::log(Kinds(profile).both()) - sum + of_core;
 }
 

@@ -13,7 +13,7 @@ namespace palpation {
 struct NodeLoop {
   int first = 0;
   int count = 0;
-  int part = 0;      ///< of the inside, that it bounds; 0 is the largest
+  int part = 0;      ///< of the inside, that it bounds; 0 is the one that may have a core
   double turns = 1;  ///< 1 where it runs counter-clockwise, else -1
 };
 
@@ -65,7 +65,7 @@ std::vector<Vec2> evenly_spaced(const std::vector<Vec2>& line, int count);
 bool is_simple(const OutlineNodes& outline);
 
 /// Which loop lies in which, of all pairs: what no step without crossings changes but of whole
-/// loops.
+/// loops, or over one.
 std::vector<bool> nesting_of(const OutlineNodes& outline);
 
 /// Where a place lies: the least distance from any piece, and the piece's first node.

@@ -86,7 +86,7 @@ DrawnBoundaries boundaries_at(const Surface& surface, const std::vector<OutlineD
   return all;
 }
 
-/// Median of the depths at each vertex.
+/// Median of the depths at each vertex: inside where more than half of them are.
 Field median_depth(const Eigen::MatrixXf& depths) {
   const Eigen::Index vertices = depths.cols(), draws = depths.rows();
   Field median(vertices);
@@ -94,8 +94,9 @@ Field median_depth(const Eigen::MatrixXf& depths) {
     Eigen::VectorXf here(draws);
     for (int vertex = first; vertex < last; ++vertex) {
       here = depths.col(vertex);
-      std::nth_element(here.begin(), here.begin() + draws / 2, here.end());
-      median[vertex] = here[draws / 2];
+      const auto middle = here.begin() + (draws - 1) / 2;
+      std::nth_element(here.begin(), middle, here.end());
+      median[vertex] = *middle;
     }
   });
   return median;
@@ -173,14 +174,9 @@ void add_areas(const Surface& surface, const Eigen::MatrixXf& depths, OutlinePos
 }
 
 Level mean_and_sd(const std::vector<double>& numbers) {
-  double sum = 0.0, square = 0.0;
-  const auto count = static_cast<double>(numbers.size());
-  for (const double number : numbers) {
-    sum += number;
-    square += number * number;
-  }
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(square / count - mean * mean, 0.0))};
+  const Eigen::Map<const Eigen::ArrayXd> all(numbers.data(), std::ssize(numbers));
+  const double mean = all.mean();
+  return {mean, std::sqrt((all - mean).square().mean())};
 }
 
 double mean_noise(const std::vector<OutlineDraw>& draws) {
@@ -212,12 +208,13 @@ std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
   return left;
 }
 
-/// Every second of either's, as two chains'.
+/// Every second of either's, as two chains'. Chains agree as far as `some` do.
 OutlineDraws halves_of(const OutlineDraws& some, const OutlineDraws& others) {
   OutlineDraws both;
   for (const OutlineDraws* of : {&some, &others}) {
     for (std::size_t i = 0; i < of->draws.size(); i += 2) both.draws.push_back(of->draws[i]);
   }
+  both.disagreement = some.disagreement;
   return both;
 }
 

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <span>
 
-#include "base/sigmoid.h"
 #include "certainty/edge_data.h"
 #include "certainty/outline_lines.h"
 #include "certainty/slow_waves.h"
@@ -87,10 +86,10 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   const Layout layout(belief.prior());
   EdgeData data = options.one_by_one.empty() ? gathered_for_edge(belief)
                                              : gathered_for_edge(belief, options.one_by_one);
+  data.variance = data.variance.cwiseMax(kModelError * kModelError * range * range);
   Eigen::VectorXd of_vertices;
   if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
     data = with_plateaus_merged(layout, data);
-  const double least_variance = kModelError * kModelError * range * range;
   std::vector<std::size_t> order(data.places.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<Vec2> places;
@@ -108,9 +107,9 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
     in_order.push_back(data.places[i]);
     const auto row = static_cast<Eigen::Index>(i);
     readings.places.push_back(places[i]);
-    shares.push_back(sigmoid(edge.profile().slope_per_m * data.depth_m[row]));
+    shares.push_back(share_at_depth(edge.profile(), data.depth_m[row]));
     readings.reading.push_back(data.reading[row]);
-    readings.variance.push_back(std::max(data.variance[row], least_variance));
+    readings.variance.push_back(data.variance[row]);
     double batches = 0.0;
     for (const Made& one : data.made[i]) batches += one.batch;
     when.push_back(batches / static_cast<double>(data.made[i].size()));

@@ -19,9 +19,9 @@ struct OutlineDraw {
   OutlineNodes outline;
   OutlineProfile profile;
   ReadingLaw law;  ///< of the profile
-  /// A tumour has a plateau, and its boundary, the outline, at the fraction of that; or, as likely,
-  /// none: then it is as high as it is where it is deepest, and its boundary at the fraction of
-  /// that height.
+  /// A tumour has a plateau, and its boundary, the outline, at the fraction of that; or, as likely
+  /// as its bends are there (plateau_probability), none: then it is as high as it is where it is
+  /// deepest, and its boundary at the fraction of that height.
   bool has_plateau = true;
   std::vector<Stadium> cuts;
   Eigen::VectorXd steps;      ///< of the zero, of the changes that move it

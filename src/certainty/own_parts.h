@@ -10,6 +10,9 @@
 
 namespace palpation {
 
+/// What stands out by less of the strongest's contrast is said, but not cut out.
+inline constexpr double kLeastCut = 0.4;
+
 struct OwnPart {
   std::vector<int> vertices;  ///< inside, rising
   int summit = 0;             ///< the highest of them

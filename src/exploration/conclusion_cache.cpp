@@ -29,6 +29,7 @@ bool same_options(const BeliefOptions& a, const BeliefOptions& b) {
 bool same_reading(const Palpation& a, const Palpation& b) {
   return a.where.face == b.where.face && a.where.barycentric == b.where.barycentric &&
          a.reading == b.reading && same(a.noise_variance, b.noise_variance) && a.batch == b.batch &&
+         a.session == b.session && a.count == b.count && a.kind == b.kind &&
          a.set_aside == b.set_aside;
 }
 

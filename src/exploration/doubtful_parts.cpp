@@ -38,6 +38,8 @@ void doubt_weaker_parts(Conclusion& conclusion) {
     conclusion.certainty = with_doubtful_part(std::move(*conclusion.certainty), conclusion.belief,
                                               part, ShapePrior{}.correction_sd_m);
     conclusion.evidence.doubtful.push_back({*misfit.where, area_m2});
+    inside.insert(inside.end(), part.begin(), part.end());
+    std::ranges::sort(inside);
   }
 }
 

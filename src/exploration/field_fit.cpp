@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "belief/sites.h"
 #include "palpation/base/error.h"
@@ -94,9 +95,10 @@ Belief fixed_field(const Surface& surface, const FieldModel& field,
 }
 
 double evidence_of_fixed(const Belief& belief, std::span<const Palpation> palpations) {
-  std::vector<Palpation> some;
-  const std::size_t step = palpations.size() / kMostForEvidence + 1;
-  for (std::size_t i = 0; i < palpations.size(); i += step) some.push_back(palpations[i]);
+  std::vector<Palpation> all, some;
+  std::ranges::copy_if(palpations, std::back_inserter(all), counts);
+  const std::size_t step = (all.size() + kMostForEvidence - 1) / kMostForEvidence;
+  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
   const Prior prior = belief.prior().with(belief.prior().kernel(), {}, belief.prior().slope());
   if (gather_sites(prior, some).size() < 2) return 0.0;
   const Hyperparameters given{prior.kernel().length_m, belief.signal_sd(),

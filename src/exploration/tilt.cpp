@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "base/sigmoid.h"
 #include "exploration/parallel_planes.h"
 #include "readings/readings.h"
 #include "readings/robust.h"
@@ -109,9 +108,8 @@ std::optional<Misfit> tilt_left(const Surface& surface, const EdgeBelief& edge,
   Eigen::Index row = 0;
   for (const Palpation& one : palpations) {
     if (!counts(one)) continue;
-    const double depth_m = surface.interpolate(edge.depth(), one.where) + profile.shift_m;
-    left[row++] -=
-        profile.low + (profile.high - profile.low) * sigmoid(profile.slope_per_m * depth_m);
+    const double share = share_at_depth(profile, surface.interpolate(edge.depth(), one.where));
+    left[row++] -= profile.low + share * (profile.high - profile.low);
   }
   const Plane plane = plane_through(places, left);
   if (!(plane.gain > tilt_price(left.size()))) return std::nullopt;

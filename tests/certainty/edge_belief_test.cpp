@@ -76,6 +76,21 @@ TEST(EdgeBelief, KnowsHowWrongItIs) {
   EXPECT_LT(wrong / expected, 1.5);
 }
 
+TEST(EdgeBelief, KnowsWhatIsFeltAtABoundaryThatLiesLowerThanHalfWayUp) {
+  const Surface surface = tissue();
+  Random random(2);
+  const Belief belief = belief_of_disk(surface, 0.02, 100, random);
+  const EdgeBelief edge =
+      EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.3).value();
+  EXPECT_NEAR(share_at_depth(edge.profile(), 0.0), 0.3, 1e-9);
+  for (const Palpation& one : belief.palpations()) {
+    const double share =
+        share_at_depth(edge.profile(), surface.interpolate(edge.depth(), one.where));
+    EXPECT_NEAR(edge.profile().low + share * (edge.profile().high - edge.profile().low),
+                one.reading, 0.2);
+  }
+}
+
 // What a field learns as noise where it cannot follow an edge: five times what there is.
 TEST(EdgeBelief, TakesBackANoiseThatWasLearnedAndIsNotThere) {
   const Surface surface = tissue();

@@ -117,7 +117,6 @@ TEST(ReadingLaw, HasEachShareAtOneDepth) {
   }
 }
 
-// Shares of normal densities, by hand: at no bend 2/3 / .25^2 against 1/3 / .5^2.
 TEST(ReadingLaw, IsSteeperTowardsASide) {
   OutlinePrior prior = prior_of(rectangle(8 * kMm, 8 * kMm, 32));
   prior.middle = {0.1, 0.2};
@@ -133,6 +132,7 @@ TEST(ReadingLaw, IsSteeperTowardsASide) {
   EXPECT_NEAR(depth_where(law, 0.7, 2.0), 0.5 * depth_where(law, 0.7), 1e-15);
 }
 
+// Shares of normal densities, by hand: at no bend 2/3 / .25^2 against 1/3 / .5^2.
 TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheLessItIsBent) {
   OutlineProfile profile;
   EXPECT_NEAR(plateau_probability(profile), 8.0 / 9.0, 1e-12);

@@ -43,12 +43,15 @@ struct EdgeProfile {
   Level level;           ///< with its standard deviation, the misfit of the profile included
 };
 
+/// What share of the contrast is felt at a depth as it is believed.
+double share_at_depth(const EdgeProfile& profile, double depth_m);
+
 /// The most probable profile (Levenberg and Marquardt), and the level's standard deviation from the
 /// curvature there; where readings scatter around the profile more than their variances say, that
 /// much greater. At least one reading; without readings on one side that plateau is known from the
 /// prior alone, and the level's standard deviation tells. Throws InvalidInput for values that are
 /// not finite, variances and prior widths that are not positive, and a fraction outside (0, 1);
-/// NumericalError if no step improves on the start.
+/// NumericalError if the profile's parameters are not finite.
 EdgeProfile fit_edge(std::span<const EdgeReading> readings, double fraction,
                      const EdgePrior& prior);
 

@@ -63,7 +63,7 @@ struct OutlinePosterior {
                  ///< is positive where a place is inside in more than half of them
   Field spread;  ///< standard deviation of the draws' depths at the vertices, metres
   std::vector<double> farthest;  ///< of each draw, rising: how many `spread` its outline reaches
-                                 ///< from the boundary { depth = 0 } where it is farthest from it
+                                 ///< from the other chain's boundary where it is farthest from it
   ExpectedError expected;        ///< of the region { depth >= 0 }: the mean over the draws
   DrawnNumber area_m2;
   std::vector<ChangeLeft> left;  ///< of OutlineOptions::changes, those of zero and gain

@@ -1,0 +1,69 @@
+#include "certainty/outline_start.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "certainty/edge_data.h"
+#include "palpation/base/random.h"
+#include "palpation/geometry/make_plane.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kRadius_m = 0.006, kNoise = 0.1;
+
+Surface tissue() {
+  Random random(0);
+  return Surface(make_plane({.size_m = {0.03, 0.03}, .columns = 31, .rows = 31}, random));
+}
+
+/// More places than are all known one by one, of a disk of 9 in 7.
+std::vector<Palpation> felt(const Surface& surface, double noise) {
+  Random random(3);
+  std::vector<Palpation> palpations;
+  for (int vertex = 0; vertex < surface.vertex_count(); vertex += 2) {
+    const double depth = kRadius_m - (surface.vertex(vertex) - Vec3(0.015, 0.015, 0.0)).norm();
+    palpations.push_back(
+        {.where = surface.at_vertex(vertex),
+         .reading = 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * depth)) + noise * random.normal()});
+  }
+  return palpations;
+}
+
+OutlineReadings readings_of(const Surface& surface, const std::vector<Palpation>& palpations,
+                            double noise_sd) {
+  const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
+  const Belief belief = Belief(prior, {.noise_sd = noise_sd}).condition_on(palpations);
+  const Marginals marginals = belief.at_vertices();
+  constexpr double kFirstLevels[] = {8.0};
+  const auto edge = EdgeBelief::around(belief, marginals, kFirstLevels, 0.5);
+  return outline_start(belief, marginals.mean, edge.value(), {}).value().readings;
+}
+
+TEST(OutlineStart, KnowsManyReadingsToTheBitInWhateverOrderTheyWereMade) {
+  const Surface surface = tissue();
+  std::vector<Palpation> palpations = felt(surface, kNoise);
+  const OutlineReadings readings = readings_of(surface, palpations, kNoise);
+  ASSERT_LT(readings.places.size(), palpations.size());
+  std::ranges::reverse(palpations);
+  const OutlineReadings reversed = readings_of(surface, palpations, kNoise);
+  EXPECT_EQ(readings.places, reversed.places);
+  EXPECT_EQ(readings.reading, reversed.reading);
+  EXPECT_EQ(readings.variance, reversed.variance);
+}
+
+TEST(OutlineStart, TakesReadingsWithoutNoiseAmongMany) {
+  const Surface surface = tissue();
+  std::vector<Palpation> palpations = felt(surface, kNoise);
+  for (std::size_t i = 0; i < palpations.size(); i += 10) palpations[i].noise_variance = 0.0;
+  const OutlineReadings readings = readings_of(surface, palpations, kNoise);
+  ASSERT_LT(readings.places.size(), palpations.size());
+  EXPECT_TRUE(std::ranges::all_of(readings.reading, [](double one) { return std::isfinite(one); }));
+  EXPECT_GT(std::ranges::min(readings.variance), 0.0);
+}
+
+}  // namespace
+}  // namespace palpation
