@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "certainty/outline_model.h"
+#include "exploration/comparable_evidence.h"
 #include "exploration/taken_back.h"
 #include "palpation/base/parallel.h"
 
@@ -57,25 +57,8 @@ void set_aside_alike(std::vector<Readings>& versions) {
   }
 }
 
-/// No edge is the least that can be.
-double log_evidence_or_least(const std::optional<EdgeBelief>& edge) {
-  return edge ? edge->log_evidence() : std::numeric_limits<double>::lowest();
-}
-
-/// By an edge, of the readings that count in all these versions of the same.
-std::vector<double> log_evidences(const Surface& surface, const Model& model,
-                                  std::vector<Readings> versions) {
-  set_aside_alike(versions);
-  std::vector<double> evidences;
-  ConclusionCache apart;
-  for (Readings& version : versions)
-    evidences.push_back(log_evidence_or_least(
-        known_by(surface, model, believe(surface, model, std::move(version), apart))
-            .boundary.edge));
-  return evidences;
-}
-
-/// The same by edges about the boundary that is known, in the field that is.
+/// By edges about the boundary that is known, in the field that is, of the readings that count in
+/// all these versions of the same.
 std::vector<double> log_evidences_around(const Known& known, const Model& model,
                                          std::vector<Readings> versions) {
   set_aside_alike(versions);
@@ -83,37 +66,39 @@ std::vector<double> log_evidences_around(const Known& known, const Model& model,
   const Belief blank(belief.prior(), belief.options());
   std::vector<double> evidences(versions.size());
   for_ranges(static_cast<int>(versions.size()), 1, [&](int first, int last) {
-    for (int i = first; i < last; ++i)
-      evidences[i] =
-          log_evidence_or_least(edge_around(model, blank.condition_on(versions[i]), known.component,
-                                            {known.boundary.edge->level().value}));
+    for (int i = first; i < last; ++i) {
+      const Belief moved = blank.condition_on(versions[i]);
+      evidences[i] = comparable_evidence(
+          edge_around(model, moved, known.component, {known.boundary.edge->level().value}), moved,
+          belief.noise_variance());
+    }
   });
   return evidences;
 }
 
-/// Of the density of readings over that of the same without a change: without a gain they are so
-/// much denser.
-double log_scale_of(const Misfit& change, std::span<const Palpation> readings) {
-  if (change.kind != MisfitKind::Gain) return 0.0;
-  std::ptrdiff_t since = 0;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const Palpation& one = readings[i];
-    since += counts(one) && is_since(change, {one.batch, i, one.session});
-  }
-  return -std::log1p(change.amount) * static_cast<double>(since);
-}
-
-/// By how much more probable the readings are by an edge without each of these.
-std::vector<double> log_gains(std::span<const Misfit> changes, const Surface& surface,
+/// By how much more probable the readings are by an edge without each of these, of those readings
+/// that count with and without them.
+std::vector<double> log_gains(std::span<const Misfit> changes, const Belief& belief,
                               const Model& model, std::span<const Palpation> readings) {
+  const Surface& surface = belief.prior().surface();
   std::vector<Readings> versions = {{readings.begin(), readings.end()}};
   for (const Misfit& change : changes)
     versions.push_back(with_changes_taken_back(surface, versions.front(), {&change, 1}));
-  std::vector<double> gains = log_evidences(surface, model, std::move(versions));
-  const double as_they_are = gains.front();
-  gains.erase(gains.begin());
-  for (std::size_t i = 0; i < gains.size(); ++i)
-    gains[i] += log_scale_of(changes[i], readings) - as_they_are;
+  set_aside_alike(versions);
+  ConclusionCache apart;
+  std::vector<double> gains;
+  double as_they_are = 0.0;
+  for (std::size_t i = 0; i < versions.size(); ++i) {
+    const Known known =
+        known_by(surface, model, believe(surface, model, std::move(versions[i]), apart));
+    const double evidence =
+        comparable_evidence(known.boundary.edge, known.believed.belief, belief.noise_variance());
+    if (i == 0) {
+      as_they_are = evidence;
+    } else {
+      gains.push_back(evidence + log_scale_of(changes[i - 1], known.believed.belief) - as_they_are);
+    }
+  }
   return gains;
 }
 
@@ -171,7 +156,7 @@ std::optional<Misfit> change_to_take_back(const Model& model, const Known& known
   std::vector<Misfit> found = all_misfits(known.boundary.edge, belief, readings);
   std::erase_if(found, [](const Misfit& misfit) { return !is_change(misfit); });
   if (found.empty()) return std::nullopt;
-  const std::vector<double> gains = log_gains(found, belief.prior().surface(), model, readings);
+  const std::vector<double> gains = log_gains(found, belief, model, readings);
   const auto best = std::ranges::max_element(gains);
   const Misfit& likeliest = found[best - gains.begin()];
   if (likeliest.kind == MisfitKind::Zero || !(*best > surprising())) return std::nullopt;
@@ -218,8 +203,7 @@ std::vector<Misfit> misfits_of(const Model& model, const std::optional<EdgeBelie
   std::vector<Misfit> found = all_misfits(edge, belief, readings);
   const auto move = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
   if (move != found.end()) {
-    const std::vector<double> gain =
-        log_gains({&*move, 1}, belief.prior().surface(), model, readings);
+    const std::vector<double> gain = log_gains({&*move, 1}, belief, model, readings);
     if (!(gain.front() > surprising())) found.erase(move);
   }
   if (const auto strongest = std::ranges::find_if(found, is_change); strongest != found.end())

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "exploration/background_search.h"
+#include "exploration/comparable_evidence.h"
 #include "exploration/taken_back.h"
 #include "exploration/tilt.h"
 
@@ -22,8 +23,9 @@ struct Tilted {
 
 class TiltSearch {
  public:
-  TiltSearch(const Surface& surface, const std::vector<Palpation>& felt, const KnownOf& known_of)
-      : surface_(surface), felt_(felt), known_of_(known_of) {}
+  TiltSearch(const Surface& surface, const std::vector<Palpation>& felt, const KnownOf& known_of,
+             double noise_variance)
+      : surface_(surface), felt_(felt), known_of_(known_of), noise_variance_(noise_variance) {}
 
   /// Planes through all readings are the first to ask.
   void ask_planes(std::span<const Palpation> readings) {
@@ -41,7 +43,8 @@ class TiltSearch {
  private:
   Tilted tried(const Misfit& tilt) const {
     Known known = known_of_(with_changes_taken_back(surface_, felt_, {&tilt, 1}));
-    const double log_evidence = log_evidence_or_drop(known);
+    const double log_evidence =
+        comparable(log_evidence_or_drop(known), known.believed.belief, noise_variance_);
     return {tilt, std::move(known), log_evidence};
   }
 
@@ -62,6 +65,7 @@ class TiltSearch {
   const Surface& surface_;
   const std::vector<Palpation>& felt_;
   const KnownOf& known_of_;
+  double noise_variance_;  // of readings as they are
   std::optional<Tilted> best_;
 };
 
@@ -72,16 +76,17 @@ std::optional<WithoutBackground> without_tilt(const Surface& surface,
                                               const KnownOf& known_of) {
   const std::vector<Palpation> readings =
       with_changes_taken_back(surface, felt, flat.believed.evidence.taken_back);
-  TiltSearch search(surface, felt, known_of);
+  const Belief& belief = flat.believed.belief;
+  TiltSearch search(surface, felt, known_of, belief.noise_variance());
   search.ask_planes(readings);
   if (flat.boundary.edge) search.ask_edge(*flat.boundary.edge, readings);
   std::optional<Tilted>& tilted = search.best();
   if (!tilted) return std::nullopt;
-  const double freedom = std::log(static_cast<double>(flat.believed.belief.site_count()));
+  const double freedom = std::log(static_cast<double>(belief.site_count())),
+               level = comparable(log_evidence_of(flat), belief, belief.noise_variance());
   std::vector<Misfit>& changes = tilted->known.believed.evidence.taken_back;
   changes.insert(changes.begin(), std::move(tilted->tilt));
-  return WithoutBackground{std::move(tilted->known),
-                           tilted->log_evidence - freedom - log_evidence_of(flat)};
+  return WithoutBackground{std::move(tilted->known), tilted->log_evidence - freedom - level};
 }
 
 }  // namespace palpation

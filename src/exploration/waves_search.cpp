@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/sigmoid.h"
 #include "exploration/background_search.h"
+#include "exploration/comparable_evidence.h"
 #include "exploration/taken_back.h"
 #include "exploration/waves.h"
 
@@ -59,8 +59,7 @@ double left_by(const Known& known) {
   int count = 0;
   for (const Palpation& one : known.believed.palpations) {
     if (!counts(one)) continue;
-    const double share =
-                     sigmoid(profile.slope_per_m * surface.interpolate(edge.depth(), one.where)),
+    const double share = share_at_depth(profile, surface.interpolate(edge.depth(), one.where)),
                  left = one.reading - profile.low - share * (profile.high - profile.low);
     square += left * left;
     ++count;
@@ -153,8 +152,11 @@ std::optional<WithoutBackground> without_waves(const Surface& surface,
   if (!waved) return std::nullopt;
   std::vector<Misfit>& changes = waved->known.believed.evidence.taken_back;
   changes.insert(changes.begin(), std::move(waved->waves));
-  return WithoutBackground{std::move(waved->known),
-                           waved->edge.log_evidence - log_evidence_in_waves(surface, simpler)};
+  const double noise = belief.noise_variance();
+  const double gain =
+      comparable(waved->edge.log_evidence, waved->known.believed.belief, noise) -
+      comparable(log_evidence_in_waves(surface, simpler), simpler.believed.belief, noise);
+  return WithoutBackground{std::move(waved->known), gain};
 }
 
 }  // namespace palpation
