@@ -37,23 +37,43 @@ struct Explained {
   Eigen::VectorXd depth;     ///< of each row
   Eigen::VectorXd share;     ///< of the contrast, at that depth
   Eigen::VectorXd residual;  ///< r
+
+  Explained(const Surface& on, const EdgeFit& edge, const EdgeData& readings,
+            const EdgeProfile& profile, double weight)
+      : surface(on),
+        fit(edge),
+        data(readings),
+        log_weight(std::log(weight)),
+        low(profile.low),
+        contrast(profile.high - profile.low),
+        depth(readings.depth_m + edge.correction_m),
+        share(depth.unaryExpr([&](double at) { return profile_share(edge.profile, at); })),
+        residual(edge.covariance.matrixL() *
+                 Eigen::VectorXd(edge.covariance.matrixU() * edge.pull)) {}
 };
+
+/// A rival with its evidence and amount. `column`: h.
+Misfit weighed(const Explained& rows, const Eigen::VectorXd& column, Misfit rival) {
+  const double before = rows.residual.dot(rows.fit.pull), b = column.dot(rows.fit.pull);
+  const double a = kPart * kPart * column.dot(rows.fit.covariance.solve(column));
+  const double after = before - kPart * kPart * b * b / (1.0 + a);
+  rival.evidence = after > 0.0
+                       ? rows.log_weight +
+                             0.5 * static_cast<double>(column.size()) * std::log(before / after) -
+                             0.5 * std::log1p(a)
+                       : -std::numeric_limits<double>::infinity();
+  rival.amount *= kPart * kPart * b / (1.0 + a);
+  return rival;
+}
 
 /// Rivals of one kind, in turn.
 class Kind {
  public:
-  /// `column`: h.
   void weigh(const Explained& rows, const Eigen::VectorXd& column, Misfit rival) {
-    const double before = rows.residual.dot(rows.fit.pull), b = column.dot(rows.fit.pull);
-    const double a = kPart * kPart * column.dot(rows.fit.covariance.solve(column));
-    const double after = before - kPart * kPart * b * b / (1.0 + a);
-    if (!(after > 0.0)) return factors_.add(-std::numeric_limits<double>::infinity());
-    rival.evidence = rows.log_weight +
-                     0.5 * static_cast<double>(column.size()) * std::log(before / after) -
-                     0.5 * std::log1p(a);
-    rival.amount *= kPart * kPart * b / (1.0 + a);
+    rival = weighed(rows, column, std::move(rival));
     factors_.add(rival.evidence);
-    if (!best_ || rival.evidence > best_->evidence) best_ = rival;
+    if (std::isfinite(rival.evidence) && (!best_ || rival.evidence > best_->evidence))
+      best_ = rival;
   }
 
   /// The strongest, with the kind's evidence; nothing without rivals.
@@ -158,8 +178,9 @@ void weigh_changes(const Explained& rows, const Field& depth, Kind& zero, Kind& 
   }
 }
 
-/// A hill around each place outside.
-void weigh_parts(const Explained& rows, const Layout& layout, Kind& weaker) {
+/// A hill around each place outside: calls `use` with its column and the rival.
+template <typename Use>
+void each_hill(const Explained& rows, const Layout& layout, Use use) {
   const auto count = static_cast<Eigen::Index>(rows.data.places.size());
   std::vector<Vec3> at;
   for (const SurfacePoint& place : rows.data.places) at.push_back(layout.at(place));
@@ -170,10 +191,9 @@ void weigh_parts(const Explained& rows, const Layout& layout, Kind& weaker) {
       for (Eigen::Index i = 0; i < count; ++i)
         hill[i] = rows.contrast *
                   std::exp(-0.5 * (at[i] - at[centre]).squaredNorm() / (radius_m * radius_m));
-      weaker.weigh(rows, hill,
-                   {.kind = MisfitKind::WeakerPart,
-                    .amount = rows.contrast,
-                    .where = rows.data.places[centre]});
+      use(hill, Misfit{.kind = MisfitKind::WeakerPart,
+                       .amount = rows.contrast,
+                       .where = rows.data.places[centre]});
     }
   }
 }
@@ -196,20 +216,12 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   const double least = surprising(false_alarms);
   Kind zero, gain, moved, weaker;
   for (const auto& one : fits_) {
-    const EdgeFit& fit = one->edge;
-    Explained rows{surface_,
-                   fit,
-                   one->data,
-                   std::log(one->weight / most_likely().weight),
-                   profile_.low,
-                   profile_.high - profile_.low,
-                   one->data.depth_m + fit.correction_m,
-                   {},
-                   fit.covariance.matrixL() * Eigen::VectorXd(fit.covariance.matrixU() * fit.pull)};
-    rows.share =
-        rows.depth.unaryExpr([&](double depth) { return profile_share(fit.profile, depth); });
+    const Explained rows(surface_, one->edge, one->data, profile_,
+                         one->weight / most_likely().weight);
     weigh_changes(rows, one->depth, zero, gain, moved);
-    weigh_parts(rows, Layout(one->correction), weaker);
+    each_hill(rows, Layout(one->correction), [&](const Eigen::VectorXd& hill, const Misfit& rival) {
+      weaker.weigh(rows, hill, rival);
+    });
   }
   std::vector<Misfit> found;
   for (const Kind* kind : {&zero, &gain, &moved, &weaker}) {
@@ -225,6 +237,17 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
     found.insert(found.end(), weaker_.begin(), weaker_.end());
   std::ranges::sort(found, std::greater{}, &Misfit::evidence);
   return found;
+}
+
+std::optional<Misfit> EdgeBelief::stands_out_most() const {
+  const Fit& fit = most_likely();
+  const Explained rows(surface_, fit.edge, fit.data, profile_, 1.0);
+  std::optional<Misfit> most;
+  each_hill(rows, Layout(fit.correction), [&](const Eigen::VectorXd& hill, const Misfit& rival) {
+    const Misfit one = weighed(rows, hill, rival);
+    if (one.amount > 0.0 && one.evidence > (most ? most->evidence : 0.0)) most = one;
+  });
+  return most;
 }
 
 }  // namespace palpation

@@ -32,6 +32,7 @@ struct Batching {
   const Plan& plan;
   std::span<const int> candidates;
   BatchOptions options;
+  int left;  ///< batches of the plan, this one included
 
   const Surface& surface() const { return conclusion.belief.prior().surface(); }
   const FieldModel& field() const { return conclusion.model.field; }
@@ -105,22 +106,20 @@ double found_diameter_m(const Conclusion& conclusion) {
 
 /// Where a tumour of the goal's size could still hide, or without a goal another one like that
 /// which was found: as many stops as that takes, or the plan has left.
-std::vector<int> lacking_stops(const Batching& batch, int batches) {
-  const int left = std::max(batch.plan.batches - std::max(batches - 1, 0), 1);
+std::vector<int> lacking_stops(const Batching& batch) {
   Aim aim = batch.plan.aim;
   if (!aim.has_goal()) aim.undetected_diameter_m = found_diameter_m(batch.conclusion);
   return stops_to_goal(
       batch.conclusion, aim, batch.candidates,
-      static_cast<std::size_t>(left) * static_cast<std::size_t>(batch.options.size));
+      static_cast<std::size_t>(batch.left) * static_cast<std::size_t>(batch.options.size));
 }
 
 /// How many of these this batch must take, so that those to come take no more: none without a goal,
 /// for which the edge gives up nothing.
-int due(const Batching& batch, const std::vector<int>& lacking, int batches) {
+int due(const Batching& batch, const std::vector<int>& lacking) {
   if (!batch.plan.aim.has_goal()) return 0;
-  const int left = std::max(batch.plan.batches - std::max(batches - 1, 0), 1);
   const int lack = static_cast<int>(lacking.size());
-  return std::min((lack + left - 1) / left, batch.options.size);
+  return std::min((lack + batch.left - 1) / batch.left, batch.options.size);
 }
 
 /// Adds what of `more` keeps its distance, as far as the batch has room.
@@ -132,24 +131,35 @@ void add_apart(const Batching& batch, std::span<const int> more, std::vector<int
   }
 }
 
-/// Where readings stand out that the boundary does not explain: near each, what may yet be highest.
-void add_unexplained(const Batching& batch, std::vector<int>& stops) {
+/// Near something that stands out beside the boundary, what may yet be highest.
+void add_summit(const Batching& batch, const Misfit& standing_out, std::vector<int>& stops) {
   const Marginals& marginals = batch.conclusion.marginals;
   const auto may_reach = [&](int vertex) {
     return marginals.mean[vertex] + kMayReach * std::sqrt(marginals.variance[vertex]);
   };
+  const Surface& surface = batch.surface();
+  const int centre = surface.nearest_vertex(surface.position(*standing_out.where));
+  const std::vector<int> near = vertices_near(surface, centre, kSummit_m);
+  std::vector<int> outside;
+  std::ranges::set_intersection(batch.candidates, near, std::back_inserter(outside));
+  std::erase_if(outside, [&](int vertex) { return batch.conclusion.edge->depth()[vertex] >= 0.0; });
+  if (outside.empty()) return;
+  add_apart(batch, std::vector{*std::ranges::max_element(outside, {}, may_reach)}, stops);
+}
+
+/// Where readings stand out that the boundary does not explain: so many stops at most.
+void add_unexplained(const Batching& batch, std::size_t most, std::vector<int>& stops) {
   for (const Misfit& misfit : batch.conclusion.edge->misfits()) {
-    if (misfit.kind != MisfitKind::WeakerPart || !(misfit.amount > 0.0)) continue;
-    const Surface& surface = batch.surface();
-    const int centre = surface.nearest_vertex(surface.position(*misfit.where));
-    const std::vector<int> near = vertices_near(surface, centre, kSummit_m);
-    std::vector<int> outside;
-    std::ranges::set_intersection(batch.candidates, near, std::back_inserter(outside));
-    std::erase_if(outside,
-                  [&](int vertex) { return batch.conclusion.edge->depth()[vertex] >= 0.0; });
-    if (outside.empty()) continue;
-    add_apart(batch, std::vector{*std::ranges::max_element(outside, {}, may_reach)}, stops);
+    if (stops.size() >= most) return;
+    if (misfit.kind == MisfitKind::WeakerPart && misfit.amount > 0.0)
+      add_summit(batch, misfit, stops);
   }
+}
+
+/// Where that does not surprise: a second look, of the touches that search.
+void add_second_look(const Batching& batch, std::vector<int>& stops) {
+  if (const std::optional<Misfit> most = batch.conclusion.edge->stands_out_most())
+    add_summit(batch, *most, stops);
 }
 
 /// No contrast is seen yet: spread over the tissue, and a second look where readings were high.
@@ -193,23 +203,24 @@ Acquisition acquisition_in_force(const Conclusion& conclusion, const Plan& plan)
                                                                    : Acquisition(evr());
 }
 
-std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, int batches,
+std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, int done,
                               std::span<const int> candidates, const BatchOptions& options) {
-  const Batching batch{conclusion, plan, candidates, options};
-  const std::vector<int> lacking = lacking_stops(batch, batches);
+  const Batching batch{conclusion, plan, candidates, options, std::max(plan.batches - done, 1)};
+  const std::vector<int> lacking = lacking_stops(batch);
   if (!conclusion.evidence.contrast_seen) return searching_stops(batch, lacking);
   if (!conclusion.edge) return with_others(batch, {}, conclusion.belief);
   // Search first, then refine: from half the share to half as much again over the plan's batches.
-  const double progress = static_cast<double>(batches) / std::max(plan.batches, 1);
+  const double progress = static_cast<double>(done + 1) / std::max(plan.batches, 1);
   const int at_edge = static_cast<int>(
       std::lround(std::min(plan.aim.edge_share * (0.5 + progress), 1.0) * options.size));
-  const int count = std::min(at_edge, options.size - due(batch, lacking, batches));
+  const int count = std::max(std::min(at_edge, options.size - due(batch, lacking)), 0);
   std::vector<int> stops;
-  if (count > 0) add_unexplained(batch, stops);
+  add_unexplained(batch, static_cast<std::size_t>(count), stops);
   add_apart(batch,
             conclusion.edge->most_telling(candidates, count - static_cast<int>(stops.size()),
                                           options.least_spacing_m, conclusion.marginals.variance),
             stops);
+  add_second_look(batch, stops);
   add_apart(batch, lacking, stops);
   return with_others(batch, std::move(stops), searching_belief(conclusion));
 }

@@ -14,8 +14,10 @@ Acquisition acquisition_in_force(const Conclusion& conclusion, const Plan& plan)
 
 /// Among the candidates, rising: while no contrast is seen spread over the tissue, with a second
 /// look where readings were high; then first what tells the most about the boundary, and what the
-/// acquisition finds best once those are touched. `options`: of the plan, from where the probe is.
-std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, int batches,
+/// acquisition finds best once those are touched; among what searches, a second look where
+/// readings are high though they do not surprise. `done`: batches of the plan before this one.
+/// `options`: of the plan, from where the probe is.
+std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, int done,
                               std::span<const int> candidates, const BatchOptions& options);
 
 }  // namespace palpation

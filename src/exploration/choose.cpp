@@ -79,7 +79,7 @@ Choice choose(const Surface& surface, const Conclusion& conclusion, const Plan& 
     BatchOptions options = plan.batch;
     options.from = progress.probe;
     if (touch_once && options.least_spacing_m == 0.0) options.least_spacing_m = kDistinct_m;
-    stops = chosen_stops(conclusion, plan, progress.batches, candidates, options);
+    stops = chosen_stops(conclusion, plan, done, candidates, options);
   }
   stops = in_tour_order(surface, stops, progress.probe);
   if (stops.empty()) return {.stop_reason = "nothing left to touch"};

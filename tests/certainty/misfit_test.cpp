@@ -35,9 +35,8 @@ double stiffness(const Vec3& place) {
 /// What is felt at a place in a batch, without noise.
 using World = std::function<double(const Vec3&, int batch)>;
 
-/// What surprises, of readings at random vertices, half of them near the edge.
-std::vector<Misfit> misfits_of(const World& world, std::uint64_t seed, int readings) {
-  const Surface surface = tissue();
+/// Of readings at random vertices, half of them near the edge.
+Belief belief_of(const Surface& surface, const World& world, std::uint64_t seed, int readings) {
   Random random(seed);
   const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
   std::vector<Palpation> palpations;
@@ -50,10 +49,19 @@ std::vector<Misfit> misfits_of(const World& world, std::uint64_t seed, int readi
                           .reading = world(place, batch) + kNoise * random.normal(),
                           .batch = batch});
   }
-  const Belief belief = Belief(prior, {.noise_sd = kNoise}).condition_on(palpations);
+  return Belief(prior, {.noise_sd = kNoise}).condition_on(palpations);
+}
+
+EdgeBelief edge_of(const Belief& belief) {
   constexpr double kFirstLevels[] = {8.0};
-  std::vector<Misfit> found =
-      EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value().misfits();
+  return EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value();
+}
+
+/// What surprises.
+std::vector<Misfit> misfits_of(const World& world, std::uint64_t seed, int readings) {
+  const Surface surface = tissue();
+  const Belief belief = belief_of(surface, world, seed, readings);
+  std::vector<Misfit> found = edge_of(belief).misfits();
   const std::optional<Misfit> change = changed_since(belief);
   if (change && change->kind == MisfitKind::Moved) found.push_back(*change);
   std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
@@ -136,6 +144,25 @@ TEST(Misfit, IsOftenAWeakerPartBesideTheTumour) {
   ASSERT_TRUE(first.where);
   EXPECT_LT((tissue().position(*first.where) - there).norm(), 0.003);
   EXPECT_GT(first.amount, 0.0);
+}
+
+/// A part of 15 % of the contrast, as high as one and a half standard deviations of the noise.
+TEST(Misfit, ThatDoesNotSurpriseIsWhereToLookAgain) {
+  const Vec3 there(0.021, 0.0125, 0.0);
+  const World two = [&](const Vec3& place, int) {
+    return stiffness(place) + 0.3 / (1.0 + std::exp(1000.0 * ((place - there).norm() - 0.004)));
+  };
+  const Surface surface = tissue();
+  int looked = 0, said = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const EdgeBelief edge = edge_of(belief_of(surface, two, seed, kReadings));
+    const std::optional<Misfit> most = edge.stands_out_most();
+    looked += most && (surface.position(*most->where) - there).norm() < 0.005;
+    said += std::ranges::count(edge.misfits(), MisfitKind::WeakerPart, &Misfit::kind) > 0;
+    EXPECT_TRUE(!most || most->amount > 0.0);
+  }
+  EXPECT_GE(looked, 15);
+  EXPECT_LE(said, 10);
 }
 
 TEST(Misfit, RefusesARateThatIsNone) {

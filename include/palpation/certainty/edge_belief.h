@@ -141,6 +141,10 @@ class EdgeBelief {
   /// `false_alarms`: the share of runs in which a true model may be doubted, all kinds together.
   /// Throws InvalidInput unless it lies in (0, 1).
   std::vector<Misfit> misfits(double false_alarms = 0.02) const;
+  /// Of what may stand out beside the boundary, surprising or not, that which readings make the
+  /// most probable (WeakerPart, its own evidence against none): where to look again. Nothing where
+  /// they speak for none.
+  std::optional<Misfit> stands_out_most() const;
 
  private:
   struct Fit;
