@@ -20,9 +20,8 @@ bool touches_once(const Conclusion& conclusion, const Reach& reach) {
 /// What may be touched now, rising.
 std::vector<int> candidates_of(const Surface& surface, const Progress& progress, const Reach& reach,
                                bool touch_once) {
-  std::vector<bool> allowed(static_cast<std::size_t>(surface.vertex_count()),
-                            reach.vertices.empty());
-  for (const int vertex : reach.vertices) {
+  std::vector<bool> allowed(static_cast<std::size_t>(surface.vertex_count()), !reach.vertices);
+  for (const int vertex : reach.vertices.value_or(std::vector<int>())) {
     require(vertex >= 0 && vertex < surface.vertex_count(), "Reach",
             "vertex " + std::to_string(vertex), "is not on the surface");
     allowed[static_cast<std::size_t>(vertex)] = true;

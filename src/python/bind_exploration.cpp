@@ -123,7 +123,7 @@ std::unique_ptr<Shared> exploration_of(const Surface& surface, const Model& mode
   Reach within{.touch_once = touch_once};
   if (!reach.is_none()) {
     within.vertices = indices_of(reach, {kName, "reach"}, surface.vertex_count());
-    require(!within.vertices.empty(), kName, "reach", "must name a vertex at least");
+    require(!within.vertices->empty(), kName, "reach", "must name a vertex at least");
   }
   const Plan planned = plan.is_none() ? Plan() : plan.cast<const Planned&>().plan;
   return std::make_unique<Shared>(long_call([&] {

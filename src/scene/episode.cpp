@@ -47,9 +47,9 @@ Reach coarse_reach(const Scene& scene, const Surface& surface, const CoarseMesh&
                    const Reach& given) {
   const Reach fine = within_reach(scene, surface, given);
   Reach reach{.touch_once = fine.touch_once};
-  if (fine.vertices.empty()) return reach;
-  reach.vertices = on_coarse(coarse, fine.vertices);
-  if (reach.vertices.empty())
+  if (!fine.vertices) return reach;
+  reach.vertices = on_coarse(coarse, *fine.vertices);
+  if (reach.vertices->empty())
     scene.refuse_value("plan.explore_mm",
                        "finer: none of the vertices that are left can be touched");
   return reach;

@@ -22,14 +22,11 @@ RegionError error_of(const Episode& episode) {
 Reach within_reach(const Scene& scene, const Surface& surface, Reach reach) {
   const std::optional<std::vector<int>> reached = reachable_of(scene, surface);
   if (!reached) return reach;
-  if (reach.vertices.empty()) {
-    reach.vertices = *reached;
-    return reach;
-  }
-  std::erase_if(reach.vertices, [&](int vertex) {
-    return !std::binary_search(reached->begin(), reached->end(), vertex);
-  });
-  if (reach.vertices.empty()) scene.refuse("robot", "reaches no tissue that can be felt");
+  std::vector<int> vertices = reach.vertices.value_or(*reached);
+  std::erase_if(vertices,
+                [&](int vertex) { return !std::ranges::binary_search(*reached, vertex); });
+  if (vertices.empty()) scene.refuse("robot", "reaches no tissue that can be felt");
+  reach.vertices = std::move(vertices);
   return reach;
 }
 

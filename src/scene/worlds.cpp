@@ -116,14 +116,15 @@ World recorded_world(const Scene& scene, const Surface& surface,
                              ": all its readings are equal, so it shows no tumour.");
   }
   const std::vector<bool> in_contact = recorded->in_contact();
+  std::vector<int> felt;
   for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-    if (in_contact[vertex]) world.reach.vertices.push_back(vertex);
+    if (in_contact[vertex]) felt.push_back(vertex);
   }
-  if (world.reach.vertices.empty())
+  if (felt.empty())
     throw IoError(paths.front().string() +
                   ": no vertex of the tissue lies within 2 mm of its readings: do mesh and "
                   "recording share a frame, and is it in metres?");
-  world.reach.touch_once = true;
+  world.reach = {.vertices = std::move(felt), .touch_once = true};
   return world;
 }
 

@@ -8,6 +8,7 @@
 #include "belief/tissue.h"
 #include "certainty/contrast.h"
 #include "palpation/base/error.h"
+#include "palpation/exploration/reach.h"
 #include "palpation/world/phantom.h"
 
 namespace palpation {
@@ -35,6 +36,16 @@ TEST(Exploration, AsksForTheInitialDesignThenForBatchesThenStops) {
   EXPECT_EQ(exploration.stop_reason(), "budget");
   EXPECT_EQ(exploration.conclusion().belief.palpations().size(), 46u);
   EXPECT_EQ(exploration.conclusion().belief.palpations().back().batch, 3);
+}
+
+TEST(Exploration, HasNothingToTouchWhereNothingCanBeReached) {
+  const Surface tissue = plane(26, 51);
+  const Access from_below{.shaft_direction = Vec3(0.0, 0.0, -1.0)};
+  const Reach reach{.vertices = reachable_vertices(tissue, from_below)};
+  ASSERT_TRUE(reach.vertices->empty());
+  Exploration exploration(tissue, {}, {}, reach);
+  EXPECT_TRUE(exploration.next().empty());
+  EXPECT_EQ(exploration.stop_reason(), "nothing left to touch");
 }
 
 TEST(Exploration, AnswersTheSameUntilSomethingIsRecorded) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "palpation/decision/acquisition.h"
@@ -50,7 +51,7 @@ void check(const Plan& plan);
 
 /// What may be touched.
 struct Reach {
-  std::vector<int> vertices{};  ///< rising; empty: all
+  std::optional<std::vector<int>> vertices{};  ///< rising; nothing: all, which empty is not
   bool touch_once =
       false;  ///< a touched vertex is no candidate any more; so too where readings have no noise
 };
