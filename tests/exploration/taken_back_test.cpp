@@ -32,14 +32,15 @@ double stiffness(const Vec3& place) {
 using World = std::function<double(const Vec3& place, int reading)>;
 
 /// Readings at random vertices.
-std::vector<Palpation> felt(const Surface& surface, const World& world, std::uint64_t seed) {
+std::vector<Palpation> felt(const Surface& surface, const World& world, std::uint64_t seed,
+                            int readings = kReadings) {
   Random random(seed);
   std::vector<Palpation> palpations;
-  for (int i = 0; i < kReadings; ++i) {
+  for (int i = 0; i < readings; ++i) {
     const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
     palpations.push_back({.where = surface.at_vertex(vertex),
                           .reading = world(surface.vertex(vertex), i) + kNoise * random.normal(),
-                          .batch = i / 10});
+                          .batch = 10 * i / readings});
   }
   return palpations;
 }
@@ -75,6 +76,21 @@ TEST(ZeroChanges, AreTakenBackAsIfTheZeroHadStayed) {
     EXPECT_NEAR(here.level->value, there.level->value, 0.15);
     // What was felt stays as it was felt.
     EXPECT_EQ(here.palpations.back().reading, felt(tissue(), shifted, seed).back().reading);
+  }
+}
+
+// One in three of so many is looked at; those between would be as wrong as the zero moved.
+TEST(ZeroChanges, AreFoundAtTheReadingTheyCameWithAmongMany) {
+  const Surface surface = tissue();
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const int at = 300 + static_cast<int>(seed);
+    const World shifted = [&](const Vec3& place, int i) {
+      return stiffness(place) + (i >= at ? 1.5 : 0.0);
+    };
+    const Conclusion conclusion = conclude(surface, {.level = {.estimate = LevelEstimate::Edge}},
+                                           felt(surface, shifted, seed, 600));
+    ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u) << seed;
+    EXPECT_EQ(conclusion.evidence.taken_back.front().number, static_cast<std::size_t>(at)) << seed;
   }
 }
 
