@@ -156,7 +156,7 @@ void add_unexplained(const Batching& batch, std::size_t most, std::vector<int>& 
   }
 }
 
-/// Where that does not surprise: a second look, of the touches that search.
+/// Surprising or not: a second look at what stands out the most, of the touches that search.
 void add_second_look(const Batching& batch, std::vector<int>& stops) {
   if (const std::optional<Misfit> most = batch.conclusion.edge->stands_out_most())
     add_summit(batch, *most, stops);

@@ -16,6 +16,7 @@ namespace {
 /// Readings that are looked at: a step shows in as many, and the cost grows with the third power.
 constexpr std::size_t kMost = 200;
 constexpr std::size_t kFewest = 12;
+
 bool is_of_the_zero(const Belief& belief) {
   const std::optional<Misfit> change = changed_since(belief);
   return change && change->kind == MisfitKind::Zero;

@@ -72,7 +72,7 @@ ZeroSteps::ZeroSteps(const Belief& belief, std::span<const Palpation> palpations
 
 std::vector<Misfit> ZeroSteps::estimated(std::vector<Misfit> changes) const {
   if (changes.empty()) return changes;
-  const Eigen::MatrixXd steps = columns(changes);
+  const Eigen::MatrixXd steps = columns(changes, numbers_);
   const Eigen::MatrixXd precision = precision_of(changes, steps);
   const Eigen::MatrixXd covariance =
       precision.llt().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
@@ -100,15 +100,13 @@ Misfit ZeroSteps::sharpened(const std::vector<Misfit>& changes) const {
   Eigen::VectorXd amounts(static_cast<Eigen::Index>(changes.size()));
   for (std::size_t i = 0; i < changes.size(); ++i)
     amounts[static_cast<Eigen::Index>(i)] = changes[i].amount;
-  const Eigen::VectorXd expected = middle_ + (covariance_with(places).transpose() *
-                                              (inverse_ * (readings_ - columns(changes) * amounts)))
-                                                 .array();
+  const Eigen::VectorXd left = inverse_ * (readings_ - columns(changes, numbers_) * amounts),
+                        expected = covariance_with(places).transpose() * left +
+                                   columns(changes, between) * amounts;  // as before the step
   double gained = 0.0, most = 0.0;  // by beginning with each, over with the one that was found
   for (std::size_t i = between.size(); i-- > 0;) {
     const Palpation& one = palpations_[between[i]];
-    double off = one.reading - expected[static_cast<Eigen::Index>(i)];
-    for (std::size_t j = 0; j + 1 < changes.size(); ++j)
-      off -= is_since(changes[j], {one.batch, between[i], one.session}) ? changes[j].amount : 0.0;
+    const double off = one.reading - middle_ - expected[static_cast<Eigen::Index>(i)];
     gained += square(off) - square(off - step.amount);
     if (!(gained > most)) continue;
     most = gained;
@@ -121,7 +119,7 @@ Misfit ZeroSteps::sharpened(const std::vector<Misfit>& changes) const {
 std::optional<Misfit> ZeroSteps::another(const std::vector<Misfit>& known) const {
   Eigen::MatrixXd inverse = inverse_;
   if (!known.empty()) {
-    const Eigen::MatrixXd steps = columns(known), weighed = inverse_ * steps;
+    const Eigen::MatrixXd steps = columns(known, numbers_), weighed = inverse_ * steps;
     inverse -= weighed * precision_of(known, steps).llt().solve(weighed.transpose());
   }
   const Eigen::VectorXd pull = inverse * readings_;
@@ -174,10 +172,12 @@ Eigen::VectorXd ZeroSteps::in_space(const Eigen::VectorXd& in_time) const {
   return in_space;
 }
 
-Eigen::MatrixXd ZeroSteps::columns(const std::vector<Misfit>& changes) const {
-  Eigen::MatrixXd steps(readings_.size(), static_cast<Eigen::Index>(changes.size()));
+/// 1 in the rows of the readings with these numbers that a change came before.
+Eigen::MatrixXd ZeroSteps::columns(const std::vector<Misfit>& changes,
+                                   std::span<const std::size_t> numbers) const {
+  Eigen::MatrixXd steps(std::ssize(numbers), std::ssize(changes));
   for (Eigen::Index i = 0; i < steps.rows(); ++i) {
-    const std::size_t number = numbers_[static_cast<std::size_t>(i)];
+    const std::size_t number = numbers[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < steps.cols(); ++j)
       steps(i, j) = is_since(changes[static_cast<std::size_t>(j)],
                              {palpations_[number].batch, number, palpations_[number].session});

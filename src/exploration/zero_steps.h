@@ -14,8 +14,8 @@ namespace palpation {
 
 class ZeroSteps {
  public:
-  /// By the belief's field, of those of the palpations, rising, that are looked at: more than
-  /// four. Both are kept as they are.
+  /// By the belief's field. `numbers`, rising: of the palpations, those that are looked at, more
+  /// than four. Keeps references to both.
   ZeroSteps(const Belief& belief, std::span<const Palpation> palpations,
             std::span<const std::size_t> numbers);
 
@@ -30,7 +30,8 @@ class ZeroSteps {
  private:
   Eigen::MatrixXd covariance_with(std::span<const SurfacePoint> places) const;
   Eigen::VectorXd in_space(const Eigen::VectorXd& in_time) const;
-  Eigen::MatrixXd columns(const std::vector<Misfit>& changes) const;
+  Eigen::MatrixXd columns(const std::vector<Misfit>& changes,
+                          std::span<const std::size_t> numbers) const;
   Eigen::MatrixXd precision_of(const std::vector<Misfit>& changes,
                                const Eigen::MatrixXd& steps) const;
 
