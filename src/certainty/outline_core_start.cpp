@@ -109,11 +109,15 @@ double evidence_of(const OutlineStart& start) {
 
 /// Of a walk that has settled, on average.
 struct Settled {
-  double evidence = 0.0;  ///< log density of the readings,
-  double price = 0.0;     ///< and what the outline's freedom costs
-  double inside = 0.0;    ///< readings in the part that has the core, if one does,
-  double alike = 0.0;     ///< and how improbable it is that those on the plateau beside it read
-                          ///< alike by chance, nats
+  double evidence = 0.0;   ///< log density of the readings,
+  double price = 0.0;      ///< and what the outline's freedom costs
+  double area_m2 = 0.0;    ///< within the outline,
+  double square_m4 = 0.0;  ///< and of its square
+  double inside = 0.0;     ///< readings in the part that has the core, if one does,
+  double alike = 0.0;      ///< and how improbable it is that those on the plateau beside it read
+                           ///< alike by chance, nats
+
+  double area_sd_m2() const { return std::sqrt(std::max(square_m4 - area_m2 * area_m2, 0.0)); }
 };
 
 void count_inside(const OutlineChain& chain, const OutlineReadings& readings, Settled& sum) {
@@ -147,23 +151,34 @@ Settled settled(const OutlineStart& start, std::uint64_t seed) {
     const OutlineChain& chain = walk.chain();
     sum.evidence += chain.residuals().log_density() / kWeighed;
     sum.price += price_of_loops(chain.outline(), start.readings.places.size()) / kWeighed;
+    const double area_m2 = enclosed_area(chain.outline());
+    sum.area_m2 += area_m2 / kWeighed;
+    sum.square_m4 += area_m2 * area_m2 / kWeighed;
     count_inside(chain, start.readings, sum);
   }
   return sum;
 }
 
-enum class Told { Nothing, Either, Core };
+/// Whether they end elsewhere, by more than both spread.
+bool are_apart(const Settled& some, const Settled& others) {
+  return std::abs(some.area_m2 - others.area_m2) > some.area_sd_m2() + others.area_sd_m2();
+}
+
+enum class Told { Plain, Either, Core };
 
 /// An outline of one height follows such readings as lie on a plateau beside the core by fingers,
 /// and could have followed any: that they read alike speaks for the core. Where that is not surely
 /// so, tissue may as well rise all the way up to its middle: then readings that pay for a core by
-/// themselves tell neither.
+/// themselves tell neither. Nor do those that pay for none, where the two end elsewhere: that an
+/// outline of one height has fewer numbers makes a tumour no smaller. Then it is told by readings
+/// that speak as much against a core as would be needed for it.
 Told told_by(const Settled& plain, const Settled& cored) {
   const double chance = -std::log(kFalseAlarms),
                needed = chance + 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0));
   const double gained = cored.evidence - cored.price - plain.evidence + plain.price;
   if (cored.alike > chance && gained + cored.alike > needed) return Told::Core;
-  return gained > needed ? Told::Either : Told::Nothing;
+  const bool is_open = gained > needed || (are_apart(plain, cored) && gained > -needed);
+  return is_open ? Told::Either : Told::Plain;
 }
 
 }  // namespace
@@ -192,7 +207,7 @@ ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface,
       return {*cored, *cored};
     case Told::Either:
       return {plain, *cored};
-    case Told::Nothing:
+    case Told::Plain:
       break;
   }
   return {plain, plain};

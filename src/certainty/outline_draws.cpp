@@ -15,20 +15,14 @@ constexpr int kMostRounds = 3;
 
 using Draws = std::vector<OutlineDraw>;
 
-double area_of(const OutlineNodes& outline) {
-  double area = 0.0;
-  for (const NodeLoop& loop : outline.loops) area += enclosed_area(line_of(outline, loop));
-  return area;
-}
-
 /// Between the halves of draws, which are of two chains.
 double disagreement_of(const Draws& draws) {
   const auto half = draws.size() / 2;
   double mean[2] = {0.0, 0.0}, square = 0.0;
   for (std::size_t i = 0; i < draws.size(); ++i)
-    mean[i / half] += area_of(draws[i].outline) / static_cast<double>(half);
+    mean[i / half] += enclosed_area(draws[i].outline) / static_cast<double>(half);
   for (std::size_t i = 0; i < draws.size(); ++i)
-    square += std::pow(area_of(draws[i].outline) - mean[i / half], 2);
+    square += std::pow(enclosed_area(draws[i].outline) - mean[i / half], 2);
   const double sd = std::sqrt(square / static_cast<double>(draws.size()));
   return sd > 0.0 ? std::abs(mean[0] - mean[1]) / sd : 0.0;
 }

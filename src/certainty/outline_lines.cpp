@@ -75,4 +75,10 @@ std::vector<Vec2> line_of(const OutlineNodes& outline, const NodeLoop& loop) {
   return {first, first + loop.count};
 }
 
+double enclosed_area(const OutlineNodes& outline) {
+  double area = 0.0;
+  for (const NodeLoop& loop : outline.loops) area += enclosed_area(line_of(outline, loop));
+  return area;
+}
+
 }  // namespace palpation

@@ -22,5 +22,7 @@ OutlineNodes outline_from(const std::vector<std::vector<Vec2>>& lines,
 
 /// The nodes of one of its loops.
 std::vector<Vec2> line_of(const OutlineNodes& outline, const NodeLoop& loop);
+/// By all loops: holes run clockwise.
+double enclosed_area(const OutlineNodes& outline);
 
 }  // namespace palpation

@@ -8,6 +8,7 @@
 #include "boundary/superlevel_parts.h"
 #include "exploration/field_fit.h"
 #include "exploration/search_goal.h"
+#include "exploration/softer_reach.h"
 #include "palpation/geometry/distance.h"
 #include "readings/readings.h"
 
@@ -25,6 +26,9 @@ constexpr double kDoubt = 0.7;
 constexpr double kSummit_m = 0.006;
 /// What the field may yet reach: standard deviations.
 constexpr double kMayReach = 2.0;
+
+/// Part of the touches at the edge that go to that of softer tissue, at most.
+constexpr double kMostSofter = 0.5;
 
 /// A batch in the making.
 struct Batching {
@@ -162,6 +166,21 @@ void add_second_look(const Batching& batch, std::vector<int>& stops) {
     add_summit(batch, *most, stops);
 }
 
+/// Where touches tell the most of how far softer tissue reaches: at most half of those that go to
+/// the edge, by what it may leave out beside what the edge may be wrong by.
+void add_softer_reach(const Batching& batch, int count, std::vector<int>& stops) {
+  const std::optional<SofterReach> softer = softer_reach(batch.conclusion);
+  if (!softer || !(softer->unexplained_m2 > 0.0)) return;
+  const double unexplained_m2 = softer->unexplained_m2,
+               share =
+                   unexplained_m2 / (unexplained_m2 + batch.conclusion.edge->expected_error_m2());
+  const auto most = static_cast<int>(std::lround(std::min(share, kMostSofter) * count));
+  add_apart(batch,
+            softer->edge.most_telling(batch.candidates, most, batch.options.least_spacing_m,
+                                      batch.conclusion.marginals.variance),
+            stops);
+}
+
 /// No contrast is seen yet: spread over the tissue, and a second look where readings were high.
 /// What is lacking to a goal goes before what is spread.
 std::vector<int> searching_stops(const Batching& batch, std::span<const int> lacking) {
@@ -216,6 +235,7 @@ std::vector<int> chosen_stops(const Conclusion& conclusion, const Plan& plan, in
   const int count = std::max(std::min(at_edge, options.size - due(batch, lacking)), 0);
   std::vector<int> stops;
   add_unexplained(batch, static_cast<std::size_t>(count), stops);
+  add_softer_reach(batch, count - static_cast<int>(stops.size()), stops);
   add_apart(batch,
             conclusion.edge->most_telling(candidates, count - static_cast<int>(stops.size()),
                                           options.least_spacing_m, conclusion.marginals.variance),

@@ -159,6 +159,20 @@ TEST(OutlineCore, IsNotFoundInATumourOfOneHeight) {
   for (const OutlineStart& start : starts_of(disk)) EXPECT_FALSE(start.profile.core);
 }
 
+// Its slope is too gentle for a plateau beside the core: a skirt explains it as well. The two end
+// elsewhere, and that fewer numbers do it tells of no tissue.
+TEST(OutlineCore, IsOneOfTwoThatEndElsewhereWhereReadingsTellNeither) {
+  const Share gentle = [](const Vec2& place) {
+    const auto disk = [&](double radius_m) {
+      return sigmoid_of(700.0 * (radius_m - (place - kMm * Vec2(20, 20)).norm()));
+    };
+    return std::max(disk(4 * kMm), 0.5 * disk(8 * kMm));
+  };
+  const auto [plain, cored] = starts_of(gentle);
+  EXPECT_FALSE(plain.profile.core);
+  EXPECT_TRUE(cored.profile.core);
+}
+
 // It has no plateau anywhere: that it has a core is never all that is said.
 TEST(OutlineCore, IsNotClaimedOfACone) { EXPECT_FALSE(starts_of(cone).front().profile.core); }
 
