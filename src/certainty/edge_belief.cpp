@@ -15,9 +15,6 @@
 namespace palpation {
 namespace {
 
-/// Readings without noise still scatter about the profile, as much as the model of the edge is
-/// wrong: a thousandth of the range.
-constexpr double kModelError = 1e-3;
 /// Mean squared residual over noise variance: what chance makes of a hundred readings is less.
 constexpr double kMuchScatter = 1.3;
 /// And over those degrees of freedom that are the noise's: chance makes more of a hundred readings.
@@ -160,9 +157,9 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   EdgeData all = gathered_for_edge(belief);
   const double least = task.field.minCoeff(), range = task.field.maxCoeff() - least;
   if (all.places.empty() || !(range > 0.0)) return std::nullopt;
-  const double model_variance = kModelError * kModelError * range * range;
-  const double touch_variance = std::max(belief.noise_variance(), model_variance);
-  all.variance = all.variance.cwiseMax(model_variance);
+  const double profile_error = profile_error_variance(range);
+  const double touch_variance = std::max(belief.noise_variance(), profile_error);
+  all.variance = all.variance.cwiseMax(profile_error);
 
   const std::size_t readings = all.places.size();
   const ProfilePrior profile = profile_prior(belief, least, range, shape, parts);
@@ -172,7 +169,7 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   if (starts.empty()) return std::nullopt;
   const bool noise_is_learned =
       task.noise_log_sd > 0.0 && all_have_the_field_noise(belief.palpations());
-  const double least_variance = std::max(model_variance, rounding_variance(belief.palpations()));
+  const double least_variance = std::max(profile_error, rounding_variance(belief.palpations()));
   EdgeBelief made(surface);
   made.noise_log_sd_ = task.noise_log_sd;
   std::vector<int> plateaus(nearest.size(), 0);

@@ -4,14 +4,14 @@
 #include <limits>
 #include <numbers>
 
+#include "base/normal.h"
+
 namespace palpation {
 namespace {
 
 /// Radii are about as long as what a probe feels is wide: that of the field's length.
 constexpr double kRadius_m = 0.0035, kRadiusLogSd = 0.4;
 constexpr double kHalfLength_m = 0.002;  ///< mean of an exponential law
-
-double half_square(double z) { return 0.5 * z * z; }
 
 Vec2 direction_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/normal.h"
 #include "base/sigmoid.h"
 
 namespace palpation {
@@ -17,8 +18,6 @@ constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
-
-double half_square(double z) { return 0.5 * z * z; }
 
 double bent(double t, double power) { return std::sinh(power * std::asinh(t)) / power; }
 

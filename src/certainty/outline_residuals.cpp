@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/normal.h"
+
 namespace palpation {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr double kSdLogSd = 1.0;
 constexpr double kSdStep = 1.0;
 constexpr int kNoiseTries = 2;
 constexpr std::array kGrowthSteps = {0.3, 0.1};
-
-double half_square(double z) { return 0.5 * z * z; }
 
 /// Beta's, of whole numbers: of so many uniform numbers the one of this rank.
 double beta_draw(int a, int b, Random& random) {

@@ -24,7 +24,6 @@ constexpr double kStep = 0.25;        ///< sd of what is left of a zero's step, 
 constexpr double kSessionStep = 1.0;  ///< where another session began: it may have felt one plateau
 /// Of what is left of a gain, and of a session's, of which nothing was taken back.
 constexpr double kGainLogSd = 0.2, kSessionGainLogSd = 0.5;
-constexpr double kModelError = 1e-3;  ///< of the range, as the edge's fit has it
 
 /// The changes that most of the readings that are one were made after.
 std::vector<int> changes_before(std::span<const Misfit> changes, const std::vector<Made>& made) {
@@ -86,7 +85,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   const Layout layout(belief.prior());
   EdgeData data = options.one_by_one.empty() ? gathered_for_edge(belief)
                                              : gathered_for_edge(belief, options.one_by_one);
-  data.variance = data.variance.cwiseMax(kModelError * kModelError * range * range);
+  data.variance = data.variance.cwiseMax(profile_error_variance(range));
   Eigen::VectorXd of_vertices;
   if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
     data = with_plateaus_merged(layout, data);

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <vector>
 
+#include "certainty/doubts.h"
 #include "certainty/own_parts.h"
 #include "exploration/search_goal.h"
-#include "readings/contact.h"
 
 namespace palpation {
 namespace {
 
-/// Of the strongest's contrast: half of what is cut out surely (edge_parts.cpp).
-constexpr double kLeastDoubtful = 0.2;
+/// Of the strongest's contrast: half of what is cut out surely.
+constexpr double kLeastDoubtful = 0.5 * kLeastCut;
 
 }  // namespace
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "certainty/contrast.h"
+#include "certainty/doubts.h"
 #include "certainty/edge_data.h"
 #include "palpation/certainty/edge_profile.h"
 #include "palpation/certainty/level_estimate.h"
-#include "readings/contact.h"
 #include "readings/readings.h"
 
 namespace palpation {
@@ -77,12 +77,11 @@ Field mean_offset_sd(const Surface& surface, const Certainty& certainty) {
   return Field::Constant(surface.vertex_count(), certainty.half_width_m / certainty.band_score);
 }
 
-Certainty known_before_faults(const Surface& surface, const Model& model, const Believed& believed,
+Certainty known_before_faults(const Surface& surface, const Model& model,
                               const Marginals& component, const BoundaryFit& boundary) {
   if (boundary.outlines) return certainty_of(surface, *boundary.outlines, model.band->probability);
   if (boundary.edge) return certainty_of(surface, *boundary.edge, model.band->probability);
-  return certainty_of(surface, believed.belief, component, *boundary.level,
-                      model.band->probability);
+  return certainty_of(surface, component, *boundary.level, model.band->probability);
 }
 
 }  // namespace
@@ -171,7 +170,7 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
 Certainty certainty_of(const Surface& surface, const Model& model, const Believed& believed,
                        const Marginals& component, const BoundaryFit& boundary) {
   const ProbeModel& probe = model.field.probe;
-  Certainty certainty = known_before_faults(surface, model, believed, component, boundary);
+  Certainty certainty = known_before_faults(surface, model, component, boundary);
   if (probe.screening)
     certainty =
         with_fading_contact(std::move(certainty), surface, model, believed, component, boundary);

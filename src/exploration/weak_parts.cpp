@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boundary/superlevel_parts.h"
+#include "certainty/doubts.h"
 #include "exploration/search_goal.h"
 
 namespace palpation {

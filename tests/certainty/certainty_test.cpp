@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "belief/tissue.h"
+#include "certainty/doubts.h"
 #include "palpation/base/error.h"
 #include "palpation/certainty/expected_error.h"
 #include "palpation/certainty/level_estimate.h"

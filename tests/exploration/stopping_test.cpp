@@ -47,9 +47,7 @@ struct Felt {
   Belief belief;
   Certainty now;
 
-  Felt()
-      : belief(believed(surface)),
-        now(certainty_of(surface, belief, belief.at_vertices(), level)) {}
+  Felt() : belief(believed(surface)), now(certainty_of(surface, belief.at_vertices(), level)) {}
 
   static Belief believed(const Surface& surface) {
     const Phantom phantom(surface, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.007}},
@@ -70,7 +68,7 @@ TEST(ExpectedErrorAfter, IsTheMeanOverWhatMayBeFelt) {
   Felt felt;
   felt.level.stddev = 0.0;
   const Marginals marginals = felt.belief.at_vertices();
-  felt.now = certainty_of(felt.surface, felt.belief, marginals, felt.level);
+  felt.now = certainty_of(felt.surface, marginals, felt.level);
   const std::vector<int> stops = {20, 150, 210};
   Random random(5);
   double sum = 0.0;
