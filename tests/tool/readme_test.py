@@ -66,8 +66,8 @@ class Readme(unittest.TestCase):
             clone = pathlib.Path(holder)
             for folder in ("examples", "meshes"):
                 (clone / folder).symlink_to(ROOT / folder)
-            (clone / "build" / "release").mkdir(parents=True)
-            (clone / "build" / "release" / "bin").symlink_to(PALPATE.parent)
+            (clone / "build" / "ci").mkdir(parents=True)
+            (clone / "build" / "ci" / "bin").symlink_to(PALPATE.parent)
             result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=clone, capture_output=True, text=True, timeout=500, stdin=subprocess.DEVNULL)
             self.assertEqual(result.returncode, 0, result.stderr)
             summary = json.loads((clone / "found" / "summary.json").read_text())
@@ -85,8 +85,8 @@ class Readme(unittest.TestCase):
             clone = pathlib.Path(holder)
             for folder in ("examples", "meshes"):
                 (clone / folder).symlink_to(ROOT / folder)
-            (clone / "build" / "release").mkdir(parents=True)
-            (clone / "build" / "release" / "bin").symlink_to(PALPATE.parent)
+            (clone / "build" / "ci").mkdir(parents=True)
+            (clone / "build" / "ci" / "bin").symlink_to(PALPATE.parent)
             if not (PALPATE.parent / "palpate-draw").exists():
                 script = script.replace("palpate draw", ": draw")
             result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=clone, capture_output=True, text=True, timeout=900, stdin=subprocess.DEVNULL)
