@@ -163,7 +163,10 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     known = known_by(surface, model, std::move(believed));
   };
   for (int round = 0; is_last && known.boundary.edge && round < kMostTakenBack; ++round) {
-    const std::optional<Misfit> change = change_to_take_back(model, known, readings);
+    const std::optional<RasterStep> step = raster_step(model, known, readings);
+    if (step && !step->is_of_tissue()) known.believed.evidence.zero_or_tissue = step->zero;
+    const std::optional<Misfit> change =
+        step && step->is_of_the_zero() ? step->zero : change_to_take_back(model, known, readings);
     if (!change) break;
     const std::size_t which = add_change(*change, readings, changes);
     if (change->kind == MisfitKind::Moved) look_closer_at(which, changes, surface, model, felt);

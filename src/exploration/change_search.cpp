@@ -6,9 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "certainty/edge_data.h"
 #include "certainty/outline_model.h"
 #include "exploration/comparable_evidence.h"
 #include "exploration/taken_back.h"
+#include "exploration/zero_changes.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
@@ -161,6 +163,31 @@ std::optional<Misfit> change_to_take_back(const Model& model, const Known& known
   const Misfit& likeliest = found[best - gains.begin()];
   if (likeliest.kind == MisfitKind::Zero || !(*best > surprising())) return std::nullopt;
   return likeliest;
+}
+
+std::optional<RasterStep> raster_step(const Model& model, const Known& known,
+                                      const std::vector<Palpation>& readings) {
+  const Belief& belief = known.believed.belief;
+  const Surface& surface = belief.prior().surface();
+  const std::optional<Misfit> found = zero_or_tissue(readings, belief);
+  if (!found || !known.boundary.edge) return std::nullopt;
+  ConclusionCache apart;
+  const auto without = [&](const Misfit& step) {
+    return believe(surface, model, with_changes_taken_back(surface, readings, {&step, 1}), apart);
+  };
+  // Of a large step the field, which knows nothing of it, takes a part.
+  RasterStep step{.zero = estimated_zeros(readings, without(*found).belief, {*found}).front()};
+  const Known then = known_by(surface, model, without(step.zero));
+  const Belief& left = then.believed.belief;
+  const double noise_variance = belief.noise_variance();
+  const double evidence = then.boundary.edge
+                              ? comparable_evidence(then.boundary.edge, left, noise_variance)
+                              : comparable(log_evidence_without_edge(left), left, noise_variance);
+  step.gain = evidence - comparable_evidence(known.boundary.edge, belief, noise_variance);
+  step.leaves_another_edge =
+      then.boundary.edge &&
+      is_felt_on_both_sides(step.zero, then.boundary.edge->level().value, then.believed.palpations);
+  return step;
 }
 
 void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surface& surface,

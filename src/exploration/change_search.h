@@ -15,6 +15,20 @@ namespace palpation {
 std::optional<Misfit> change_to_take_back(const Model& model, const Known& known,
                                           const std::vector<Palpation>& readings);
 
+/// A step that readings show in time, and as well on the ground: where that is another since then,
+/// tissue may have made it, or the zero.
+struct RasterStep {
+  Misfit zero{};
+  double gain = 0.0;  ///< nats: how much more probable readings are by an edge without it
+  /// One that is felt before it and since: what is left of tissue's own step is felt there alone.
+  bool leaves_another_edge = false;
+
+  bool is_of_the_zero() const { return leaves_another_edge && gain > surprising(); }
+  bool is_of_tissue() const { return gain < -surprising(); }
+};
+std::optional<RasterStep> raster_step(const Model& model, const Known& known,
+                                      const std::vector<Palpation>& readings);
+
 /// A move found by a field, which is too smooth to follow an edge, is off by half a field's length,
 /// and its moment by some readings. Uphill from there, by steps that are halved, to how far and
 /// since which reading is most probable by the edge of the readings `felt`, all `changes` taken

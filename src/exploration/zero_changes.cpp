@@ -22,6 +22,10 @@ bool is_of_the_zero(const Belief& belief) {
   return change && change->kind == MisfitKind::Zero;
 }
 
+bool may_show_steps(std::span<const std::size_t> numbers, const Belief& belief) {
+  return numbers.size() >= kFewest && belief.noise_variance() > 0.0 && !belief.prior().has_slope();
+}
+
 /// Of readings of a session beside the nearest ones of those before it, over the closer half.
 double apart_by(const Surface& surface, std::span<const Palpation> palpations, int session) {
   std::vector<std::pair<double, double>> apart;  // places, readings
@@ -79,14 +83,22 @@ std::vector<Misfit> estimated_zeros(std::span<const Palpation> palpations, const
   return changes;
 }
 
+std::optional<Misfit> zero_or_tissue(std::span<const Palpation> palpations, const Belief& belief) {
+  const std::vector<std::size_t> numbers = in_time(palpations, kMost);
+  if (!may_show_steps(numbers, belief)) return std::nullopt;
+  const ZeroSteps steps(belief, palpations, numbers);
+  const std::optional<Misfit> step = steps.by_zero_or_tissue();
+  if (!step) return std::nullopt;
+  return steps.sharpened(steps.estimated({*step}));
+}
+
 std::vector<Misfit> zero_changes(std::span<const Palpation> palpations,
                                  const std::function<Belief(std::vector<Palpation>)>& believe,
                                  const Belief& first) {
   const std::vector<std::size_t> numbers = in_time(palpations, kMost);
   std::vector<Misfit> changes;
   Belief belief = first;
-  while (numbers.size() >= kFewest && changes.size() < kMostChanges &&
-         belief.noise_variance() > 0.0 && !belief.prior().has_slope()) {
+  while (changes.size() < kMostChanges && may_show_steps(numbers, belief)) {
     const ZeroSteps steps(belief, palpations, numbers);
     const std::optional<Misfit> more = steps.another(changes);
     if (!more || !is_of_the_zero(belief)) return steps.estimated(std::move(changes));

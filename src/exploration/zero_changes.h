@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,10 @@ namespace palpation {
 std::vector<Misfit> zero_changes(std::span<const Palpation> palpations,
                                  const std::function<Belief(std::vector<Palpation>)>& believe,
                                  const Belief& first);
+
+/// The step of the zero that such readings show whether or not tissue itself may have made it, the
+/// ground being another since then; what it adds is estimated. Nothing where zero_changes has none.
+std::optional<Misfit> zero_or_tissue(std::span<const Palpation> palpations, const Belief& belief);
 
 /// What the zero of each session differs by from that of those before it, at first sight; nothing
 /// where there is one session.

@@ -116,7 +116,14 @@ Misfit ZeroSteps::sharpened(const std::vector<Misfit>& changes) const {
   return step;
 }
 
-std::optional<Misfit> ZeroSteps::another(const std::vector<Misfit>& known) const {
+/// The likeliest step, and the mean over all moments of what such steps explain.
+struct ZeroSteps::Found {
+  Eigen::Index first = 0;
+  double best = -std::numeric_limits<double>::infinity();
+  LogMean in_time, in_space;
+};
+
+ZeroSteps::Found ZeroSteps::found_beside(const std::vector<Misfit>& known) const {
   Eigen::MatrixXd inverse = inverse_;
   if (!known.empty()) {
     const Eigen::MatrixXd steps = columns(known, numbers_), weighed = inverse_ * steps;
@@ -130,24 +137,35 @@ std::optional<Misfit> ZeroSteps::another(const std::vector<Misfit>& known) const
                std::log(before / (before - square(b) / (a + 1.0 / variance_))) -
            0.5 * std::log1p(a * variance_);
   };
-  LogMean steps_in_time, steps_in_space;
-  double best = -std::numeric_limits<double>::infinity();
-  Eigen::Index first = 0;
+  Found found;
   for (Eigen::Index i = 1; i < readings_.size(); ++i) {
     const Eigen::VectorXd step = Eigen::VectorXd::NullaryExpr(
         readings_.size(), [&](Eigen::Index row) { return row >= i ? 1.0 : 0.0; });
     const double evidence = evidence_of(step);
-    steps_in_time.add(evidence);
-    steps_in_space.add(evidence_of(in_space(step)));
-    if (evidence > best) best = evidence, first = i;
+    found.in_time.add(evidence);
+    found.in_space.add(evidence_of(in_space(step)));
+    if (evidence > found.best) found.best = evidence, found.first = i;
   }
-  const double mean = steps_in_time.value() - std::max(0.0, steps_in_space.value());
-  if (!(mean > surprising())) return std::nullopt;
+  return found;
+}
+
+std::optional<Misfit> ZeroSteps::surprising_at(Eigen::Index first, double evidence) const {
+  if (!(evidence > surprising())) return std::nullopt;
   const std::size_t number = numbers_[static_cast<std::size_t>(first)];
   return Misfit{.kind = MisfitKind::Zero,
-                .evidence = mean,
+                .evidence = evidence,
                 .from_batch = palpations_[number].batch,
                 .number = number};
+}
+
+std::optional<Misfit> ZeroSteps::another(const std::vector<Misfit>& known) const {
+  const Found found = found_beside(known);
+  return surprising_at(found.first, found.in_time.value() - std::max(0.0, found.in_space.value()));
+}
+
+std::optional<Misfit> ZeroSteps::by_zero_or_tissue() const {
+  const Found found = found_beside({});
+  return surprising_at(found.first, found.in_time.value());
 }
 
 /// Of the readings that are looked at (rows), without noise, with those at other places.

@@ -23,11 +23,18 @@ class ZeroSteps {
   std::vector<Misfit> estimated(std::vector<Misfit> changes) const;
   /// One more than these, where it surprises; at a reading that is looked at.
   std::optional<Misfit> another(const std::vector<Misfit>& known) const;
+  /// The one that explains most, where it surprises beside no step at all: tissue may have made it,
+  /// too, if the ground is another since then, as in a raster.
+  std::optional<Misfit> by_zero_or_tissue() const;
   /// The last of these changes, whose amounts are estimated, at the moment that explains best what
   /// was felt between the reading that it was found at and the one that was looked at before.
   Misfit sharpened(const std::vector<Misfit>& changes) const;
 
  private:
+  struct Found;
+
+  Found found_beside(const std::vector<Misfit>& known) const;
+  std::optional<Misfit> surprising_at(Eigen::Index first, double evidence) const;
   Eigen::MatrixXd covariance_with(std::span<const SurfacePoint> places) const;
   Eigen::VectorXd in_space(const Eigen::VectorXd& in_time) const;
   Eigen::MatrixXd columns(const std::vector<Misfit>& changes,

@@ -126,6 +126,8 @@ py::dict summary(const Concluded& here) {
   }
   result["core"] = core_of(all);
   result["taken_back"] = changes_of(all);
+  const std::optional<Misfit>& step = all.evidence.zero_or_tissue;
+  result["zero_or_tissue"] = step ? py::object(change_of(*step)) : py::none();
   py::list doubtful;
   for (const DoubtfulPart& part : all.evidence.doubtful) {
     const Vec3 at = belief.prior().surface().position(part.where);

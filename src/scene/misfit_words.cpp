@@ -148,8 +148,9 @@ std::vector<std::string> session_words(ReadingScale scale,
 }
 
 std::string taken_back_words(const Surface& surface, ReadingScale scale, const Misfit& change) {
-  const std::string since = "Since reading " + std::to_string(change.number + 1) + ", of batch " +
-                            std::to_string(change.from_batch) + ", ";
+  const std::string since =
+      "Since reading " + std::to_string(change.number + 1) +
+      (change.from_batch > 0 ? ", of batch " + std::to_string(change.from_batch) : "") + ", ";
   switch (change.kind) {
     case MisfitKind::Gain:
       return since + "what stands out does so " + fixed(1.0 + change.amount, 2) +
@@ -169,6 +170,14 @@ std::string taken_back_words(const Surface& surface, ReadingScale scale, const M
              ", wherever they are: the sensor's zero has moved. That much is taken from "
              "them; set it again.";
   }
+}
+
+std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
+  return "Since reading " + std::to_string(step.number + 1) + " readings lie " +
+         raised_words(scale, step.amount) +
+         ", and since then the ground is another, too: that tissue differs there, or that the "
+         "sensor's zero moved, the readings do not tell. It is taken for tissue; touch again "
+         "where you touched before.";
 }
 
 /// Where a model does not let them differ; else nothing.
@@ -212,6 +221,8 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   std::vector<std::string> words = session_words(conclusion.scale(), session_changes(conclusion));
   for (const Misfit& change : other_changes(conclusion))
     words.push_back(taken_back_words(surface, conclusion.scale(), change));
+  if (conclusion.evidence.zero_or_tissue)
+    words.push_back(zero_or_tissue_words(conclusion.scale(), *conclusion.evidence.zero_or_tissue));
   words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {

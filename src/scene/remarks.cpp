@@ -265,7 +265,7 @@ Remarks area_remarks(const Episode& episode, bool has_parts) {
                       fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
                       fixed(*times, 0) +
                       " times the least that so many readings with so little noise allow: more "
-                      "batches would help.");
+                      "of them about it would help.");
   return remarks;
 }
 

@@ -215,6 +215,8 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
   }
   if (json changes = taken_back_json(episode.conclusion()); !changes.empty())
     result["taken_back"] = std::move(changes);
+  if (const std::optional<Misfit>& step = episode.conclusion().evidence.zero_or_tissue)
+    result["zero_or_tissue"] = change_json(*step);
   if (json doubtful = doubtful_json(episode.conclusion()); !doubtful.empty())
     result["doubtful"] = std::move(doubtful);
   const bool found = !episode.estimate.empty();

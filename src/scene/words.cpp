@@ -158,6 +158,8 @@ std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
 /// Where the field is highest, and why that is no tumour.
 std::string no_edge_words(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
+  if (conclusion.belief.site_count() == 1)
+    return "Nothing found: all readings were made at one place, and tell of no other.";
   Eigen::Index highest = 0;
   const double most = as_reading(conclusion.scale(), conclusion.component.mean.maxCoeff(&highest)),
                least = as_reading(conclusion.scale(), conclusion.component.mean.minCoeff());

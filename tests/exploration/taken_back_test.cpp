@@ -308,6 +308,7 @@ TEST(TakenBack, ARasterIsNoMove) {
   const Conclusion conclusion =
       conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, raster, nullptr, 1);
   EXPECT_TRUE(conclusion.evidence.taken_back.empty());
+  EXPECT_FALSE(conclusion.evidence.zero_or_tissue);
   for (const Misfit& misfit : misfits(conclusion)) EXPECT_NE(misfit.kind, MisfitKind::Moved);
   const double truth_m2 = 36e-6 * 3.14159265358979;
   EXPECT_NEAR(conclusion.outlines->area_m2.mean, truth_m2, 0.05 * truth_m2);
@@ -378,6 +379,45 @@ TEST(ZeroChanges, AreNotWhatARasterFindsOverTissueThatIsStiffBeyondALine) {
     EXPECT_NEAR(conclusion.level->value, 8.0, 0.2);
     for (const Misfit& misfit : misfits(conclusion)) EXPECT_NE(misfit.kind, MisfitKind::Zero);
   }
+}
+
+/// Row by row, seven a row, of readings that scatter by a fiftieth of the contrast.
+Conclusion concluded_of_raster(const World& world, std::uint64_t seed) {
+  const Surface surface = tissue();
+  Random random(seed);
+  std::vector<Palpation> raster;
+  for (int i = 0; i < 49; ++i) {
+    const Vec3 place(0.0017 + 0.0036 * (i / 7), 0.0017 + 0.0036 * (i % 7), 0.0);
+    raster.push_back(
+        {.where = surface.project(place), .reading = world(place, i) + 0.04 * random.normal()});
+  }
+  return conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, raster, nullptr, 1);
+}
+
+// As one outline of what is stiff, half of the tissue would be: with the disk, of two heights.
+TEST(RasterStep, OfTheZeroWithinATumourIsTakenBack) {
+  const Conclusion conclusion = concluded_of_raster(
+      [](const Vec3& place, int i) { return stiffness(place) - (i >= 21 ? 2.0 : 0.0); }, 1);
+  ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u);
+  const Misfit& change = conclusion.evidence.taken_back.front();
+  EXPECT_EQ(change.kind, MisfitKind::Zero);
+  EXPECT_EQ(change.number, 21u);
+  EXPECT_NEAR(change.amount, -2.0, 0.2);
+  EXPECT_FALSE(conclusion.evidence.zero_or_tissue);
+  const double truth_m2 = 36e-6 * 3.14159265358979;
+  EXPECT_NEAR(conclusion.outlines->area_m2.mean, truth_m2, 0.1 * truth_m2);
+}
+
+TEST(RasterStep, OfTissueThatIsStiffBeyondALineMayBeTheZeros) {
+  const Conclusion conclusion = concluded_of_raster(
+      [](const Vec3& place, int) {
+        return 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * (place.x() - 0.0143)));
+      },
+      1);
+  EXPECT_TRUE(conclusion.evidence.taken_back.empty());
+  EXPECT_NEAR(conclusion.level->value, 8.0, 0.4);
+  ASSERT_TRUE(conclusion.evidence.zero_or_tissue);
+  EXPECT_EQ(conclusion.evidence.zero_or_tissue->number, 28u);
 }
 
 /// The probe goes on where it found something: what comes later is stiff.

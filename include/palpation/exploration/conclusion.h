@@ -68,6 +68,9 @@ struct Evidence {
   /// Slope, zeros, gains and moves of the tissue, in the order in which they were found: each is
   /// of readings without those before it. Numbers are those of Conclusion::palpations.
   std::vector<Misfit> taken_back{};
+  /// A step in readings that were made on other ground since then, which tissue may have made, or
+  /// the zero: it is taken for tissue.
+  std::optional<Misfit> zero_or_tissue{};
 
   /// Whether level and boundary may be concluded.
   bool allows_boundary() const { return contrast_seen && !trend_is_missing; }
