@@ -129,18 +129,6 @@ std::string stop_words(const std::string& reason) {
   return "";
 }
 
-}  // namespace
-
-std::string weaker_words(const Exploration& exploration) {
-  std::string words;
-  for (const WeakerPart& part : exploration.conclusion().evidence.weaker)
-    words += (words.empty() ? "" : ", ") + reading_text(part.contrast) + " around " +
-             place_words(exploration.surface().position(part.where), 1);
-  return "what stands out by less is " + words;
-}
-
-namespace {
-
 /// Why what is highest is no tumour, and where it might be one all the same.
 std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
   if (!of_edge)
@@ -171,6 +159,14 @@ std::string no_edge_words(const Exploration& exploration) {
 }
 
 }  // namespace
+
+std::string weaker_words(const Exploration& exploration) {
+  std::string words;
+  for (const WeakerPart& part : exploration.conclusion().evidence.weaker)
+    words += (words.empty() ? "" : ", ") + reading_text(part.contrast) + " around " +
+             place_words(exploration.surface().position(part.where), 1);
+  return "what stands out by less is " + words;
+}
 
 std::string instead_of_edge(const EdgeOdds& odds) {
   return odds.noise_lasts ? "Noise that lasts from reading to reading"
