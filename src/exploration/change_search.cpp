@@ -169,14 +169,15 @@ std::optional<RasterStep> raster_step(const Model& model, const Known& known,
                                       const std::vector<Palpation>& readings) {
   const Belief& belief = known.believed.belief;
   const Surface& surface = belief.prior().surface();
-  const std::optional<Misfit> found = zero_or_tissue(readings, belief);
+  const Readings& screened = known.believed.palpations;
+  const std::optional<Misfit> found = zero_or_tissue(screened, belief);
   if (!found || !known.boundary.edge) return std::nullopt;
   ConclusionCache apart;
   const auto without = [&](const Misfit& step) {
     return believe(surface, model, with_changes_taken_back(surface, readings, {&step, 1}), apart);
   };
   // Of a large step the field, which knows nothing of it, takes a part.
-  RasterStep step{.zero = estimated_zeros(readings, without(*found).belief, {*found}).front()};
+  RasterStep step{.zero = estimated_zeros(screened, without(*found).belief, {*found}).front()};
   const Known then = known_by(surface, model, without(step.zero));
   const Belief& left = then.believed.belief;
   const double noise_variance = belief.noise_variance();
