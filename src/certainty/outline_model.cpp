@@ -107,7 +107,8 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
 
 ResidualPrior residual_prior(const OutlinePrior& prior) {
   return {.noise_log_sd = prior.noise_log_sd,
-          .wild_density = 1.0 / (kWildReach * prior.plateau_sd)};
+          .wild_density = 1.0 / (kWildReach * prior.plateau_sd),
+          .least_log_noise = prior.least_log_noise};
 }
 
 double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,

@@ -20,6 +20,7 @@
 /// (outline_cut.h), and contrast may be less beyond a core (outline_core.h).
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -68,6 +69,7 @@ struct OutlinePrior {
   double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
+  double least_log_noise = -std::numeric_limits<double>::infinity();
   double fraction = 0.5;              ///< of the way from low to high, where the boundary is
   Vec2 middle = Vec2::Zero();         ///< of what was found first, and
   double radius_m = 0.005;            ///< how far from it a slope is nearly that of its side

@@ -57,7 +57,7 @@ OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<do
       off_(std::move(off)),
       scatter_(scatter_of(variance)),
       information_(information_of(terms, variance)),
-      scales_{.log_noise = log_noise,
+      scales_{.log_noise = std::max(log_noise, prior.least_log_noise),
               .log_sd = std::vector(terms.waves.size(), 0.0),
               .wild = static_cast<double>(kWild) / (kWild + kTelling)} {
   factor();
@@ -169,7 +169,8 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
   const auto move = [&](double& scale, double step) {
     const double before = std::exchange(scale, scale + step * random.normal());
     Marginal then = marginal_of(told, scales_);
-    if (std::log(random.uniform()) < then.log_density - now.log_density) {
+    if (scales_.log_noise >= prior_.least_log_noise &&
+        std::log(random.uniform()) < then.log_density - now.log_density) {
       now = std::move(then);
     } else {
       scale = before;

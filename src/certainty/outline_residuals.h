@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,14 @@
 namespace palpation {
 
 /// Of what the noise's standard deviations are multiplied by, in logarithms; and how probable a
-/// reading that tells nothing is, wherever it may lie.
+/// reading that tells nothing is, wherever it may lie. Readings that are equal to the last digit
+/// would be the more probable the less noise there is, and all others told as nothing: so there is
+/// a least.
 struct ResidualPrior {
   double log_noise = 0.0;
   double noise_log_sd = 1.0;
   double wild_density = 1e-3;
+  double least_log_noise = -std::numeric_limits<double>::infinity();
 };
 
 /// Residuals that are thought of instead, and what they change.

@@ -10,6 +10,7 @@
 #include "certainty/outline_lines.h"
 #include "certainty/slow_waves.h"
 #include "palpation/geometry/chart_place.h"
+#include "readings/rounding.h"
 
 namespace palpation {
 namespace {
@@ -78,14 +79,16 @@ Eigen::MatrixXd slow_waves_of(const Layout& layout, const std::optional<WaveScal
 }
 
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
-                                  const OutlineOptions& options,
-                                  std::vector<std::vector<int>>& epochs) {
+                                  const OutlineOptions& options, OutlinePrior& prior) {
   const std::vector<Misfit>& changes = options.changes;
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
   EdgeData data = options.one_by_one.empty() ? gathered_for_edge(belief)
                                              : gathered_for_edge(belief, options.one_by_one);
   data.variance = data.variance.cwiseMax(profile_error_variance(range));
+  const double least_variance =
+      std::max(profile_error_variance(range), rounding_variance(belief.palpations()));
+  prior.least_log_noise = 0.5 * std::log(least_variance / data.variance.minCoeff());
   Eigen::VectorXd of_vertices;
   if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
     data = with_plateaus_merged(layout, data);
@@ -120,7 +123,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
                         .slow_waves = slow_waves_of(layout, options.slow_waves, in_order),
                         .steps = steps_of(changes, before)});
   readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
-  readings.epoch = epochs_of(before, epochs);
+  readings.epoch = epochs_of(before, prior.epochs);
   readings.background.step_sd = step_sd_of(changes, range);
   readings.background.median_sd = kWaves * range;
   readings.background.drift_sd = kDrift * range;
@@ -169,7 +172,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
   const std::vector<std::vector<Vec2>> lines = lines_of(surface, edge.depth());
   if (lines.empty() || !(range > 0.0)) return std::nullopt;
   OutlineStart start;
-  start.readings = readings_in_plane(belief, edge, range, options, start.prior.epochs);
+  start.readings = readings_in_plane(belief, edge, range, options, start.prior);
   const OutlineNodes outline = outline_from(lines, start.readings.places);
   if (outline.loops.empty()) return std::nullopt;
   const ShapePrior shape;

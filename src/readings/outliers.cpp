@@ -25,6 +25,7 @@ constexpr std::size_t kLeastReadings = 5;  // fewer cannot say which of them is 
 constexpr std::size_t kWitnesses = 2;      // a value that none of so many nearest readings nears
                                            // is felt once
 constexpr int kCorner = 10;     // one in so many of a sharp corner's neighbours lies within it, too
+constexpr int kTurns = 100;     // finds planes with 6 degrees to spare
 constexpr double kNear = 0.57;  // of the length, 2 mm of 3.5: no tumour's tip ends so near; as
                                 // many contradict what was felt once
 
@@ -32,6 +33,21 @@ constexpr double kNear = 0.57;  // of the length, 2 mm of 3.5: no tumour's tip e
 double correlation(double distance2) {
   const double s = std::sqrt(3.0 * distance2);
   return (1.0 + s) * std::exp(-s);
+}
+
+/// Whether a plane through the origin has all of these directions on one side (perceptron).
+bool are_on_one_side(const std::vector<Vec3>& directions) {
+  Vec3 normal = Vec3::Zero();
+  for (int turn = 0; turn < kTurns; ++turn) {
+    bool is_parted = true;
+    for (const Vec3& one : directions) {
+      if (normal.dot(one) > 0.0) continue;
+      normal += one;
+      is_parted = false;
+    }
+    if (is_parted) return true;
+  }
+  return false;
 }
 
 class Neighbourhoods {
@@ -116,18 +132,23 @@ class Neighbourhoods {
     return std::abs(predicted) / (signal * std::sqrt(variance));
   }
 
-  /// Whether enough places within a length read more like this one than like what is predicted of
-  /// it, `from_here` away: a steep edge is no fault.
+  /// Whether places within a length read more like this one than like what is predicted of it,
+  /// `from_here` away, and are enough, or an edge could part both from all others there: a steep
+  /// edge is no fault.
   bool is_felt_beside(std::size_t i, const std::vector<std::size_t>& around,
                       double from_here) const {
-    int near = 0, alike = 0;
+    int alike = 0;
+    std::vector<Vec3> to_unlike;
     for (const std::size_t other : around) {
       if (distance2(i, other) >= 1.0) continue;
       const double difference = palpations_[other].reading - palpations_[i].reading;
-      ++near;
-      alike += (from_here > 0.0 ? difference : -difference) < 0.5 * std::abs(from_here);
+      if ((from_here > 0.0 ? difference : -difference) < 0.5 * std::abs(from_here))
+        ++alike;
+      else
+        to_unlike.push_back((places_[other] - places_[i]).normalized());
     }
-    return kCorner * alike > near;
+    return (kCorner - 1) * alike > static_cast<int>(to_unlike.size()) ||
+           (alike > 0 && are_on_one_side(to_unlike));
   }
 
   /// In lengths, squared, between what is felt: what was read on the way in different directions

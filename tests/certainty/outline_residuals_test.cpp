@@ -191,6 +191,23 @@ TEST(OutlineResiduals, LearnTheNoise) {
   EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0 / std::sqrt(400.0), 0.006);
 }
 
+// Ninety of a hundred readings are what is said of them to the last digit.
+TEST(OutlineResiduals, EqualReadingsTellOfNoLessNoiseThanThereIs) {
+  Readings readings;
+  readings.off.assign(90, 0.0);
+  Random random(9);
+  for (int i = 0; i < 10; ++i) readings.off.push_back(0.3 * random.normal());
+  readings.variance.assign(100, 0.01);
+  OutlineResiduals residuals = residuals_of(readings, {.least_log_noise = -2.0});
+  double mean = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    residuals.redraw(random);
+    ASSERT_GE(residuals.log_noise(), -2.0);
+    if (i >= 500) mean += residuals.log_noise() / 500;
+  }
+  EXPECT_LT(mean, -1.9);
+}
+
 /// The raster with noise three times as large on its right half, which counts as tumour.
 Readings noisier_on_the_right() {
   Readings readings = raster(0.01);

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "belief/tissue.h"
 #include "exploration/search_goal.h"
 #include "palpation/base/error.h"
+#include "palpation/boundary/level_set.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/geometry/make_plane.h"
 #include "palpation/world/phantom.h"
@@ -117,6 +119,25 @@ TEST(Conclude, ATumourOfTwoHeightsIsOneOutline) {
   EXPECT_LT((tissue.position(core.where) - Vec3(0.026, 0.025, 0.0)).norm(), 0.0015);
   EXPECT_LE(conclusion.outlines->area_m2.least, 254e-6);
   EXPECT_GE(conclusion.outlines->area_m2.most, 254e-6);
+}
+
+// As a phantom without a tip feels it: nothing is between the plateaus, and they have no noise.
+TEST(Conclude, AStepWithoutNoiseIsFound) {
+  constexpr double kRadius_m = 0.005, kArea_m2 = std::numbers::pi * kRadius_m * kRadius_m;
+  Random random(2);
+  const Surface tissue(make_plane({.size_m = Vec2(0.02, 0.03), .columns = 41, .rows = 61}, random));
+  std::vector<Palpation> readings;
+  for (int i = 0; i < 150; ++i) {
+    const Vec3 place(0.02 * random.uniform(), 0.03 * random.uniform(), 0.0);
+    const bool is_inside = (place - Vec3(0.011, 0.017, 0.0)).norm() < kRadius_m;
+    readings.push_back({.where = tissue.project(place), .reading = is_inside ? 1.0 : 0.0});
+  }
+  const Conclusion conclusion = conclude(tissue, Model{}, readings, nullptr, 1);
+  ASSERT_TRUE(conclusion.contour && conclusion.outlines);
+  EXPECT_NEAR(superlevel_area(tissue, conclusion.contour->field, conclusion.contour->level),
+              kArea_m2, 0.1 * kArea_m2);
+  EXPECT_LT(conclusion.outlines->expected.missed_m2 + conclusion.outlines->expected.extra_m2,
+            0.2 * kArea_m2);
 }
 
 // Twenty readings of healthy tissue whose noise has heavy tails: they gather on two plateaus, but

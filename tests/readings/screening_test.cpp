@@ -265,6 +265,28 @@ TEST(Screened, AStiffPlaceThatWasFeltOnceIsKept) {
   }
 }
 
+// The last touch within an edge that most others were sent to the far side of; and the same reading
+// with healthy tissue all around it, which no edge parts it from.
+TEST(Screened, ATouchThatAnEdgePartsFromItsNeighboursIsKept) {
+  const Surface tissue = sheet();
+  std::vector<Palpation> around;
+  const auto felt = [&](double x_mm, double y_mm, double reading) {
+    around.push_back(
+        {.where = tissue.project(Vec3(0.015 + 0.001 * x_mm, 0.025 + 0.001 * y_mm, 0.0)),
+         .reading = reading});
+  };
+  felt(0.0, 0.0, 1.0);
+  felt(-2.8, 1.0, 1.0);
+  for (int i = 0; i < 5; ++i) felt(-4.0, 2.0 * i - 4.0, 1.0);
+  for (int i = 0; i < 7; ++i) felt(1.0, i - 3.0, 0.0);
+  for (int i = 0; i < 7; ++i) felt(2.0, i - 3.0, 0.0);
+  EXPECT_EQ(reasons(screened(tissue, around)), Found{});
+  for (const double y_mm : {-1.0, 0.0, 1.0}) felt(-1.0, y_mm, 0.0);
+  const std::vector<Palpation> result = screened(tissue, around);
+  EXPECT_EQ(reasons(result), (Found{{kOutlier, 1}}));
+  EXPECT_EQ(result.front().set_aside, kOutlier);
+}
+
 // Readings in opposite directions of travel are a lag apart: at the edge they contradict each
 // other, and are right.
 TEST(Screened, ReadingsOfOppositeTravelAreNotCompared) {
