@@ -15,12 +15,15 @@ constexpr double kOfTumour = 0.5, kCoreLogSd = 0.7;
 
 double least_beside(double fraction) { return kLeastCut * fraction / 0.5; }
 
-double log_core_density(const OutlineCore& core, double tumour_radius_m, double fraction) {
+double log_core_density(const OutlineCore& core, const Vec2& tumour_middle, double tumour_radius_m,
+                        double fraction) {
   if (core.half_length_m < 0.0 || !(core.beside >= least_beside(fraction) && core.beside <= 1.0))
     return -std::numeric_limits<double>::infinity();
   const double median = kOfTumour * tumour_radius_m,
                z = (core.log_radius - std::log(median)) / kCoreLogSd;
-  return -0.5 * z * z - core.half_length_m / median;
+  return -0.5 * (z * z + (core.middle - tumour_middle).squaredNorm() /
+                             (tumour_radius_m * tumour_radius_m)) -
+         core.half_length_m / median;
 }
 
 }  // namespace palpation

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -100,13 +101,6 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
   return start;
 }
 
-/// What the readings say for one, as it is first.
-double evidence_of(const OutlineStart& start) {
-  return OutlineChain(start.readings, start.prior, start.outline, start.profile)
-      .residuals()
-      .log_density();
-}
-
 /// Of a walk that has settled, on average.
 struct Settled {
   double evidence = 0.0;   ///< log density of the readings,
@@ -117,6 +111,7 @@ struct Settled {
   double alike = 0.0;      ///< and how improbable it is that those on the plateau beside it read
                            ///< alike by chance, nats
 
+  double paid() const { return evidence - price; }
   double area_sd_m2() const { return std::sqrt(std::max(square_m4 - area_m2 * area_m2, 0.0)); }
 };
 
@@ -175,42 +170,51 @@ enum class Told { Plain, Either, Core };
 Told told_by(const Settled& plain, const Settled& cored) {
   const double chance = -std::log(kFalseAlarms),
                needed = chance + 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0));
-  const double gained = cored.evidence - cored.price - plain.evidence + plain.price;
+  const double gained = cored.paid() - plain.paid();
   if (cored.alike > chance && gained + cored.alike > needed) return Told::Core;
   const bool is_open = gained > needed || (are_apart(plain, cored) && gained > -needed);
   return is_open ? Told::Either : Told::Plain;
+}
+
+struct Cored {
+  OutlineStart start;
+  Settled walk{};
+  Told told = Told::Plain;
+};
+
+/// Of those that keep a core when they have settled the one first that readings pay most for: as
+/// they begin that would be the one that is nearest to one of one height.
+std::vector<Cored> cored_starts(const OutlineStart& plain, const Surface& surface,
+                                const Field& mean, std::uint64_t seed) {
+  std::vector<Cored> all = {{plain}};
+  for (const double beside : kBeside) {
+    if (beside < least_beside(plain.prior.fraction)) continue;
+    if (std::optional<OutlineStart> start = start_with(plain, surface, mean, beside))
+      all.push_back({*std::move(start)});
+  }
+  for_ranges(static_cast<int>(all.size()), 1, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      if (i > 0) all[i].start = pruned(std::move(all[i].start), seed);
+      all[i].walk = settled(all[i].start, seed);
+    }
+  });
+  const Settled of_plain = all.front().walk;
+  std::erase_if(all, [](const Cored& one) { return !one.start.profile.core; });
+  std::ranges::sort(all, std::greater{}, [](const Cored& one) { return one.walk.paid(); });
+  for (Cored& one : all) one.told = told_by(of_plain, one.walk);
+  return all;
 }
 
 }  // namespace
 
 ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface, const Field& mean,
                               std::uint64_t seed) {
-  std::optional<OutlineStart> cored;
-  double most = 0.0;
-  for (const double beside : kBeside) {
-    if (beside < least_beside(plain.prior.fraction)) continue;
-    std::optional<OutlineStart> start = start_with(plain, surface, mean, beside);
-    if (!start) continue;
-    const double evidence = evidence_of(*start);
-    if (cored && evidence < most) continue;
-    most = evidence;
-    cored = std::move(start);
-  }
-  if (cored) cored = pruned(*std::move(cored), seed);
-  if (!cored || !cored->profile.core) return {plain, plain};
-  std::array<Settled, 2> both;
-  for_ranges(2, 1, [&](int first, int last) {
-    for (int i = first; i < last; ++i) both[i] = settled(i == 0 ? plain : *cored, seed);
-  });
-  switch (told_by(both[0], both[1])) {
-    case Told::Core:
-      return {*cored, *cored};
-    case Told::Either:
-      return {plain, *cored};
-    case Told::Plain:
-      break;
-  }
-  return {plain, plain};
+  const std::vector<Cored> all = cored_starts(plain, surface, mean, seed);
+  if (all.empty()) return {plain, plain};
+  if (all.front().told == Told::Core) return {all.front().start, all.front().start};
+  const auto open = std::ranges::find_if(
+      all, [](Told told) { return told != Told::Plain; }, &Cored::told);
+  return {plain, open == all.end() ? plain : open->start};
 }
 
 }  // namespace palpation

@@ -11,8 +11,8 @@ namespace palpation {
 /// For each chain an outline with a core in place of this one, where that makes the readings more
 /// probable by more than chance and what its freedom costs, asked once chains from both have
 /// settled a little; one of either kind where readings do not tell, also if they pay for no core
-/// while the two end elsewhere; else this one. `mean`: of the
-/// field at the vertices, whose levels such an outline starts from.
+/// while the two end elsewhere; else this one. Such outlines start half way up to what may lie
+/// beside a core, from levels of the field, `mean` at the vertices.
 ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface, const Field& mean,
                               std::uint64_t seed);
 

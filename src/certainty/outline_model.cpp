@@ -156,7 +156,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
   const double of_core =
-      profile.core ? log_core_density(*profile.core, prior.radius_m, prior.fraction) : 0.0;
+      profile.core ? log_core_density(*profile.core, prior.middle, prior.radius_m, prior.fraction)
+                   : 0.0;
   return std::log(Kinds(profile).both()) - sum + of_core;
 }
 
