@@ -18,7 +18,7 @@ namespace {
 /// four fifths of its height.
 constexpr double kPlateauError = 0.25;
 
-constexpr double kProfileError = 1e-3;  ///< of the range
+constexpr double kProfileError = 0.01;  ///< of the range
 constexpr double kRounding = 1e-13;
 constexpr double kLeastVariance = 1e-300;  // has an inverse
 constexpr double kDeep_m = 0.008;

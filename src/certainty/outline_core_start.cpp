@@ -20,7 +20,8 @@ namespace {
 /// Contrasts beside a core that are tried, of its own.
 constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
 constexpr double kFalseAlarms = 0.02;
-constexpr double kLevel = 0.9;                 ///< of the way up: it levels off
+constexpr double kLevel = 0.9;  ///< of the way up: it levels off
+constexpr double kSeldom = 0.05;
 constexpr int kNumbers = 6;                    ///< that are a core's
 constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
 
@@ -108,8 +109,9 @@ struct Settled {
   double area_m2 = 0.0;    ///< within the outline,
   double square_m4 = 0.0;  ///< and of its square
   double inside = 0.0;     ///< readings in the part that has the core, if one does,
-  double alike = 0.0;      ///< and how improbable it is that those on the plateau beside it read
-                           ///< alike by chance, nats
+  double alike = 0.0;      ///< and how improbable it is that those on the plateau beside it
+                           ///< read alike by chance, nats
+  double level = 0.0;      ///< how often what lies beside it is as good as level with it
 
   double paid() const { return evidence - price; }
   double area_sd_m2() const { return std::sqrt(std::max(square_m4 - area_m2 * area_m2, 0.0)); }
@@ -119,6 +121,7 @@ void count_inside(const OutlineChain& chain, const OutlineReadings& readings, Se
   const ReadingLaw& law = chain.law();
   const OutlineNodes& outline = chain.outline();
   if (!law.core) return;
+  if (law.core->beside > kLevel) sum.level += 1.0 / kWeighed;
   const double noise = std::exp(chain.residuals().log_noise());
   for (std::size_t i = 0; i < readings.places.size(); ++i) {
     const Vec2& place = readings.places[i];
@@ -166,13 +169,14 @@ enum class Told { Plain, Either, Core };
 /// so, tissue may as well rise all the way up to its middle: then readings that pay for a core by
 /// themselves tell neither. Nor do those that pay for none, where the two end elsewhere: that an
 /// outline of one height has fewer numbers makes a tumour no smaller. Then it is told by readings
-/// that speak as much against a core as would be needed for it.
+/// that speak against a core by more than chance.
 Told told_by(const Settled& plain, const Settled& cored) {
   const double chance = -std::log(kFalseAlarms),
                needed = chance + 0.5 * kNumbers * std::log(std::max(cored.inside, 1.0));
   const double gained = cored.paid() - plain.paid();
-  if (cored.alike > chance && gained + cored.alike > needed) return Told::Core;
-  const bool is_open = gained > needed || (are_apart(plain, cored) && gained > -needed);
+  if (cored.level < kSeldom && cored.alike > chance && gained + cored.alike > needed)
+    return Told::Core;
+  const bool is_open = gained > needed || (are_apart(plain, cored) && gained > -chance);
   return is_open ? Told::Either : Told::Plain;
 }
 
@@ -210,7 +214,8 @@ std::vector<Cored> cored_starts(const OutlineStart& plain, const Surface& surfac
 ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface, const Field& mean,
                               std::uint64_t seed) {
   const std::vector<Cored> all = cored_starts(plain, surface, mean, seed);
-  if (all.empty()) return {plain, plain};
+  const bool is_level = !all.empty() && all.front().walk.level > 0.5;  // there is no second height
+  if (all.empty() || is_level) return {plain, plain};
   if (all.front().told == Told::Core) return {all.front().start, all.front().start};
   const auto open = std::ranges::find_if(
       all, [](Told told) { return told != Told::Plain; }, &Cored::told);

@@ -6,6 +6,7 @@
 
 #include "belief/sites.h"
 #include "palpation/base/error.h"
+#include "readings/dense_stops.h"
 #include "readings/readings.h"
 #include "readings/way.h"
 
@@ -28,25 +29,34 @@ constexpr double kMergeWithin = 0.3;
 
 constexpr std::size_t kMostForEvidence = 300;
 
+/// Stops that three numbers are learned from: more tell them no better, and the cost grows with the
+/// third power.
+constexpr std::size_t kMostStops = 600;
+
 bool is_on_the_way(const Palpation& palpation) { return palpation.kind == TouchKind::Way; }
 
-/// All stops, and every so many of the readings on the way, so that there are no more than `most`
-/// in all if the stops allow; of what counts.
+/// Of what counts, every so many of the stops where they number more than kMostStops or `most`, and
+/// of the readings on the way, so that there are no more than `most` in all if the stops allow.
 std::vector<Palpation> to_learn_from(std::span<const Palpation> palpations, std::size_t most) {
   const auto used = static_cast<std::size_t>(std::ranges::count_if(palpations, counts));
   const auto ways = static_cast<std::size_t>(std::ranges::count_if(
       palpations, [](const Palpation& one) { return counts(one) && is_on_the_way(one); }));
-  if (ways == 0 || used <= most) return {palpations.begin(), palpations.end()};
-  const std::size_t stops = used - ways, kept = most > stops ? most - stops : 0;
+  const std::size_t stops = used - ways, kept_stops = std::min(stops, std::max(most, kMostStops)),
+                    kept_ways = std::min(ways, most > kept_stops ? most - kept_stops : 0);
+  if (kept_stops == stops && (ways == 0 || used <= most))
+    return {palpations.begin(), palpations.end()};
+  struct Thinning {
+    std::size_t kept, all, passed = 0;
+    bool keeps_next() {
+      ++passed;
+      return passed * kept / all > (passed - 1) * kept / all;
+    }
+  };
+  Thinning of_stops{kept_stops, stops}, of_ways{kept_ways, ways};
   std::vector<Palpation> chosen;
-  std::size_t passed = 0;
   for (const Palpation& palpation : palpations) {
     if (!counts(palpation)) continue;
-    if (is_on_the_way(palpation)) {
-      ++passed;
-      if (passed * kept / ways == (passed - 1) * kept / ways) continue;
-    }
-    chosen.push_back(palpation);
+    if ((is_on_the_way(palpation) ? of_ways : of_stops).keeps_next()) chosen.push_back(palpation);
   }
   return chosen;
 }
@@ -179,15 +189,19 @@ FieldFit grown_field(const Surface& surface, const FieldModel& field,
 
 FieldFit belief_of(const Surface& surface, const FieldModel& field,
                    std::span<const Palpation> palpations, const LearnedField& taught) {
+  const auto is_stop = [](const Palpation& one) { return counts(one) && !is_on_the_way(one); };
+  const bool are_dense =
+      std::ranges::count_if(palpations, is_stop) > static_cast<std::ptrdiff_t>(kMostStops);
   const auto fit = [&](const LearnedField& by) -> FieldFit {
-    if (!field.learns() || std::ranges::none_of(palpations, is_on_the_way))
-      return {by.blank.condition_on(palpations), by.signal_evidence};
-    const double length_m = kernel_of(field.kernel).length_m;
-    const double noise_sd = by.in_force().noise_sd;
-    return {by.blank.condition_on(merged_on_the_way(surface, palpations, kMergeWithin * length_m,
-                                                    noise_sd * noise_sd)),
-            by.signal_evidence,
-            {palpations.begin(), palpations.end()}};
+    if (!field.learns()) return {by.blank.condition_on(palpations), by.signal_evidence};
+    const double within_m = kMergeWithin * kernel_of(field.kernel).length_m,
+                 noise_variance = std::pow(by.in_force().noise_sd, 2);
+    std::vector<Palpation> felt(palpations.begin(), palpations.end());
+    if (are_dense) felt = merged_in_cells(surface, felt, within_m, noise_variance);
+    if (std::ranges::none_of(felt, is_on_the_way))
+      return {by.blank.condition_on(felt), by.signal_evidence};
+    return {by.blank.condition_on(merged_on_the_way(surface, felt, within_m, noise_variance)),
+            by.signal_evidence, std::move(felt)};
   };
   try {
     return fit(taught);

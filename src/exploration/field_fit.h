@@ -42,7 +42,7 @@ struct LearnedField {
 /// The hyperparameters that the readings teach, searched from the priors' medians and, where there
 /// is one, from `start`; from fewer than two places, or readings that are all alike, nothing is
 /// learned. Of readings on the way only every so many counts where there are more than
-/// `most_places` in all.
+/// `most_places` in all, and of stops where they are more than that and six hundred.
 LearnedField learn_field(const Surface& surface, const FieldModel& field,
                          std::span<const Palpation> palpations, const Hyperparameters& start = {},
                          std::size_t most_places = kMostToLearnFrom);
@@ -53,9 +53,10 @@ struct FieldFit {
   std::vector<Palpation> one_by_one{};  ///< its readings, where it knows some of them together
 };
 
-/// The belief that knows them too, those on the way merged within three tenths of the length that a
-/// field is likely to have where they are alike but for noise. Where readings that did not teach
-/// are too close together for the noise that was learned, all teach.
+/// The belief that knows them too, those on the way, and stops where they are more than six
+/// hundred, merged within three tenths of the length that a field is likely to have where they are
+/// alike but for noise. Where readings that did not teach are too close together for the noise that
+/// was learned, all teach.
 FieldFit belief_of(const Surface& surface, const FieldModel& field,
                    std::span<const Palpation> palpations, const LearnedField& taught);
 

@@ -12,6 +12,7 @@ namespace {
 
 /// So often a slope is found again in what the edge without it leaves.
 constexpr int kTiltRounds = 3;
+constexpr double kFelt = 0.1;  ///< standard deviations of the noise
 
 /// The readings without a slope, and how probable they are: by an edge, or, where none is left, as
 /// noise alone.
@@ -29,18 +30,29 @@ class TiltSearch {
 
   /// Planes through all readings are the first to ask.
   void ask_planes(std::span<const Palpation> readings) {
-    for (const Misfit& tilt : tilts_of_planes(surface_, readings)) sharpen(tried(tilt));
+    for (const Misfit& tilt : tilts_of_planes(surface_, readings)) {
+      if (is_felt(tilt)) sharpen(tried(tilt));
+    }
   }
 
   /// What an edge leaves is the next.
   void ask_edge(const EdgeBelief& edge, std::span<const Palpation> readings) {
-    if (const std::optional<Misfit> tilt = tilt_left(surface_, edge, readings))
-      sharpen(tried(*tilt));
+    const std::optional<Misfit> tilt = tilt_left(surface_, edge, readings);
+    if (tilt && is_felt(*tilt)) sharpen(tried(*tilt));
   }
 
   std::optional<Tilted>& best() { return best_; }
 
  private:
+  /// Whether it raises readings over the tissue by what could matter beside their noise: of those
+  /// that are equal to the last digit rounding makes a slope.
+  bool is_felt(const Misfit& tilt) const {
+    const Vec3 extent = surface_.mesh().vertices.colwise().maxCoeff() -
+                        surface_.mesh().vertices.colwise().minCoeff();
+    const double rise = tilt.background.slope_per_m.cwiseAbs().dot(extent);
+    return rise > kFelt * std::sqrt(noise_variance_);
+  }
+
   Tilted tried(const Misfit& tilt) const {
     Known known = known_of_(with_changes_taken_back(surface_, felt_, {&tilt, 1}));
     const double log_evidence =

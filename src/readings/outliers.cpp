@@ -24,8 +24,9 @@ constexpr double kMostShare = 0.1;         // of the readings
 constexpr std::size_t kLeastReadings = 5;  // fewer cannot say which of them is wrong
 constexpr std::size_t kWitnesses = 2;      // a value that none of so many nearest readings nears
                                            // is felt once
-constexpr int kCorner = 10;     // one in so many of a sharp corner's neighbours lies within it, too
-constexpr int kTurns = 100;     // finds planes with 6 degrees to spare
+constexpr int kCorner = 10;  // one in so many of a sharp corner's neighbours lies within it, too
+constexpr int kTurns = 100;
+constexpr double kTurn = 0.1;
 constexpr double kNear = 0.57;  // of the length, 2 mm of 3.5: no tumour's tip ends so near; as
                                 // many contradict what was felt once
 
@@ -35,17 +36,18 @@ double correlation(double distance2) {
   return (1.0 + s) * std::exp(-s);
 }
 
-/// Whether a plane through the origin has all of these directions on one side (perceptron).
-bool are_on_one_side(const std::vector<Vec3>& directions) {
-  Vec3 normal = Vec3::Zero();
+/// Whether a sphere of radius 1 through the origin leaves all of these places outside: as far as
+/// one turns from the direction of most of them to that of those it holds.
+bool are_parted_from_origin(const std::vector<Vec3>& places) {
+  Vec3 outward = Vec3::Zero();
+  for (const Vec3& place : places) outward += place.normalized();
   for (int turn = 0; turn < kTurns; ++turn) {
-    bool is_parted = true;
-    for (const Vec3& one : directions) {
-      if (normal.dot(one) > 0.0) continue;
-      normal += one;
-      is_parted = false;
-    }
-    if (is_parted) return true;
+    outward.normalize();
+    const auto deepest = std::ranges::min_element(
+        places, {}, [&](const Vec3& place) { return outward.dot(place) / place.squaredNorm(); });
+    if (deepest == places.end() || outward.dot(*deepest) > -0.5 * deepest->squaredNorm())
+      return true;
+    outward += kTurn * deepest->normalized();
   }
   return false;
 }
@@ -133,8 +135,8 @@ class Neighbourhoods {
   }
 
   /// Whether places within a length read more like this one than like what is predicted of it,
-  /// `from_here` away, and are enough, or an edge could part both from all others there: a steep
-  /// edge is no fault.
+  /// `from_here` away, and are enough, or an edge as curved as anything that is felt could part it
+  /// from all others there: a steep edge is no fault.
   bool is_felt_beside(std::size_t i, const std::vector<std::size_t>& around,
                       double from_here) const {
     int alike = 0;
@@ -145,10 +147,10 @@ class Neighbourhoods {
       if ((from_here > 0.0 ? difference : -difference) < 0.5 * std::abs(from_here))
         ++alike;
       else
-        to_unlike.push_back((places_[other] - places_[i]).normalized());
+        to_unlike.push_back((places_[other] - places_[i]) / length_m_);
     }
     return (kCorner - 1) * alike > static_cast<int>(to_unlike.size()) ||
-           (alike > 0 && are_on_one_side(to_unlike));
+           (alike > 0 && are_parted_from_origin(to_unlike));
   }
 
   /// In lengths, squared, between what is felt: what was read on the way in different directions

@@ -56,6 +56,23 @@ double part_among_others(const Screen& screen, std::size_t first, std::size_t la
   return among_others / static_cast<double>(last - first + 1);
 }
 
+/// Whether most of the readings from `first` to `last` read what the nearest that was made before
+/// or after them does, to the last digit: then it is the tissue that is so even.
+bool agree_with_others(const Screen& screen, std::size_t first, std::size_t last) {
+  std::size_t agreeing = 0;
+  for (std::size_t here = first; here <= last; ++here) {
+    std::size_t nearest = here;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < screen.places.size(); ++i) {
+      if (i >= first && i <= last) continue;
+      const double square = (screen.places[i] - screen.places[here]).squaredNorm();
+      if (square < least) std::tie(nearest, least) = std::pair(i, square);
+    }
+    agreeing += nearest != here && screen.reading(nearest) == screen.reading(here);
+  }
+  return 2 * agreeing > last - first + 1;
+}
+
 /// At the end of the readings' range, and not far from those beside it: a plateau without noise, or
 /// the limit of a sensor.
 bool ends_range(const Screen& screen, const std::vector<double>& sorted, std::size_t first,
@@ -84,7 +101,9 @@ void find_frozen(Screen& screen) {
     if (run.size() < kLeastFrozen || path_m <= kTipWidth_m || !is_used) continue;
     const double by_chance = static_cast<double>(sorted.size()) *
                              std::pow(repeats_without(screen, first, last), last - first);
-    if (by_chance > kRareRun || ends_range(screen, sorted, first, last)) continue;
+    if (by_chance > kRareRun || ends_range(screen, sorted, first, last) ||
+        agree_with_others(screen, first, last))
+      continue;
     for (const std::size_t i : run) screen.set_aside(i, kFrozen);
   }
 }

@@ -171,6 +171,21 @@ TEST(Screened, ASensorThatHangsIsSetAsideHoweverItReads) {
   EXPECT_EQ(found_of(0, 0, 400.0, 0.0), 0);
 }
 
+// Tissue of three heights without noise, the first fifty touches by chance on one of them.
+TEST(Screened, TissueThatReadsTheSameAtAnyTimeIsNoSensorThatHangs) {
+  const Surface tissue = sheet();
+  Random random(4);
+  std::vector<Palpation> felt;
+  for (int i = 0; i < 120; ++i) {
+    const Vec3 place((i < 50 ? 0.010 : 0.030) * random.uniform(), 0.050 * random.uniform(), 0.0);
+    felt.push_back({.where = tissue.project(place),
+                    .reading = place.x() < 0.010   ? 0.5
+                               : place.x() < 0.020 ? 1.0
+                                                   : 0.0});
+  }
+  EXPECT_EQ(reasons(live(tissue, felt)), Found{});
+}
+
 // Row by row, first what lies at the sensor's lower limit, then a steep tumour.
 TEST(Screened, ASensorAtItsLimitDoesNotHang) {
   const Surface tissue = sheet();
