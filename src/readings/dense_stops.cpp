@@ -11,7 +11,7 @@
 namespace palpation {
 namespace {
 
-/// By session, batch and cube; the least reading first.
+/// Of one session and batch, and a cube.
 using Cell = std::tuple<int, int, long, long, long>;
 
 Cell cell_of(const Palpation& palpation, const Vec3& place, double within_m) {
@@ -45,6 +45,10 @@ std::vector<Palpation> merged_in_cells(const Surface& surface,
       end = std::find_if_not(first, felt.end(), [&](std::size_t i) {
         return are_alike(palpations[*first], palpations[i], noise_variance);
       });
+      if (end - first == 1) {
+        merged.emplace_back(*first, palpations[*first]);
+        continue;
+      }
       std::vector<Palpation> together;
       for (auto i = first; i != end; ++i) together.push_back(palpations[*i]);
       AsOne one = as_one(surface, together, noise_variance);
