@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "certainty/own_parts.h"
 
@@ -20,10 +21,13 @@ double log_core_density(const OutlineCore& core, const Vec2& tumour_middle, doub
   if (core.half_length_m < 0.0 || !(core.beside >= least_beside(fraction) && core.beside <= 1.0))
     return -std::numeric_limits<double>::infinity();
   const double median = kOfTumour * tumour_radius_m,
-               z = (core.log_radius - std::log(median)) / kCoreLogSd;
-  return -0.5 * (z * z + (core.middle - tumour_middle).squaredNorm() /
-                             (tumour_radius_m * tumour_radius_m)) -
-         core.half_length_m / median;
+               z = (core.log_radius - std::log(median)) / kCoreLogSd,
+               square = tumour_radius_m * tumour_radius_m;
+  const double log_middle = -0.5 * (core.middle - tumour_middle).squaredNorm() / square -
+                            std::log(2.0 * std::numbers::pi * square),
+               log_radius = -0.5 * z * z - std::log(kCoreLogSd * std::sqrt(2.0 * std::numbers::pi)),
+               log_length = -core.half_length_m / median - std::log(median);
+  return log_middle + log_radius + log_length - std::log(1.0 - least_beside(fraction));
 }
 
 }  // namespace palpation

@@ -31,7 +31,8 @@ struct OutlineCore {
 };
 
 /// Of one in a tumour that is about there and as wide as that, whose boundary is at that fraction
-/// of the way up; -infinity where it may not be.
+/// of the way up, in whatever direction; -infinity where it may not be. Of middle and half length
+/// in metres, the radius' logarithm and the contrast beside it.
 double log_core_density(const OutlineCore& core, const Vec2& tumour_middle, double tumour_radius_m,
                         double fraction);
 

@@ -153,7 +153,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
   Known known = without_background(
       surface, model, felt,
       known_by(surface, model, believed_with_one_zero(surface, model, felt, cache, apart)),
-      known_of);
+      known_of, is_last);
   std::vector<Misfit> changes = known.believed.evidence.taken_back;
   std::vector<Palpation> readings = with_changes_taken_back(surface, felt, changes);
   const auto take_back = [&] {

@@ -1,4 +1,5 @@
-/// Whether healthy tissue slopes or waves, weighed against tissue that does not.
+/// Whether healthy tissue slopes or waves, weighed against tissue that does not, and a zero that
+/// moves.
 #pragma once
 
 #include <functional>
@@ -40,8 +41,10 @@ std::optional<WithoutBackground> without_waves(const Surface& surface,
 
 /// What is known of readings `felt` without their slope or slow waves; `flat`, with them, where
 /// none makes the readings more probable by more than chance does. They are asked for where the
-/// level is at the edge, and the field has noise and no trend of its own.
+/// level is at the edge, and the field has noise and no trend of its own. Where `is_last` a step of
+/// the zero half way through a raster, which looks like either, is asked for beside them.
 Known without_background(const Surface& surface, const Model& model,
-                         const std::vector<Palpation>& felt, Known flat, const KnownOf& known_of);
+                         const std::vector<Palpation>& felt, Known flat, const KnownOf& known_of,
+                         bool is_last);
 
 }  // namespace palpation

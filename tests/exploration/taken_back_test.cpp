@@ -381,13 +381,14 @@ TEST(ZeroChanges, AreNotWhatARasterFindsOverTissueThatIsStiffBeyondALine) {
   }
 }
 
-/// Row by row, seven a row, of readings that scatter by a fiftieth of the contrast.
-Conclusion concluded_of_raster(const World& world, std::uint64_t seed) {
+/// Row by row, as many a row, of readings that scatter by a fiftieth of the contrast.
+Conclusion concluded_of_raster(const World& world, std::uint64_t seed, int rows = 7) {
   const Surface surface = tissue();
   Random random(seed);
   std::vector<Palpation> raster;
-  for (int i = 0; i < 49; ++i) {
-    const Vec3 place(0.0017 + 0.0036 * (i / 7), 0.0017 + 0.0036 * (i % 7), 0.0);
+  const double apart_m = 0.0216 / (rows - 1);
+  for (int i = 0; i < rows * rows; ++i) {
+    const Vec3 place(0.0017 + apart_m * (i / rows), 0.0017 + apart_m * (i % rows), 0.0);
     raster.push_back(
         {.where = surface.project(place), .reading = world(place, i) + 0.04 * random.normal()});
   }
@@ -406,6 +407,16 @@ TEST(RasterStep, OfTheZeroWithinATumourIsTakenBack) {
   EXPECT_FALSE(conclusion.evidence.zero_or_tissue);
   const double truth_m2 = 36e-6 * 3.14159265358979;
   EXPECT_NEAR(conclusion.outlines->area_m2.mean, truth_m2, 0.1 * truth_m2);
+}
+
+TEST(RasterStep, OfTheZeroIsNoSlopeOfTheTissue) {
+  const Conclusion conclusion = concluded_of_raster(
+      [](const Vec3& place, int i) { return stiffness(place) + (i >= 50 ? 0.8 : 0.0); }, 1, 10);
+  ASSERT_EQ(conclusion.evidence.taken_back.size(), 1u);
+  const Misfit& change = conclusion.evidence.taken_back.front();
+  EXPECT_EQ(change.kind, MisfitKind::Zero);
+  EXPECT_EQ(change.number, 50u);
+  EXPECT_NEAR(change.amount, 0.8, 0.1);
 }
 
 TEST(RasterStep, OfTissueThatIsStiffBeyondALineMayBeTheZeros) {

@@ -1,0 +1,138 @@
+#include "certainty/outline_core_odds.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "certainty/outline_lines.h"
+#include "certainty/outline_pruning.h"
+#include "certainty/outline_walk.h"
+
+namespace palpation {
+namespace {
+
+constexpr double kFalseAlarms = 0.02;
+constexpr double kLevel = 0.9;  ///< of the way up: it levels off
+constexpr double kSeldom = 0.05;
+constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
+
+const double kChance = -std::log(kFalseAlarms);
+
+/// Of a number that is normal with variance 1, e to its entropy, squared.
+constexpr double kNormal = 2.0 * std::numbers::pi * std::numbers::e;
+
+/// Counts what readings lie on plateaus of an outline as it is, and on one beside its core: there
+/// each may read anything on the way from there to the core, or as noise scatters about one height.
+void count_plateaus(const OutlineChain& chain, const OutlineReadings& readings,
+                    std::vector<SettledReading>& counts) {
+  const ReadingLaw& law = chain.law();
+  const OutlineNodes& outline = chain.outline();
+  const double noise = std::exp(chain.residuals().log_noise());
+  for (std::size_t i = 0; i < readings.places.size(); ++i) {
+    const Vec2& place = readings.places[i];
+    const double depth = depth_in(outline, place);
+    if (share_at(law, depth, steepness_at(law, place)) < kLevel) continue;
+    counts[i].on_plateau += 1.0 / kWeighed;
+    const int part = outline.loops[outline.loop_of[nearest_piece(outline, place).piece]].part;
+    if (!law.has_core(part)) continue;
+    const double beside = law.core->beside;
+    if (share_by_core(law, place) > beside + (1.0 - kLevel) * (1.0 - beside)) continue;
+    const double way = law.contrast[part] * (1.0 - beside),
+                 scatter = noise * std::sqrt(kNormal * readings.variance[i]);
+    counts[i].alike += std::max(std::log(way / scatter), 0.0) / kWeighed;
+  }
+}
+
+/// A core's numbers as the walk had them, but for its direction, which a round one has not.
+class CoreNumbers {
+ public:
+  void add(const OutlineCore& core, const OutlinePrior& prior) {
+    numbers_.row(count_++) << core.middle.x(), core.middle.y(), core.log_radius, core.half_length_m,
+        core.beside;
+    log_prior_ += log_core_density(core, prior.middle, prior.radius_m, prior.fraction) / kWeighed;
+  }
+
+  /// How much less room for them readings leave than there was beforehand, nats, not positive: the
+  /// entropy of a normal law of their covariance less that which the prior would give them there.
+  double log_room() const {
+    if (count_ < kWeighed) return 0.0;
+    const Numbers off = numbers_.rowwise() - numbers_.colwise().mean();
+    const Eigen::Matrix<double, kOfCore, kOfCore> covariance =
+        kNormal / (kWeighed - 1.0) * off.transpose() * off;
+    return std::min(log_prior_ + 0.5 * std::log(covariance.determinant()), 0.0);
+  }
+
+ private:
+  static constexpr int kOfCore = 5;
+  using Numbers = Eigen::Matrix<double, kWeighed, kOfCore>;
+  Numbers numbers_ = Numbers::Zero();
+  double log_prior_ = 0.0;
+  int count_ = 0;
+};
+
+/// Of all of the profile but a core.
+double log_density_but_core(OutlineProfile profile, const OutlinePrior& prior) {
+  profile.core.reset();
+  return log_profile_density(profile, prior);
+}
+
+/// Whether they end elsewhere, by more than both spread.
+bool are_apart(const SettledOutline& some, const SettledOutline& others) {
+  return std::abs(some.area_m2 - others.area_m2) > some.area_sd_m2 + others.area_sd_m2;
+}
+
+}  // namespace
+
+SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
+  OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
+  walk.settle(kSettling);
+  SettledOutline sum;
+  sum.readings.resize(start.readings.places.size());
+  CoreNumbers numbers;
+  double square_m4 = 0.0;
+  for (int i = 0; i < kWeighed; ++i) {
+    walk.settle(1);
+    const OutlineChain& chain = walk.chain();
+    const double area_m2 = enclosed_area(chain.outline());
+    sum.log_odds +=
+        (chain.residuals().log_density() + log_density_but_core(chain.profile(), start.prior) -
+         price_of_loops(chain.outline(), start.readings.places.size())) /
+        kWeighed;
+    sum.has_plateau += plateau_probability(chain.profile()) / kWeighed;
+    sum.area_m2 += area_m2 / kWeighed;
+    square_m4 += area_m2 * area_m2 / kWeighed;
+    count_plateaus(chain, start.readings, sum.readings);
+    if (!chain.profile().core) continue;
+    numbers.add(*chain.profile().core, start.prior);
+    if (chain.profile().core->beside > kLevel) sum.level += 1.0 / kWeighed;
+  }
+  sum.area_sd_m2 = std::sqrt(std::max(square_m4 - sum.area_m2 * sum.area_m2, 0.0));
+  sum.log_room = numbers.log_room();
+  sum.log_odds += sum.log_room;
+  return sum;
+}
+
+double alike(const SettledOutline& of_one, const SettledOutline& of_two) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < of_one.readings.size(); ++i)
+    sum += (1.0 - of_one.readings[i].on_plateau) * of_two.readings[i].alike;
+  return sum;
+}
+
+/// An outline of one height follows such readings as lie on a plateau beside the core by fingers,
+/// and could have followed any: that they read alike speaks for the core. Where that is not surely
+/// so, tissue may as well rise all the way up to its middle: then readings that make a core more
+/// probable tell neither. Nor do those that do not, where the two end elsewhere: then it is told by
+/// readings that speak against a core by more than chance. That one height takes fewer numbers
+/// speaks for it where it has a plateau, as equation 4 has it: bends follow any heights.
+Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two) {
+  const double by_alike = alike(of_one, of_two),
+               gained = of_two.log_odds + by_alike - of_one.log_odds;
+  if (of_two.level < kSeldom && by_alike > kChance && gained > kChance) return Heights::Two;
+  const double at_most = of_one.has_plateau > 0.5 ? gained : gained - of_two.log_room;
+  const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kChance);
+  return is_open ? Heights::OneOrTwo : Heights::One;
+}
+
+}  // namespace palpation
