@@ -25,7 +25,7 @@ struct SettledOutline {
   double area_m2 = 0.0;      ///< within the outline,
   double area_sd_m2 = 0.0;   ///< and how much that varies
   double level = 0.0;        ///< how often what lies beside the core is as good as level with it
-  std::vector<SettledReading> readings;
+  std::vector<SettledReading> readings{};
 
   /// There is no second height.
   bool is_level() const { return level > 0.5; }

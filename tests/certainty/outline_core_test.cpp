@@ -171,16 +171,6 @@ TEST(OutlineCore, IsNotFoundInATumourOfOneHeight) {
   for (const OutlineStart& start : starts_of(disk)) EXPECT_FALSE(start.profile.core);
 }
 
-// Its edge is less steep towards two sides, which no slope that leans has: two steps close to each
-// other follow that better, but only where all of a core's numbers are just so.
-TEST(OutlineCore, IsNotFoundInAnEdgeThatIsNoSigmoid) {
-  const Share ellipse = [](const Vec2& place) {
-    const Vec2 off = place - kMm * Vec2(22, 18);
-    return sigmoid_of(1400.0 * (7 * kMm - std::hypot(off.x() / 1.3, off.y())));
-  };
-  for (const OutlineStart& start : starts_of(ellipse, 0.06)) EXPECT_FALSE(start.profile.core);
-}
-
 // Its slope is too gentle for a plateau beside the core: a skirt explains it as well. The two end
 // elsewhere, and that fewer numbers do it tells of no tissue.
 TEST(OutlineCore, IsOneOfTwoThatEndElsewhereWhereReadingsTellNeither) {

@@ -1,0 +1,49 @@
+// What speaks for a second height, by numbers that are known.
+#include "certainty/outline_core_odds.h"
+
+#include <gtest/gtest.h>
+
+namespace palpation {
+namespace {
+
+/// Of an outline whose area varies by a square millimetre.
+SettledOutline settled_at(double log_odds, double area_mm2, double has_plateau = 0.9) {
+  return {.log_odds = log_odds,
+          .log_room = 0.0,
+          .has_plateau = has_plateau,
+          .area_m2 = area_mm2 * 1e-6,
+          .area_sd_m2 = 1e-6};
+}
+
+// Chance, 2 %, is 3.9 nats.
+TEST(OutlineCoreOdds, OfAsMuchAsChanceTellNeitherWhereTheTwoEndElsewhere) {
+  const SettledOutline one = settled_at(100.0, 80.0);
+  EXPECT_EQ(heights_by(one, settled_at(97.0, 120.0)), Heights::OneOrTwo);
+  EXPECT_EQ(heights_by(one, settled_at(97.0, 81.0)), Heights::One);
+  EXPECT_EQ(heights_by(one, settled_at(95.0, 120.0)), Heights::One);
+  EXPECT_EQ(heights_by(one, settled_at(105.0, 81.0)), Heights::OneOrTwo);
+}
+
+TEST(OutlineCoreOdds, AreThoseOfReadingsAloneWhereOneHeightHasNoPlateau) {
+  SettledOutline two = settled_at(92.0, 120.0);
+  two.log_room = -7.0;
+  EXPECT_EQ(heights_by(settled_at(100.0, 80.0), two), Heights::One);
+  EXPECT_EQ(heights_by(settled_at(100.0, 80.0, 0.1), two), Heights::OneOrTwo);
+}
+
+TEST(OutlineCoreOdds, ReadingsThatOneHeightHasOnItsPlateauSpeakForNoCore) {
+  SettledOutline one = settled_at(100.0, 80.0), two = settled_at(100.0, 120.0);
+  one.readings = {{.on_plateau = 1.0}, {.on_plateau = 0.0}, {.on_plateau = 0.5}};
+  two.readings = {{.on_plateau = 1.0, .alike = 40.0},
+                  {.on_plateau = 1.0, .alike = 3.0},
+                  {.on_plateau = 1.0, .alike = 4.0}};
+  EXPECT_DOUBLE_EQ(alike(one, two), 5.0);
+  EXPECT_EQ(heights_by(one, two), Heights::Two);
+  two.level = 0.2;
+  EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
+  one.readings[1].on_plateau = 1.0;
+  EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
+}
+
+}  // namespace
+}  // namespace palpation
