@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "certainty/rounded_contrast.h"
+
 namespace palpation {
 namespace {
 
@@ -146,7 +148,8 @@ bool shows_field(double signal_evidence) { return signal_evidence > kEnoughSigna
 bool shows_contrast(std::span<const double> readings, double signal_evidence) {
   if (shows_field(signal_evidence)) return true;
   const std::optional<TwoPlateaus> plateaus = two_plateaus(readings);
-  return plateaus && plateaus->evidence > kEnoughContrast;
+  return plateaus &&
+         std::min(plateaus->evidence, most_evidence_if_rounded(readings)) > kEnoughContrast;
 }
 
 }  // namespace palpation

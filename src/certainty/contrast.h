@@ -31,7 +31,8 @@ std::optional<TwoPlateaus> two_plateaus_apart(std::span<const Vec3> places,
 bool shows_field(double signal_evidence);
 
 /// The same, or two plateaus do: a tumour that few touches hit shows in their values before it
-/// shows in where they are. Noise alone passes in fewer than one run in a hundred.
+/// shows in where they are. Noise alone passes in fewer than one run in a hundred, also where a
+/// sensor rounds it to a few values.
 bool shows_contrast(std::span<const double> readings, double signal_evidence);
 
 /// Few readings that lie farther from all others than those lie from each other: faults, or the

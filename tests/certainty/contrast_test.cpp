@@ -116,6 +116,29 @@ TEST(TwoPlateaus, FindsThemWhereNoiseIsAQuarterOfTheirDistance) {
   EXPECT_GT(plateaus->evidence, 5.0);
 }
 
+// A sensor that counts in steps makes two or three values of noise, which look like plateaus.
+TEST(ShowsContrast, OfNoiseThatIsRoundedToAFewValuesIsSeldomSeen) {
+  Random random(5);
+  int seen = 0;
+  for (const double steps : {0.2, 0.3, 0.5, 1.0, 2.0}) {
+    for (int run = 0; run < 40; ++run) {
+      std::vector<double> readings = noise(100, steps, random);
+      const double origin = random.uniform();
+      for (double& reading : readings) reading = 7.0 + std::round(reading - 7.0 + origin);
+      seen += shows_contrast(readings, 0.0);
+    }
+  }
+  EXPECT_LE(seen, 2);
+}
+
+TEST(ShowsContrast, OfRoundedPlateausThatAreStepsApartIsSeen) {
+  Random random(6);
+  std::vector<double> readings = noise(80, 0.4, random);
+  for (int i = 0; i < 25; ++i) readings.push_back(15.0 + 0.4 * random.normal());
+  for (double& reading : readings) reading = std::round(reading);
+  EXPECT_TRUE(shows_contrast(readings, 0.0));
+}
+
 TEST(TwoPlateaus, AreNotThereWhereReadingsAreFewOrAlike) {
   EXPECT_FALSE(two_plateaus(std::vector<double>{}));
   EXPECT_FALSE(two_plateaus(std::vector<double>(9, 7.0)));
