@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "certainty/outline_lines.h"
@@ -60,7 +61,8 @@ class CoreNumbers {
     const Numbers off = numbers_.rowwise() - numbers_.colwise().mean();
     const Eigen::Matrix<double, kOfCore, kOfCore> covariance =
         kNormal / (kWeighed - 1.0) * off.transpose() * off;
-    return std::min(log_prior_ + 0.5 * std::log(covariance.determinant()), 0.0);
+    const double volume = std::max(covariance.determinant(), std::numeric_limits<double>::min());
+    return std::min(log_prior_ + 0.5 * std::log(volume), 0.0);
   }
 
  private:
