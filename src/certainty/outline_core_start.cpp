@@ -98,34 +98,42 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
 
 struct Cored {
   OutlineStart start;
-  SettledOutline walk{};
+  SettledOutline walk;
 };
 
-/// Those that keep a core when they have settled, the one first that readings make most probable:
-/// as they begin that would be the one that is nearest to one of one height. `plain`: of that, or
-/// of what has a core in name alone if that is more probable.
-std::vector<Cored> cored_starts(const OutlineStart& start, const Surface& surface,
-                                const Field& mean, std::uint64_t seed, SettledOutline& plain) {
-  std::vector<Cored> all = {{start}};
+/// Outlines that have settled: of one height, or with a core that is none if that is more probable;
+/// and those with a core, the most probable first.
+struct SettledOutlines {
+  SettledOutline plain;
+  std::vector<Cored> cored{};
+};
+
+/// As they begin the most probable would be the one that is nearest to one of one height.
+SettledOutlines settled_outlines(const OutlineStart& plain, const Surface& surface,
+                                 const Field& mean, std::uint64_t seed) {
+  std::vector<OutlineStart> starts = {plain};
   for (const double beside : kBeside) {
-    if (beside < least_beside(start.prior.fraction)) continue;
-    if (std::optional<OutlineStart> cored = start_with(start, surface, mean, beside))
-      all.push_back({*std::move(cored)});
+    if (beside < least_beside(plain.prior.fraction)) continue;
+    if (std::optional<OutlineStart> cored = start_with(plain, surface, mean, beside))
+      starts.push_back(*std::move(cored));
   }
-  for_ranges(static_cast<int>(all.size()), 1, [&](int first, int last) {
+  std::vector<SettledOutline> walks(starts.size());
+  for_ranges(static_cast<int>(starts.size()), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
-      if (i > 0) all[i].start = pruned(std::move(all[i].start), seed);
-      all[i].walk = settled(all[i].start, seed);
+      if (i > 0) starts[i] = pruned(std::move(starts[i]), seed);
+      walks[i] = settled(starts[i], seed);
     }
   });
-  plain = all.front().walk;
-  for (const Cored& one : all) {
-    if (one.walk.is_level()) plain.log_odds = std::max(plain.log_odds, one.walk.log_odds);
+  SettledOutlines all{.plain = walks.front()};
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    if (walks[i].is_level())
+      all.plain.log_odds = std::max(all.plain.log_odds, walks[i].log_odds);
+    else if (starts[i].profile.core)
+      all.cored.push_back({std::move(starts[i]), std::move(walks[i])});
   }
-  std::erase_if(all,
-                [](const Cored& one) { return !one.start.profile.core || one.walk.is_level(); });
-  std::ranges::sort(all, std::greater{},
-                    [&](const Cored& one) { return one.walk.log_odds + alike(plain, one.walk); });
+  std::ranges::sort(all.cored, std::greater{}, [&](const Cored& one) {
+    return one.walk.log_odds + alike(all.plain, one.walk);
+  });
   return all;
 }
 
@@ -133,10 +141,9 @@ std::vector<Cored> cored_starts(const OutlineStart& start, const Surface& surfac
 
 ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface, const Field& mean,
                               std::uint64_t seed) {
-  SettledOutline of_plain;
-  const std::vector<Cored> all = cored_starts(plain, surface, mean, seed, of_plain);
-  for (const Cored& one : all) {
-    switch (heights_by(of_plain, one.walk)) {
+  const SettledOutlines all = settled_outlines(plain, surface, mean, seed);
+  for (const Cored& one : all.cored) {
+    switch (heights_by(all.plain, one.walk)) {
       case Heights::Two:
         return {one.start, one.start};
       case Heights::OneOrTwo:

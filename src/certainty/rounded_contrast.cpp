@@ -4,15 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "base/normal.h"
+#include "readings/rounding.h"
 
 namespace palpation {
 namespace {
 
-constexpr std::size_t kFewReadings = 10;
 constexpr double kLeastProbability = 1e-300;
-/// The likeliest normal law is found by steps of the readings' own, which are halved so often.
+/// The likeliest normal law is found by steps of its standard deviation, which are halved so often.
 constexpr int kHalvings = 12;
 
 /// How often each value, in steps from the least, was read.
@@ -37,10 +39,11 @@ double log_likelihood_of_noise(const Counts& counts, double mean, double sd) {
     bool is_better = false;
     for (const auto& [by_mean, by_log_sd] : {std::pair(step, 0.0), std::pair(-step, 0.0),
                                              std::pair(0.0, step), std::pair(0.0, -step)}) {
-      const double here = log_likelihood(counts, mean + by_mean, std::exp(log_sd + by_log_sd));
+      const double here =
+          log_likelihood(counts, mean + by_mean * std::exp(log_sd), std::exp(log_sd + by_log_sd));
       if (!(here > best)) continue;
       best = here;
-      mean += by_mean;
+      mean += by_mean * std::exp(log_sd);
       log_sd += by_log_sd;
       is_better = true;
     }
@@ -52,25 +55,19 @@ double log_likelihood_of_noise(const Counts& counts, double mean, double sd) {
 }  // namespace
 
 double most_evidence_if_rounded(std::span<const double> readings) {
-  Counts by_value, by_step;
-  for (const double reading : readings) by_value[reading] += 1.0;
-  const auto count = static_cast<double>(readings.size());
-  if (readings.size() < kFewReadings || 2 * by_value.size() > readings.size() ||
-      by_value.size() < 2)
-    return std::numeric_limits<double>::infinity();
-  double step = std::numeric_limits<double>::infinity();
-  for (auto value = by_value.begin(); std::next(value) != by_value.end(); ++value)
-    step = std::min(step, std::next(value)->first - value->first);
+  const std::optional<double> step = step_of(readings);
+  if (!step) return std::numeric_limits<double>::infinity();
+  const double least = *std::ranges::min_element(readings),
+               count = static_cast<double>(readings.size());
+  Counts counts;
+  for (const double reading : readings) counts[std::round((reading - least) / *step)] += 1.0;
   double mean = 0.0, square = 0.0, of_any_law = 0.0;
-  for (const auto& [value, times] : by_value) {
-    const double steps = std::round((value - by_value.begin()->first) / step);
-    by_step[steps] += times;
+  for (const auto& [steps, times] : counts) {
     mean += times * steps / count;
-    square += times * steps * steps / count;
     of_any_law += times * std::log(times / count);
   }
-  const double sd = std::sqrt(square - mean * mean);
-  return of_any_law - log_likelihood_of_noise(by_step, mean, sd);
+  for (const auto& [steps, times] : counts) square += times * (steps - mean) * (steps - mean);
+  return of_any_law - log_likelihood_of_noise(counts, mean, std::sqrt(square / count));
 }
 
 }  // namespace palpation

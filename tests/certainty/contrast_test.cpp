@@ -131,6 +131,14 @@ TEST(ShowsContrast, OfNoiseThatIsRoundedToAFewValuesIsSeldomSeen) {
   EXPECT_LE(seen, 2);
 }
 
+// Two of its values differ by what arithmetic leaves: the step is a billionth of the contrast.
+TEST(ShowsContrast, OfEqualReadingsIsSeenWhateverTheLeastStepIs) {
+  std::vector<double> readings(80, 7.0);
+  readings.resize(105, 9.0);
+  readings[3] = 7.0 + 2e-9;
+  EXPECT_TRUE(shows_contrast(readings, 0.0));
+}
+
 TEST(ShowsContrast, OfRoundedPlateausThatAreStepsApartIsSeen) {
   Random random(6);
   std::vector<double> readings = noise(80, 0.4, random);
