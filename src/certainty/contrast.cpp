@@ -98,21 +98,6 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings) {
   return best;
 }
 
-std::optional<TwoPlateaus> two_plateaus_apart(std::span<const Vec3> places,
-                                              std::span<const double> readings, double apart_m) {
-  std::vector<Vec3> kept_at;
-  std::vector<double> kept;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto is_near = [&](const Vec3& other) {
-      return (other - places[i]).squaredNorm() < apart_m * apart_m;
-    };
-    if (std::ranges::any_of(kept_at, is_near)) continue;
-    kept_at.push_back(places[i]);
-    kept.push_back(readings[i]);
-  }
-  return two_plateaus(kept);
-}
-
 std::size_t few_of(std::size_t readings) { return std::max<std::size_t>(readings / kFewOf, 1); }
 
 std::optional<ReadingsApart> readings_apart(std::span<const double> readings, std::size_t most) {

@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "palpation/base/types.h"
-
 namespace palpation {
 
 /// Readings as two plateaus with normal noise about them.
@@ -21,11 +19,6 @@ struct TwoPlateaus {
 /// and at least one, lie on the high plateau. Nothing for fewer than ten readings, or none that
 /// differ.
 std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings);
-
-/// The same of those that lie at least so far from each other, in turn: where readings close
-/// together err alike, the others' evidence counts them as often as they are.
-std::optional<TwoPlateaus> two_plateaus_apart(std::span<const Vec3> places,
-                                              std::span<const double> readings, double apart_m);
 
 /// Whether a smooth field explains the readings better than noise alone by five nats.
 bool shows_field(double signal_evidence);

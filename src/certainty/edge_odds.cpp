@@ -15,8 +15,9 @@ namespace {
 
 /// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
-/// Finer than a probe feels: errors that one reading hands on to the next, as a filter's do, and
-/// how high they may be, of how the readings spread.
+/// Over so many readings errors may last, as a sensor's warmth, a cable or a hand make them.
+constexpr std::array kInTurn = {3.0, 10.0, 30.0};
+/// How high they may be, of how the readings spread.
 constexpr std::array kErrors = {0.03, 0.1, 0.3, 1.0};
 /// Texture of real tissue beside an edge and slow waves, and how high it may be, of how the
 /// readings spread.
@@ -43,7 +44,7 @@ WavesFound likeliest(std::vector<WavesFound> found) {
   return *std::ranges::max_element(found, {}, &WavesFound::log_density);
 }
 
-/// By errors that pass from reading to reading, without waves.
+/// By errors that last, of these correlations, without waves.
 double level_in_errors(const Rows& rows, double spread, const Eigen::MatrixXd& errors) {
   double level = -std::numeric_limits<double>::infinity();
   for (const double height : kErrors) {
@@ -52,6 +53,28 @@ double level_in_errors(const Rows& rows, double spread, const Eigen::MatrixXd& e
     level = std::max(level, WithWaves(erring, spread).level());
   }
   return level;
+}
+
+/// Of errors of height one that fade with every reading made: the mean over each row's readings.
+Eigen::MatrixXd errors_in_turn(const EdgeData& data, double lasting) {
+  const auto count = static_cast<Eigen::Index>(data.made.size());
+  Eigen::MatrixXd errors(count, count);
+  const auto alike = [&](Eigen::Index a, Eigen::Index b) {
+    double sum = 0.0;
+    const std::vector<Made>&one = data.made[static_cast<std::size_t>(a)],
+          &other = data.made[static_cast<std::size_t>(b)];
+    for (const Made& earlier : one) {
+      for (const Made& later : other) {
+        const double apart =
+            std::abs(static_cast<double>(earlier.number) - static_cast<double>(later.number));
+        sum += std::exp(-apart / lasting);
+      }
+    }
+    return sum / static_cast<double>(one.size() * other.size());
+  };
+  for (Eigen::Index a = 0; a < count; ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) errors(a, b) = errors(b, a) = alike(a, b);
+  return errors;
 }
 
 /// By texture and slow waves.
@@ -104,7 +127,7 @@ struct EdgeBelief::InWaves {
   }
 };
 
-EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back, bool may_last) const {
+EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
   const Fit& fit = most_likely();
   const InWaves here(surface_, fit, taken_back);
   const double spread = spread_of(here.readings);
@@ -112,15 +135,6 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back, bool may_last) con
   const WithWaves edge(here.rows, spread), none(flat, spread);
   EdgeOdds odds;
   double with_edge = edge.level(), without = none.level();
-  if (may_last) {
-    const Eigen::MatrixXd terms = waves_of(fit.correction, kHandedOn_m, fit.data).terms(),
-                          errors = terms * terms.transpose();
-    with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
-    if (const double alone = level_in_errors(flat, spread, errors); alone > without) {
-      without = alone;
-      odds.noise_lasts = true;
-    }
-  }
   for (const double length_m : kLengths_m) {
     const SlowWaves waves = waves_of(fit.correction, length_m, fit.data);
     with_edge = std::max(with_edge, likeliest(edge.of(waves.terms())).log_density);
@@ -128,8 +142,24 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back, bool may_last) con
     if (waves_alone > without) {
       without = waves_alone;
       odds.wave_length_m = length_m;
-      odds.noise_lasts = false;
     }
+  }
+  odds.log_odds = with_edge - freedom_ - without;
+  return odds;
+}
+
+EdgeOdds EdgeBelief::odds_over_errors_in_turn() const {
+  const Fit& fit = most_likely();
+  const InWaves here(surface_, fit, {});
+  const double spread = spread_of(here.readings);
+  const Rows flat = without_edge(here.rows, here.readings);
+  EdgeOdds odds{.noise_lasts = true};
+  double with_edge = WithWaves(here.rows, spread).level(),
+         without = -std::numeric_limits<double>::infinity();
+  for (const double lasting : kInTurn) {
+    const Eigen::MatrixXd errors = errors_in_turn(fit.data, lasting);
+    without = std::max(without, level_in_errors(flat, spread, errors));
+    with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
   }
   odds.log_odds = with_edge - freedom_ - without;
   return odds;

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "certainty/contrast.h"
 #include "certainty/edge_data.h"
 #include "exploration/background_search.h"
 #include "exploration/change_search.h"
@@ -96,26 +95,19 @@ constexpr int kMostTakenBack = 8;
 /// That is slower than a tumour of 4 cm2 is wide.
 constexpr double kSlowWave_m = 0.0225;
 
-/// Errors that last are normal: readings so far from each other that they err each for itself lie
-/// on one plateau then, whatever those between do.
-bool may_be_errors(const Known& known) {
-  const Belief& belief = known.believed.belief;
-  const std::vector<Palpation>& one_by_one = known.believed.one_by_one;
-  std::vector<Vec3> places;
-  std::vector<double> readings;
-  for (const Palpation& one :
-       belief.detrended(one_by_one.empty() ? belief.palpations() : one_by_one)) {
-    if (!counts(one)) continue;
-    places.push_back(belief.prior().surface().position(one.where));
-    readings.push_back(one.reading);
-  }
-  const auto plateaus = two_plateaus_apart(places, readings, 2.0 * kHandedOn_m);
-  return !(plateaus && plateaus->evidence > surprising());
+/// Errors that last over many readings look like stripes along the way, across which nothing goes
+/// on.
+void weigh_against_errors_in_turn(Known& known) {
+  if (!known.boundary.edge) return;
+  const EdgeOdds odds = known.boundary.edge->odds_over_errors_in_turn();
+  if (odds.log_odds > surprising()) return;
+  known.believed.evidence.of_edge = odds;
+  if (odds.log_odds < -surprising()) known.boundary = {};
 }
 
-/// Slow waves of healthy tissue have no edge, nor have errors that last from reading to reading.
-/// Waves between these may be tumours in tissue that waves. Where readings on the way are many, a
-/// few of them taught the field, and what they say of it is not what all say.
+/// Slow waves of healthy tissue have no edge. Shorter waves may be tumours in tissue that waves.
+/// Where readings on the way are many, a few of them taught the field, and what they say of it is
+/// not what all say.
 void weigh_against_waves(Known& known) {
   const std::optional<EdgeBelief>& edge = known.boundary.edge;
   const std::optional<double>& of_smooth_field = known.believed.of_smooth_field;
@@ -126,11 +118,11 @@ void weigh_against_waves(Known& known) {
   if (waves == changes.end() && known.believed.one_by_one.empty() &&
       edge->log_evidence() > of_field + surprising())
     return;
-  const EdgeOdds odds = edge->odds_over_waves(
-      waves == changes.end() ? Field() : waves->background.waves, may_be_errors(known));
-  known.believed.evidence.of_edge = odds;
-  const bool is_healthy = odds.wave_length_m >= kSlowWave_m || odds.noise_lasts;
-  if (odds.log_odds < -surprising() && is_healthy) known.boundary = {};
+  const EdgeOdds odds =
+      edge->odds_over_waves(waves == changes.end() ? Field() : waves->background.waves);
+  std::optional<EdgeOdds>& least = known.believed.evidence.of_edge;
+  if (!least || odds.log_odds < least->log_odds) least = odds;
+  if (odds.log_odds < -surprising() && odds.wave_length_m >= kSlowWave_m) known.boundary = {};
 }
 
 }  // namespace
@@ -172,6 +164,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     if (change->kind == MisfitKind::Moved) look_closer_at(which, changes, surface, model, felt);
     take_back();
   }
+  if (is_last) weigh_against_errors_in_turn(known);
   if (is_last) weigh_against_waves(known);
   return known;
 }

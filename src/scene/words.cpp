@@ -136,8 +136,8 @@ std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
   const std::string less_probable =
       "a tumour's edge makes them less probable by a factor of e^" + fixed(-of_edge->log_odds, 0);
   if (of_edge->noise_lasts)
-    return ", but readings that lie close together err alike, as a sensor's filter makes them, "
-           "and " +
+    return ", but readings that were made one after the other err alike, as a drifting sensor or "
+           "its filter makes them, and " +
            less_probable + ". Where it is a tumour all the same";
   return ", as slowly as healthy tissue may, and " + less_probable +
          ". Where a tumour may lie so deep";

@@ -35,42 +35,6 @@ TEST(ShowsContrast, IsSeldomFooledByNoise) {
   EXPECT_LE(fooled, 5);
 }
 
-/// A row of readings half a millimetre apart, each of whose errors keeps nine tenths of the one
-/// before; from place to place, what they are errors of.
-struct Row {
-  std::vector<Vec3> places;
-  std::vector<double> readings;
-  Row(std::uint64_t seed, double sd, double stripes) {
-    Random random(seed);
-    double error = sd * random.normal();
-    for (int i = 0; i < 600; ++i) {
-      error = 0.9 * error + std::sqrt(1.0 - 0.81) * sd * random.normal();
-      places.emplace_back(0.0005 * i, 0.0, 0.0);
-      readings.push_back(7.0 + error + (i / 9 % 3 == 0 ? stripes : 0.0));
-    }
-  }
-};
-
-// Six hundred that err alike over two millimetres look like two plateaus now and then; seventy of
-// them, each so far from the next that it errs for itself, in none of twenty rows.
-TEST(TwoPlateausApart, AreNotOfErrorsThatLast) {
-  int all = 0, apart = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Row row(seed, 0.3, 0.0);
-    all += two_plateaus(row.readings)->evidence > 5.3;
-    apart += two_plateaus_apart(row.places, row.readings, 0.004)->evidence > 5.3;
-  }
-  EXPECT_GE(all, 1);
-  EXPECT_LE(apart, 0);
-}
-
-TEST(TwoPlateausApart, AreOfStripesAsFineAsThose) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Row row(seed, 0.3, 2.0);
-    EXPECT_GT(two_plateaus_apart(row.places, row.readings, 0.004)->evidence, 10.0) << seed;
-  }
-}
-
 using Numbers = std::vector<std::size_t>;
 
 TEST(ReadingsApart, LieFartherFromAllOthersThanThoseFromEachOther) {

@@ -131,5 +131,50 @@ TEST(NoiseThatLasts, HidesNoTumour) {
   EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 49.0, 25.0);
 }
 
+/// 144 stops in rows 4 mm apart, to and fro.
+std::vector<Palpation> stops_in_rows(const Surface& surface, const Stiffness& stiffness,
+                                     std::uint64_t seed) {
+  constexpr double kKept = 0.9, kSd = 0.2;
+  Random random(seed);
+  std::vector<Palpation> palpations;
+  double error = kSd * random.normal();
+  for (int row = 0; row < 12; ++row) {
+    for (int i = 0; i < 12; ++i) {
+      error = kKept * error + std::sqrt(1.0 - kKept * kKept) * kSd * random.normal();
+      const int column = row % 2 == 0 ? i : 11 - i;
+      const Vec3 place(0.002 + 0.0033 * column, 0.003 + 0.004 * row, 0.0);
+      palpations.push_back(
+          {.where = surface.project(place), .reading = 7.0 + stiffness(place) + error});
+    }
+  }
+  return palpations;
+}
+
+// Rows lie so far apart that no two readings but those of one row err alike by their places.
+TEST(NoiseThatLasts, FromTouchToTouchIsNoTumour) {
+  const Surface surface = tissue();
+  const Model model{.level = {.estimate = LevelEstimate::Edge}};
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const std::vector<Palpation> healthy = stops_in_rows(
+        surface, [](const Vec3&) { return 0.0; }, seed);
+    const Conclusion conclusion = conclude(surface, model, healthy, nullptr, 1);
+    EXPECT_FALSE(conclusion.level) << seed;
+    if (!conclusion.evidence.of_edge) continue;
+    EXPECT_TRUE(conclusion.evidence.of_edge->noise_lasts) << seed;
+    EXPECT_LT(conclusion.evidence.of_edge->log_odds, -surprising()) << seed;
+  }
+}
+
+TEST(NoiseThatLasts, FromTouchToTouchHidesNoTumour) {
+  const Surface surface = tissue();
+  const Model model{.level = {.estimate = LevelEstimate::Edge}};
+  const Conclusion conclusion =
+      conclude(surface, model, stops_in_rows(surface, disk, 1), nullptr, 1);
+  ASSERT_TRUE(conclusion.edge);
+  EXPECT_GT(conclusion.edge->odds_over_errors_in_turn().log_odds, 10.0);
+  ASSERT_TRUE(conclusion.outlines);
+  EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 49.0, 25.0);
+}
+
 }  // namespace
 }  // namespace palpation

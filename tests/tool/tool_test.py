@@ -376,12 +376,12 @@ class Tool(InFolder):
         millimetres = self.write("mm.wkt", "POLYGON ((10 10, 20 10, 20 20, 10 10))")
         self.assertIn("off the tissue", self.refused(3, "compare", self.scene, a, millimetres))
         run = self.folder / "run"
-        self.done("simulate", self.scene, "--out", run)
+        self.done("simulate", self.scene, "--out", run, *BRIEFLY)
         self.assertIn("no boundary", self.refused(3, "compare", self.scene, run / "surface.vtp", a))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", self.scene, run / "boundary.wkt", run / "boundary.vtp"))
         self.assertIn("holds a run", self.refused(3, "compare", self.scene, a, b, "--out", run))
         curved, bent = "examples/dome.json", self.folder / "bent"
-        self.done("simulate", ROOT / curved, "--set", "plan.batches=1", "--out", bent)
+        self.done("simulate", ROOT / curved, "--set", "plan.batches=1", "--out", bent, *BRIEFLY)
         finer = ["--set", "surface.refine_mm=0.4"]
         self.assertIn("the chart of another mesh", self.refused(3, "compare", ROOT / curved, bent / "boundary.wkt", bent / "boundary.vtp", *finer))
         self.assertIn(" 0.00 mm2 wrong", self.done("compare", ROOT / curved, bent / "boundary.vtp", bent / "boundary.vtp", *finer))
@@ -468,7 +468,7 @@ class Tool(InFolder):
         if not recording.exists():
             self.skip(f"{recording.name} is not here")
         out = self.folder / "replay"
-        words = self.done("replay", ROOT / "examples" / "replay_circle.json", "--recording", recording, "--out", out)
+        words = self.done("replay", ROOT / "examples" / "replay_circle.json", "--recording", recording, "--out", out, *BRIEFLY)
         summary = json.loads((out / "summary.json").read_text())
         self.assertEqual(summary["measurements"], 200, words)
         self.assertLess(summary["error"]["symmetric_difference_mm2"], 60.0)

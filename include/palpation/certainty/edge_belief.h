@@ -57,13 +57,10 @@ struct PartContrast {
   double stddev = 0.0;        ///< of that; 0: taken for the same
 };
 
-/// Over which errors may last that one reading hands on to the next: finer than a probe feels.
-inline constexpr double kHandedOn_m = 0.002;
-
 struct EdgeOdds {
   double log_odds = 0.0;
   double wave_length_m = 0.0;  ///< of the likeliest waves without an edge; 0: noise explains more
-  bool noise_lasts = false;    ///< that noise lasts from reading to reading, over kHandedOn_m
+  bool noise_lasts = false;  ///< that errors last over some readings explains them without an edge
 };
 
 /// An edge in healthy tissue that waves slowly.
@@ -107,9 +104,11 @@ class EdgeBelief {
   /// By how much more probable the readings are with this edge than without one, with healthy
   /// tissue that waves over 8 mm or more in both. Waves and noise are as probable as they can be
   /// made, and the outline's freedom has its price. `taken_back`: waves that the readings are
-  /// without (with_changes_taken_back), at the vertices; with them, they are weighed. `may_last`:
-  /// whether noise that lasts over kHandedOn_m may stand in for such waves.
-  EdgeOdds odds_over_waves(const Field& taken_back = {}, bool may_last = false) const;
+  /// without (with_changes_taken_back), at the vertices; with them, they are weighed.
+  EdgeOdds odds_over_waves(const Field& taken_back = {}) const;
+  /// The same without waves, against errors that last over some readings, in the order in which
+  /// they were made. There may be such errors beside the edge, too.
+  EdgeOdds odds_over_errors_in_turn() const;
   /// How probable this edge makes the readings, waves that were taken back included, where tissue
   /// waves over 40 mm or more: compares as log_evidence does. Noise is as probable as it can be
   /// made.

@@ -49,10 +49,11 @@ struct Evidence {
   bool contrast_seen = false;
   ReadingScale scale = ReadingScale::Raw;  ///< on which the readings are modelled
   /// By how much an edge makes the readings more probable than healthy tissue alone that waves, or
-  /// errors that last from reading to reading (EdgeBelief::odds_over_waves); asked at the end,
-  /// where a smooth field explains them as well or some were made on the way. Where it is clearly
-  /// less probable, and waves that are slower than a tumour is wide, or errors, explain the most,
-  /// there is no level: no tumour was felt.
+  /// errors that last from reading to reading, whichever explains the most; asked at the end, of
+  /// waves (EdgeBelief::odds_over_waves) where a smooth field explains the readings as well or some
+  /// were made on the way, kept of errors (odds_over_errors_in_turn) where they may be all. Where
+  /// an edge is clearly less probable than errors, or than waves that are slower than a tumour is
+  /// wide, there is no level: no tumour was felt.
   std::optional<EdgeOdds> of_edge{};
   bool trend_is_missing = false;  ///< a trend is modelled, but too few places are touched yet to
                                   ///< tell a tumour from a tilt
