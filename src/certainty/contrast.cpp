@@ -98,6 +98,16 @@ std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings) {
   return best;
 }
 
+double evidence_of_two_plateaus_in_turn(std::span<const double> readings, std::size_t apart) {
+  double sum = 0.0;
+  for (std::size_t first = 0; first < apart; ++first) {
+    std::vector<double> kept;
+    for (std::size_t i = first; i < readings.size(); i += apart) kept.push_back(readings[i]);
+    if (const std::optional<TwoPlateaus> plateaus = two_plateaus(kept)) sum += plateaus->evidence;
+  }
+  return sum / static_cast<double>(apart);
+}
+
 std::size_t few_of(std::size_t readings) { return std::max<std::size_t>(readings / kFewOf, 1); }
 
 std::optional<ReadingsApart> readings_apart(std::span<const double> readings, std::size_t most) {

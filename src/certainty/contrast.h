@@ -20,6 +20,10 @@ struct TwoPlateaus {
 /// differ.
 std::optional<TwoPlateaus> two_plateaus(std::span<const double> readings);
 
+/// The same of those that were made so many apart, which errors that last leave independent: the
+/// mean evidence over where one begins.
+double evidence_of_two_plateaus_in_turn(std::span<const double> readings, std::size_t apart);
+
 /// Whether a smooth field explains the readings better than noise alone by five nats.
 bool shows_field(double signal_evidence);
 

@@ -15,7 +15,7 @@ namespace palpation {
 namespace {
 
 constexpr double kFar_m = 0.008;
-/// On the outside.
+/// As likely as not, on its side.
 constexpr double kLeastScore = 1e-9;
 
 /// One more standard deviation, `more`, beside `sd`, which the score was divided by.
@@ -79,6 +79,26 @@ Certainty with_doubtful_part(Certainty certainty, const Belief& belief,
         std::max(certainty.score[vertex], -std::max(std::sqrt(square) / edge_sd_m, kLeastScore));
   }
   certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  return certainty;
+}
+
+Certainty as_likely_another(Certainty certainty, const Surface& surface,
+                            const std::optional<Field>& other_score) {
+  double missed_m2 = 0.0, extra_m2 = 0.0;
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    double& score = certainty.score[vertex];
+    const bool is_inside = score >= 0.0;
+    const double other = other_score ? (*other_score)[vertex] : -std::abs(score),
+                 area_m2 = surface.vertex_areas()[vertex],
+                 inside_other = other_score ? normal_probability(other) : 0.0;
+    (is_inside ? extra_m2 : missed_m2) += area_m2 * (is_inside ? 1.0 - inside_other : inside_other);
+    const double sureness =
+        is_inside == (other >= 0.0) ? std::min(std::abs(score), std::abs(other)) : kLeastScore;
+    score = is_inside ? sureness : -sureness;
+  }
+  certainty.half_width_m = mean_half_width(surface, certainty.score, certainty.band_score);
+  certainty.expected.missed_m2 = 0.5 * (certainty.expected.missed_m2 + missed_m2);
+  certainty.expected.extra_m2 = 0.5 * (certainty.expected.extra_m2 + extra_m2);
   return certainty;
 }
 

@@ -2,6 +2,7 @@
 /// contact, a robot's registration, parts that may be none, and places that nobody touched.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "palpation/certainty/certainty.h"
@@ -39,6 +40,13 @@ Certainty without_part(Certainty certainty, const Surface& surface, std::span<co
 /// boundary is known to `edge_sd_m`, and lies in the band, too. A half of them counts as missed.
 Certainty with_doubtful_part(Certainty certainty, const Belief& belief,
                              std::span<const int> vertices, double edge_sd_m);
+
+/// Another answer is as likely as this one, and no reading tells which: here its score, or nothing
+/// where it has no tumour. Where one is inside and the other is not, a place is as likely tumour as
+/// not; elsewhere it is as sure as the less sure of both. Half of what the other has elsewhere
+/// counts as wrong.
+Certainty as_likely_another(Certainty certainty, const Surface& surface,
+                            const std::optional<Field>& other_score);
 
 /// Where no reading is near, the boundary's depth proves nothing: there a place is no surer than
 /// the field is of it, and what it expects to be wrong there is told apart. Far is twice the radius

@@ -8,7 +8,9 @@
 #include "base/log_mean.h"
 #include "certainty/edge_belief_fit.h"
 #include "certainty/edge_data.h"
+#include "certainty/errors_in_turn.h"
 #include "certainty/wave_evidence.h"
+#include "palpation/certainty/misfit.h"
 
 namespace palpation {
 namespace {
@@ -44,38 +46,23 @@ WavesFound likeliest(std::vector<WavesFound> found) {
   return *std::ranges::max_element(found, {}, &WavesFound::log_density);
 }
 
-/// By errors that last, of these correlations, without waves.
-double level_in_errors(const Rows& rows, double spread, const Eigen::MatrixXd& errors) {
+/// By errors that last, without waves: how probable the likeliest make the readings.
+struct ByErrors {
   double level = -std::numeric_limits<double>::infinity();
-  for (const double height : kErrors) {
-    Rows erring = rows;
-    erring.covariance += std::pow(height * spread, 2) * errors;
-    level = std::max(level, WithWaves(erring, spread).level());
-  }
-  return level;
-}
+  LastingErrors errors{};
 
-/// Of errors of height one that fade with every reading made: the mean over each row's readings.
-Eigen::MatrixXd errors_in_turn(const EdgeData& data, double lasting) {
-  const auto count = static_cast<Eigen::Index>(data.made.size());
-  Eigen::MatrixXd errors(count, count);
-  const auto alike = [&](Eigen::Index a, Eigen::Index b) {
-    double sum = 0.0;
-    const std::vector<Made>&one = data.made[static_cast<std::size_t>(a)],
-          &other = data.made[static_cast<std::size_t>(b)];
-    for (const Made& earlier : one) {
-      for (const Made& later : other) {
-        const double apart =
-            std::abs(static_cast<double>(earlier.number) - static_cast<double>(later.number));
-        sum += std::exp(-apart / lasting);
-      }
+  /// `alike`: the correlations of errors that last over so many readings.
+  void weigh(const Rows& rows, double spread, const Eigen::MatrixXd& alike, double readings) {
+    for (const double height : kErrors) {
+      Rows erring = rows;
+      erring.covariance += std::pow(height * spread, 2) * alike;
+      const double found = WithWaves(erring, spread).level();
+      if (!(found > level)) continue;
+      level = found;
+      errors = {readings, height * spread};
     }
-    return sum / static_cast<double>(one.size() * other.size());
-  };
-  for (Eigen::Index a = 0; a < count; ++a)
-    for (Eigen::Index b = 0; b <= a; ++b) errors(a, b) = errors(b, a) = alike(a, b);
-  return errors;
-}
+  }
+};
 
 /// By texture and slow waves.
 struct Explained {
@@ -153,15 +140,16 @@ EdgeOdds EdgeBelief::odds_over_errors_in_turn() const {
   const InWaves here(surface_, fit, {});
   const double spread = spread_of(here.readings);
   const Rows flat = without_edge(here.rows, here.readings);
-  EdgeOdds odds{.noise_lasts = true};
-  double with_edge = WithWaves(here.rows, spread).level(),
-         without = -std::numeric_limits<double>::infinity();
-  for (const double lasting : kInTurn) {
-    const Eigen::MatrixXd errors = errors_in_turn(fit.data, lasting);
-    without = std::max(without, level_in_errors(flat, spread, errors));
-    with_edge = std::max(with_edge, level_in_errors(here.rows, spread, errors));
+  ByErrors alone, beside;
+  for (const double readings : kInTurn) {
+    const Eigen::MatrixXd alike = errors_in_turn(fit.data.made, readings);
+    alone.weigh(flat, spread, alike, readings);
+    beside.weigh(here.rows, spread, alike, readings);
   }
-  odds.log_odds = with_edge - freedom_ - without;
+  const double by_noise = WithWaves(here.rows, spread).level();
+  EdgeOdds odds{.log_odds = std::max(by_noise, beside.level) - freedom_ - alone.level,
+                .errors = alone.errors};
+  if (beside.level > by_noise + surprising()) odds.errors_beside_edge = beside.errors;
   return odds;
 }
 

@@ -71,8 +71,8 @@ BackgroundTerms background_terms(const BackgroundReadings& readings) {
   }
   parts.emplace_back(drift_of(readings.when));
   parts.push_back(tilt_of(readings.places));
-  parts.push_back(readings.slow_waves);
-  terms.slow_waves = readings.slow_waves.cols();
+  parts.push_back(readings.seen);
+  terms.seen = readings.seen.cols();
   parts.push_back(readings.steps);
   terms.step_sd = Eigen::VectorXd::Ones(readings.steps.cols());
   Eigen::Index columns = 0;

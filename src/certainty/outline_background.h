@@ -5,7 +5,8 @@
 /// The waves are a Gaussian field, by the pivoted Cholesky decomposition of its covariance at the
 /// readings (Harbrecht, Peters and Schneider 2012), so that they are the same however tissue is
 /// turned: of a length as short as what a tip can feel, and of one longer than an edge; how high
-/// each are is learned. Slow ones, which are there where they were seen, have the height that was.
+/// each are is learned. Slow ones, and errors that last over some readings, are there where they
+/// were seen, and have the height that was.
 /// All is linear in coefficients that are normal, and can be integrated out (outline_residuals.h).
 #pragma once
 
@@ -20,16 +21,16 @@ namespace palpation {
 /// What one unit of each coefficient adds to each reading: rows are readings, columns terms. First
 /// the waves of each length; then the drift, one unit from the first batch to the last; then the
 /// tilt along x and y, one unit over the readings' root mean square distance from their middle;
-/// then the slow waves; then the steps.
+/// then what was seen; then the steps.
 struct BackgroundTerms {
   Eigen::MatrixXd of_readings;
   std::vector<Eigen::Index> waves;  ///< columns of each length, the shortest first
-  double median_sd = 1.0;  ///< of waves of one length beforehand, in reading units; the spread of
-                           ///< its logarithm is 1
-  double drift_sd = 1.0;   ///< in reading units
-  double tilt_sd = 1.0;    ///< of either direction, in reading units
-  Eigen::Index slow_waves = 0;  ///< columns of theirs; in reading units
-  Eigen::VectorXd step_sd;      ///< of each, in reading units
+  double median_sd = 1.0;   ///< of waves of one length beforehand, in reading units; the spread of
+                            ///< its logarithm is 1
+  double drift_sd = 1.0;    ///< in reading units
+  double tilt_sd = 1.0;     ///< of either direction, in reading units
+  Eigen::Index seen = 0;    ///< columns of slow waves and lasting errors; in reading units
+  Eigen::VectorXd step_sd;  ///< of each, in reading units
 
   Eigen::Index steps() const { return step_sd.size(); }
 
@@ -46,8 +47,8 @@ struct ResidualScales {
 struct BackgroundReadings {
   std::span<const Vec2> places;
   std::span<const double> when;  ///< any numbers that rise as time goes on
-  Eigen::MatrixXd
-      slow_waves{};         ///< what one sd of each adds to each reading: as many rows, or none
+  Eigen::MatrixXd seen{};        ///< slow waves, lasting errors: what one sd of each adds to each
+                                 ///< reading: as many rows, or none
   Eigen::MatrixXd steps{};  ///< what one unit of each adds to each reading: as many rows, or none
 };
 BackgroundTerms background_terms(const BackgroundReadings& readings);

@@ -135,7 +135,7 @@ Eigen::VectorXd OutlineResiduals::sds(const std::vector<double>& log_sd) const {
   if (first < sd.size()) {
     sd[first] = terms_->drift_sd;
     sd.segment(first + 1, 2).setConstant(terms_->tilt_sd);
-    sd.segment(first + 3, terms_->slow_waves).setOnes();
+    sd.segment(first + 3, terms_->seen).setOnes();
   }
   sd.tail(terms_->steps()) = terms_->step_sd;
   return sd;

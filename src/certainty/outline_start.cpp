@@ -7,6 +7,7 @@
 #include <span>
 
 #include "certainty/edge_data.h"
+#include "certainty/errors_in_turn.h"
 #include "certainty/outline_lines.h"
 #include "certainty/slow_waves.h"
 #include "palpation/geometry/chart_place.h"
@@ -78,6 +79,20 @@ Eigen::MatrixXd slow_waves_of(const Layout& layout, const std::optional<WaveScal
   return waves->sd * SlowWaves(layout.surface(), layout.metric(), waves->length_m, places).terms();
 }
 
+/// What each adds, of a height that was seen: slow waves and errors that last.
+Eigen::MatrixXd seen_terms(const Layout& layout, const SeenBackground& seen,
+                           std::span<const SurfacePoint> places,
+                           std::span<const std::vector<Made>> made) {
+  const Eigen::MatrixXd waves = slow_waves_of(layout, seen.slow_waves, places);
+  const LastingErrors& lasting = seen.errors_in_turn;
+  if (!(lasting.readings > 0.0)) return waves;
+  const Eigen::MatrixXd errors = lasting.sd * few_terms(errors_in_turn(made, lasting.readings));
+  Eigen::MatrixXd both(errors.rows(), waves.cols() + errors.cols());
+  if (waves.cols() > 0) both.leftCols(waves.cols()) = waves;
+  both.rightCols(errors.cols()) = errors;
+  return both;
+}
+
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
                                   const OutlineOptions& options, OutlinePrior& prior) {
   const std::vector<Misfit>& changes = options.changes;
@@ -104,9 +119,11 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   std::vector<double> when;
   std::vector<std::vector<int>> before;
   std::vector<SurfacePoint> in_order;
+  std::vector<std::vector<Made>> made;
   std::vector<double> shares;  // of the contrast
   for (const std::size_t i : order) {
     in_order.push_back(data.places[i]);
+    made.push_back(data.made[i]);
     const auto row = static_cast<Eigen::Index>(i);
     readings.places.push_back(places[i]);
     shares.push_back(share_at_depth(edge.profile(), data.depth_m[row]));
@@ -120,7 +137,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   readings.background =
       background_terms({.places = readings.places,
                         .when = when,
-                        .slow_waves = slow_waves_of(layout, options.slow_waves, in_order),
+                        .seen = seen_terms(layout, options.background, in_order, made),
                         .steps = steps_of(changes, before)});
   readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
   readings.epoch = epochs_of(before, prior.epochs);

@@ -5,11 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "certainty/contrast.h"
 #include "certainty/edge_data.h"
 #include "exploration/background_search.h"
 #include "exploration/change_search.h"
 #include "exploration/taken_back.h"
 #include "exploration/zero_changes.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
@@ -95,14 +97,26 @@ constexpr int kMostTakenBack = 8;
 /// That is slower than a tumour of 4 cm2 is wide.
 constexpr double kSlowWave_m = 0.0225;
 
+/// Errors that last are normal: readings that were made so far apart that they err each for itself
+/// lie on one plateau then, whatever those between do.
+bool may_be_errors(const Known& known, const LastingErrors& errors) {
+  const Belief& belief = known.believed.belief;
+  const std::vector<Palpation>& one_by_one = known.believed.one_by_one;
+  const std::vector<double> readings =
+      used_readings(belief.detrended(one_by_one.empty() ? belief.palpations() : one_by_one));
+  const auto apart = static_cast<std::size_t>(2.0 * errors.readings);
+  return evidence_of_two_plateaus_in_turn(readings, apart) < surprising();
+}
+
 /// Errors that last over many readings look like stripes along the way, across which nothing goes
 /// on.
 void weigh_against_errors_in_turn(Known& known) {
   if (!known.boundary.edge) return;
   const EdgeOdds odds = known.boundary.edge->odds_over_errors_in_turn();
+  known.believed.evidence.errors_beside_edge = odds.errors_beside_edge;
   if (odds.log_odds > surprising()) return;
   known.believed.evidence.of_edge = odds;
-  if (odds.log_odds < -surprising()) known.boundary = {};
+  if (odds.log_odds < -surprising() && may_be_errors(known, odds.errors)) known.boundary = {};
 }
 
 /// Slow waves of healthy tissue have no edge. Shorter waves may be tumours in tissue that waves.

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "boundary/erosion.h"
+#include "certainty/doubts.h"
 #include "exploration/as_if_unchanged.h"
 #include "exploration/change_search.h"
 #include "exploration/doubtful_parts.h"
@@ -45,6 +46,23 @@ Model on_scale(ReadingScale scale, Model model) {
   return model;
 }
 
+/// The step that tissue or the zero may have made is taken for tissue; were it the zero's, nothing
+/// or another outline is left.
+Certainty doubted_by_step(Certainty certainty, const Surface& surface, const Model& model,
+                          const std::vector<Palpation>& felt, const Evidence& evidence) {
+  const std::vector<Palpation> readings =
+      with_changes_taken_back(surface, felt, evidence.taken_back);
+  ConclusionCache apart;
+  const Known other = known_by(
+      surface, model,
+      believe(surface, model,
+              with_changes_taken_back(surface, readings, {&*evidence.zero_or_tissue, 1}), apart));
+  std::optional<Field> score;
+  if (other.boundary.edge)
+    score = certainty_of(surface, model, other.believed, other.component, other.boundary).score;
+  return as_likely_another(std::move(certainty), surface, score);
+}
+
 }  // namespace
 
 Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
@@ -67,6 +85,9 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   std::optional<Certainty> certainty;
   if (scaled.band && boundary.level && believed.belief.site_count() > 0)
     certainty = certainty_of(surface, scaled, believed, component, boundary);
+  if (certainty && believed.evidence.zero_or_tissue)
+    certainty = doubted_by_step(*std::move(certainty), surface, scaled, on_scale(scale, felt),
+                                believed.evidence);
 
   const double tip_m = model.field.probe.indenter_radius_m;
   std::optional<Contour> contour;

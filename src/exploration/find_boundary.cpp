@@ -163,7 +163,8 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
                        .seed = seed,
                        .one_by_one = believed.one_by_one,
                        .changes = with_gains_of_sessions(believed.evidence.taken_back),
-                       .slow_waves = slow_waves_among(believed.evidence.taken_back)});
+                       .background = {slow_waves_among(believed.evidence.taken_back),
+                                      believed.evidence.errors_beside_edge}});
   if (boundary.outlines) boundary.level = boundary.outlines->level;
 }
 

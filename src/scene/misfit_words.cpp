@@ -172,6 +172,15 @@ std::string taken_back_words(const Surface& surface, ReadingScale scale, const M
   }
 }
 
+std::string errors_words(ReadingScale scale, const LastingErrors& errors) {
+  return "Readings that were made one after the other err alike, over some " +
+         fixed(errors.readings, 0) + " of them, by " +
+         (scale == ReadingScale::Log ? percent(errors.sd) : reading_text(errors.sd)) +
+         ", as a sensor that drifts makes them. The band knows of it, but a larger drift passes "
+         "for "
+         "softer tissue beside a core: touch again in another order.";
+}
+
 std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
   return "Since reading " + std::to_string(step.number + 1) + " readings lie " +
          raised_words(scale, step.amount) +
@@ -221,6 +230,9 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   std::vector<std::string> words = session_words(conclusion.scale(), session_changes(conclusion));
   for (const Misfit& change : other_changes(conclusion))
     words.push_back(taken_back_words(surface, conclusion.scale(), change));
+  if (const LastingErrors& errors = conclusion.evidence.errors_beside_edge;
+      conclusion.outlines && errors.readings > 0.0)
+    words.push_back(errors_words(conclusion.scale(), errors));
   if (conclusion.evidence.zero_or_tissue)
     words.push_back(zero_or_tissue_words(conclusion.scale(), *conclusion.evidence.zero_or_tissue));
   words.push_back(sessions_as_one_words(conclusion));

@@ -135,7 +135,7 @@ std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
     return ", and no edge fits them: touch there again. Where it is a tumour all the same";
   const std::string less_probable =
       "a tumour's edge makes them less probable by a factor of e^" + fixed(-of_edge->log_odds, 0);
-  if (of_edge->noise_lasts)
+  if (of_edge->errors.readings > 0.0)
     return ", but readings that were made one after the other err alike, as a drifting sensor or "
            "its filter makes them, and " +
            less_probable + ". Where it is a tumour all the same";
@@ -169,8 +169,8 @@ std::string weaker_words(const Exploration& exploration) {
 }
 
 std::string instead_of_edge(const EdgeOdds& odds) {
-  return odds.noise_lasts ? "Noise that lasts from reading to reading"
-                          : "Healthy tissue that waves";
+  return odds.errors.readings > 0.0 ? "Noise that lasts from reading to reading"
+                                    : "Healthy tissue that waves";
 }
 
 std::string no_level_words(const Exploration& exploration) {

@@ -63,6 +63,28 @@ TEST(DoubtedAsAWhole, ABandWidensByHowFarAllReadingsMayLieOff) {
   EXPECT_NEAR((same.score - certainty.score).cwiseAbs().maxCoeff(), 0.0, 1e-12);
 }
 
+// Inside of 12.6 mm, or, as likely, of 20 mm; or nothing at all.
+TEST(AsLikelyAnother, WhatOneOfThemHasIsAsLikelyTumourAsNot) {
+  const Surface sheet = plane(51, 3);  // 25 mm along x, each vertex 0.5 mm of it
+  const auto right_of = [&](double x_m) {
+    return Field((sheet.mesh().vertices.col(0).array() - x_m) / 0.0001);
+  };
+  Certainty certainty{.score = right_of(0.0126), .band_score = 2.0, .expected = {}};
+  const Certainty either = as_likely_another(certainty, sheet, right_of(0.0199));
+  const Field p = either.probability_inside();
+  const double strip_m2 =
+      7.25e-3 * 0.05;  // from the vertex at 13 mm to that at 20, half a step off
+  for (int vertex = 0; vertex < sheet.vertex_count(); ++vertex) {
+    const double x_m = sheet.vertex(vertex).x();
+    EXPECT_NEAR(p[vertex], x_m < 0.0126 ? 0.0 : x_m < 0.0199 ? 0.5 : 1.0, 0.17) << x_m;
+  }
+  EXPECT_NEAR(either.expected.extra_m2, 0.5 * strip_m2, 0.5 * 0.25e-3 * 0.05 + 1e-9);
+  EXPECT_NEAR(either.expected.missed_m2, 0.0, 1e-9);
+  const Certainty or_none = as_likely_another(certainty, sheet, std::nullopt);
+  EXPECT_NEAR(or_none.expected.extra_m2, 0.5 * 0.01225 * 0.05, 1e-9);
+  EXPECT_NEAR(or_none.probability_inside().maxCoeff(), 0.5, 1e-6);
+}
+
 TEST(DoubtedWhereUntouched, APlaceFarFromAllReadingsIsNoSurerThanTheField) {
   const Surface sheet = plane(51, 3);  // 25 mm along x; touched along its left edge alone
   const Belief belief = Belief(Prior(sheet, Metric::Chart, {.length_m = 0.004}), {.noise_sd = 0.1})

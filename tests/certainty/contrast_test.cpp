@@ -35,6 +35,36 @@ TEST(ShowsContrast, IsSeldomFooledByNoise) {
   EXPECT_LE(fooled, 5);
 }
 
+/// Each of whose errors keeps nine tenths of the one before, beside stripes of nine readings.
+std::vector<double> errors_that_last(std::uint64_t seed, double sd, double stripes) {
+  Random random(seed);
+  std::vector<double> readings;
+  double error = sd * random.normal();
+  for (int i = 0; i < 600; ++i) {
+    error = 0.9 * error + std::sqrt(1.0 - 0.81) * sd * random.normal();
+    readings.push_back(7.0 + error + (i / 9 % 3 == 0 ? stripes : 0.0));
+  }
+  return readings;
+}
+
+// Six hundred that err alike over ten readings look like two plateaus now and then; thirty of them,
+// each so far from the next that it errs for itself, in none of twenty rows.
+TEST(TwoPlateausInTurn, AreNotOfErrorsThatLast) {
+  int all = 0, apart = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::vector<double> readings = errors_that_last(seed, 0.3, 0.0);
+    all += two_plateaus(readings)->evidence > 5.3;
+    apart += evidence_of_two_plateaus_in_turn(readings, 20) > 5.3;
+  }
+  EXPECT_GE(all, 1);
+  EXPECT_EQ(apart, 0);
+}
+
+TEST(TwoPlateausInTurn, AreOfStripesThatAreFinerThanThose) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    EXPECT_GT(evidence_of_two_plateaus_in_turn(errors_that_last(seed, 0.3, 2.0), 20), 8.0) << seed;
+}
+
 using Numbers = std::vector<std::size_t>;
 
 TEST(ReadingsApart, LieFartherFromAllOthersThanThoseFromEachOther) {

@@ -57,10 +57,17 @@ struct PartContrast {
   double stddev = 0.0;        ///< of that; 0: taken for the same
 };
 
+/// Errors that last over some readings, in the order in which these were made.
+struct LastingErrors {
+  double readings = 0.0;  ///< over so many they are alike; 0: there are none
+  double sd = 0.0;        ///< in readings
+};
+
 struct EdgeOdds {
   double log_odds = 0.0;
   double wave_length_m = 0.0;  ///< of the likeliest waves without an edge; 0: noise explains more
-  bool noise_lasts = false;  ///< that errors last over some readings explains them without an edge
+  LastingErrors errors{};  ///< that explain the most without an edge, where these were asked for
+  LastingErrors errors_beside_edge{};  ///< that make this edge clearly more probable
 };
 
 /// An edge in healthy tissue that waves slowly.

@@ -19,6 +19,12 @@
 
 namespace palpation {
 
+/// What adds to readings and was seen beside the edge; what is left of it is among the unknown.
+struct SeenBackground {
+  std::optional<WaveScale> slow_waves{};  ///< that are taken back in the readings
+  LastingErrors errors_in_turn{};         ///< that are not
+};
+
 struct OutlineOptions {
   double fraction = 0.5;      ///< of the way from the low plateau to the high one
   double noise_log_sd = 0.0;  ///< of the belief's noise, as EdgeBelief::around has it
@@ -30,8 +36,7 @@ struct OutlineOptions {
   /// What changed while one touched and is taken back in the belief's readings, in time; what is
   /// left of it is among the unknown.
   std::vector<Misfit> changes{};
-  /// Slow waves that are taken back in them: what is left is among the unknown, too.
-  std::optional<WaveScale> slow_waves{};
+  SeenBackground background{};
 };
 
 /// An expectation, and what holds 95 % of the draws.

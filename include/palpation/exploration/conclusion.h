@@ -55,6 +55,8 @@ struct Evidence {
   /// an edge is clearly less probable than errors, or than waves that are slower than a tumour is
   /// wide, there is no level: no tumour was felt.
   std::optional<EdgeOdds> of_edge{};
+  /// Errors that last beside the edge, clearly; asked at the end. The outlines know of them.
+  LastingErrors errors_beside_edge{};
   bool trend_is_missing = false;  ///< a trend is modelled, but too few places are touched yet to
                                   ///< tell a tumour from a tilt
   /// Readings that lie farther from all others than those from each other (readings_apart), the
