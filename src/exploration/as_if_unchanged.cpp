@@ -178,8 +178,10 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     if (change->kind == MisfitKind::Moved) look_closer_at(which, changes, surface, model, felt);
     take_back();
   }
-  if (is_last) weigh_against_errors_in_turn(known);
-  if (is_last) weigh_against_waves(known);
+  if (is_last) {
+    weigh_against_errors_in_turn(known);
+    weigh_against_waves(known);
+  }
   return known;
 }
 

@@ -177,8 +177,7 @@ std::string errors_words(ReadingScale scale, const LastingErrors& errors) {
          fixed(errors.readings, 0) + " of them, by " +
          (scale == ReadingScale::Log ? percent(errors.sd) : reading_text(errors.sd)) +
          ", as a sensor that drifts makes them. The band knows of it, but a larger drift passes "
-         "for "
-         "softer tissue beside a core: touch again in another order.";
+         "for softer tissue beside a core: touch again in another order.";
 }
 
 std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
