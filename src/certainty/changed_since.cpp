@@ -247,7 +247,8 @@ std::pair<Misfit, std::size_t> closer_look(const ChangedField& field, Misfit mov
 }  // namespace
 
 bool is_background(const Misfit& change) {
-  return change.kind == MisfitKind::Tilted || change.kind == MisfitKind::Waves;
+  return change.kind == MisfitKind::Tilted || change.kind == MisfitKind::Waves ||
+         change.kind == MisfitKind::Drift;
 }
 
 bool is_since(const Misfit& change, const Made& made) {

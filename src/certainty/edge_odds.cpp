@@ -18,7 +18,7 @@ namespace {
 /// Of waves: from the longer ones of the outlines' background on, to as long as tissue is wide.
 constexpr std::array kLengths_m = {0.008, 0.012, 0.018, 0.027, 0.04};
 /// Over so many readings errors may last, as a sensor's warmth, a cable or a hand make them.
-constexpr std::array kInTurn = {3.0, 10.0, 30.0};
+constexpr std::array kInTurn = {3.0, 10.0, 30.0, 100.0};
 /// How high they may be, of how the readings spread.
 constexpr std::array kErrors = {0.03, 0.1, 0.3, 1.0};
 /// Texture of real tissue beside an edge and slow waves, and how high it may be, of how the
@@ -50,16 +50,18 @@ WavesFound likeliest(std::vector<WavesFound> found) {
 struct ByErrors {
   double level = -std::numeric_limits<double>::infinity();
   LastingErrors errors{};
+  Eigen::VectorXd pull{};  ///< WithWaves::pull
 
   /// `alike`: the correlations of errors that last over so many readings.
   void weigh(const Rows& rows, double spread, const Eigen::MatrixXd& alike, double readings) {
     for (const double height : kErrors) {
       Rows erring = rows;
       erring.covariance += std::pow(height * spread, 2) * alike;
-      const double found = WithWaves(erring, spread).level();
-      if (!(found > level)) continue;
-      level = found;
+      const WithWaves with(erring, spread);
+      if (!(with.level() > level)) continue;
+      level = with.level();
       errors = {readings, height * spread};
+      pull = with.pull();
     }
   }
 };
@@ -94,29 +96,34 @@ struct Explained {
 
 }  // namespace
 
-/// About the fit's edge and the readings as they were before waves were taken from them.
-struct EdgeBelief::InWaves {
+/// About the fit's edge and the readings as they were before waves or drift were taken from them.
+struct EdgeBelief::AsFelt {
   Rows rows;
   Eigen::VectorXd readings;
 
-  InWaves(const Surface& surface, const Fit& fit, const Field& taken_back)
-      : readings(fit.data.reading) {
+  /// `taken_back`: of each row.
+  AsFelt(const Fit& fit, const Eigen::VectorXd& taken_back)
+      : readings(fit.data.reading + taken_back) {
     Eigen::MatrixXd covariance = fit.edge.covariance.reconstructedMatrix();
-    rows = {fit.data, covariance * fit.edge.pull, covariance};
+    rows = {fit.data, covariance * fit.edge.pull + taken_back, covariance};
     rows.covariance.diagonal() -= fit.edge.scatter * fit.data.variance;
-    if (taken_back.size() == 0) return;
-    for (Eigen::Index i = 0; i < readings.size(); ++i) {
-      const double wave =
-          surface.interpolate(taken_back, fit.data.places[static_cast<std::size_t>(i)]);
-      rows.off[i] += wave;
-      readings[i] += wave;
-    }
+  }
+  AsFelt(const Surface& surface, const Fit& fit, const Field& taken_back)
+      : AsFelt(fit, at_rows(surface, fit, taken_back)) {}
+
+ private:
+  static Eigen::VectorXd at_rows(const Surface& surface, const Fit& fit, const Field& field) {
+    Eigen::VectorXd at = Eigen::VectorXd::Zero(fit.data.reading.size());
+    if (field.size() == 0) return at;
+    for (Eigen::Index i = 0; i < at.size(); ++i)
+      at[i] = surface.interpolate(field, fit.data.places[static_cast<std::size_t>(i)]);
+    return at;
   }
 };
 
 EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
   const Fit& fit = most_likely();
-  const InWaves here(surface_, fit, taken_back);
+  const AsFelt here(surface_, fit, taken_back);
   const double spread = spread_of(here.readings);
   const Rows flat = without_edge(here.rows, here.readings);
   const WithWaves edge(here.rows, spread), none(flat, spread);
@@ -135,9 +142,9 @@ EdgeOdds EdgeBelief::odds_over_waves(const Field& taken_back) const {
   return odds;
 }
 
-EdgeOdds EdgeBelief::odds_over_errors_in_turn() const {
+EdgeInErrors EdgeBelief::in_lasting_errors(const Eigen::VectorXd& taken_back) const {
   const Fit& fit = most_likely();
-  const InWaves here(surface_, fit, {});
+  const AsFelt here(fit, mean_in_turn(taken_back, fit.data.made));
   const double spread = spread_of(here.readings);
   const Rows flat = without_edge(here.rows, here.readings);
   ByErrors alone, beside;
@@ -147,15 +154,21 @@ EdgeOdds EdgeBelief::odds_over_errors_in_turn() const {
     beside.weigh(here.rows, spread, alike, readings);
   }
   const double by_noise = WithWaves(here.rows, spread).level();
-  EdgeOdds odds{.log_odds = std::max(by_noise, beside.level) - freedom_ - alone.level,
-                .errors = alone.errors};
-  if (beside.level > by_noise + surprising()) odds.errors_beside_edge = beside.errors;
-  return odds;
+  EdgeInErrors found{.log_evidence = std::max(by_noise, beside.level) - freedom_,
+                     .log_evidence_without_edge = alone.level,
+                     .errors_without_edge = alone.errors,
+                     .drift = Eigen::VectorXd::Zero(taken_back.size())};
+  if (!(beside.level > by_noise + surprising())) return found;
+  found.errors = beside.errors;
+  found.drift = beside.errors.sd * beside.errors.sd *
+                errors_at_each(taken_back.size(), fit.data.made, beside.errors.readings) *
+                beside.pull;
+  return found;
 }
 
 EdgeInWaves EdgeBelief::in_slow_waves(const Field& taken_back) const {
   const Fit& fit = most_likely();
-  const InWaves here(surface_, fit, taken_back);
+  const AsFelt here(surface_, fit, taken_back);
   const double spread = spread_of(here.readings);
   const Eigen::MatrixXd texture = waves_of(fit.correction, kTexture_m, fit.data).terms();
   std::vector<SlowWaves> waves;

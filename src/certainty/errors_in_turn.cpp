@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "certainty/few_terms.h"
 
 namespace palpation {
 namespace {
 
-constexpr double kLeftOut = 0.05;  ///< of the largest variance
+constexpr double kLonger = 1.2;
 
 double alike(std::span<const Made> one, std::span<const Made> other, double readings) {
   double sum = 0.0;
@@ -33,20 +36,34 @@ Eigen::MatrixXd errors_in_turn(std::span<const std::vector<Made>> made, double r
   return errors;
 }
 
-Eigen::MatrixXd few_terms(const Eigen::MatrixXd& covariance) {
-  Eigen::VectorXd left = covariance.diagonal();
-  Eigen::MatrixXd terms(covariance.rows(), covariance.cols());
-  Eigen::Index count = 0, pivot = 0;
-  if (left.size() == 0) return terms;
-  for (const double most = left.maxCoeff(&pivot);
-       count < terms.cols() && left[pivot] > kLeftOut * most; ++count) {
-    const Eigen::RowVectorXd known = terms.row(pivot).head(count);
-    terms.col(count) = (covariance.col(pivot) - terms.leftCols(count) * known.transpose()) /
-                       std::sqrt(left[pivot]);
-    left -= terms.col(count).cwiseAbs2();
-    left.maxCoeff(&pivot);
+Eigen::MatrixXd errors_at_each(Eigen::Index count, std::span<const std::vector<Made>> made,
+                               double readings) {
+  Eigen::MatrixXd errors(count, static_cast<Eigen::Index>(made.size()));
+  for (Eigen::Index number = 0; number < count; ++number) {
+    const Made one{.number = static_cast<std::size_t>(number)};
+    for (Eigen::Index column = 0; column < errors.cols(); ++column)
+      errors(number, column) = alike({&one, 1}, made[static_cast<std::size_t>(column)], readings);
   }
-  return terms.leftCols(count);
+  return errors;
+}
+
+Eigen::VectorXd mean_in_turn(const Eigen::VectorXd& of_each,
+                             std::span<const std::vector<Made>> made) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(made.size()));
+  for (std::size_t row = 0; row < made.size(); ++row) {
+    for (const Made& one : made[row])
+      mean[static_cast<Eigen::Index>(row)] +=
+          of_each[static_cast<Eigen::Index>(one.number)] / static_cast<double>(made[row].size());
+  }
+  return mean;
+}
+
+Eigen::MatrixXd terms_of_errors(std::span<const std::vector<Made>> made, double readings,
+                                Eigen::Index most) {
+  for (;; readings *= kLonger) {
+    FewTerms few = few_terms(errors_in_turn(made, readings), {.most = most});
+    if (few.is_whole) return std::move(few.terms);
+  }
 }
 
 }  // namespace palpation

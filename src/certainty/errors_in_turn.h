@@ -14,9 +14,19 @@ namespace palpation {
 /// one, each the mean over the readings that it was made of.
 Eigen::MatrixXd errors_in_turn(std::span<const std::vector<Made>> made, double readings);
 
-/// What one unit of each of few coefficients adds to each, by the pivoted Cholesky decomposition
-/// (Harbrecht, Peters and Schneider 2012): without at most a twentieth of any variance, which is
-/// noise then.
-Eigen::MatrixXd few_terms(const Eigen::MatrixXd& covariance);
+/// Their covariance at each of the first `count` readings with those of what the belief takes as
+/// one.
+Eigen::MatrixXd errors_at_each(Eigen::Index count, std::span<const std::vector<Made>> made,
+                               double readings);
+
+/// The mean of what is of each reading, in the order in which they were made, over those that the
+/// belief takes as one.
+Eigen::VectorXd mean_in_turn(const Eigen::VectorXd& of_each,
+                             std::span<const std::vector<Made>> made);
+
+/// What one unit of each of few coefficients adds to each, for errors of height one that last over
+/// `readings`, or over the fewest more by which they are no more than `most`.
+Eigen::MatrixXd terms_of_errors(std::span<const std::vector<Made>> made, double readings,
+                                Eigen::Index most);
 
 }  // namespace palpation

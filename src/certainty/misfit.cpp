@@ -201,8 +201,8 @@ void each_hill(const Explained& rows, const Layout& layout, Use use) {
 }  // namespace
 
 std::string_view name_of(MisfitKind kind) {
-  constexpr std::array<std::string_view, 6> kNames = {"zero",   "gain", "moved",
-                                                      "weaker", "tilt", "waves"};
+  constexpr std::array<std::string_view, 7> kNames = {"zero", "gain",  "moved", "weaker",
+                                                      "tilt", "waves", "drift"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -3,39 +3,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
+
+#include "certainty/few_terms.h"
 
 namespace palpation {
 namespace {
 
 /// Of the waves' squared exponential covariances.
 constexpr std::array kLengths_m = {0.0035, 0.008};
-constexpr double kLeftOut = 0.02;         ///< of their variance at any reading, at most
-constexpr Eigen::Index kMostWaves = 128;  ///< of one length, which else grows
+constexpr double kLeftOut = 0.02;  ///< of their variance at any reading, at most
 
-/// The waves' covariance over their variance, as a product of so many columns with themselves, by
-/// pivoted Cholesky from the middle on; nothing if that takes too many.
-std::optional<Eigen::MatrixXd> waves_at(std::span<const Vec2> places, double length_m) {
+/// The waves' covariance over their variance.
+FewTerms waves_at(std::span<const Vec2> places, double length_m) {
   const auto count = static_cast<Eigen::Index>(places.size());
   Vec2 middle = Vec2::Zero();
   for (const Vec2& place : places) middle += place / static_cast<double>(count);
   const auto from_middle = [&](const Vec2& place) { return (place - middle).squaredNorm(); };
-  Eigen::Index pivot = std::ranges::min_element(places, {}, from_middle) - places.begin();
-  Eigen::MatrixXd waves(count, std::min(count, kMostWaves));
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(count);
-  for (Eigen::Index wave = 0; wave < waves.cols(); ++wave) {
+  const auto alike = [&](Eigen::Index pivot) {
+    Eigen::VectorXd waves(count);
     for (Eigen::Index row = 0; row < count; ++row) {
       const double square = (places[row] - places[pivot]).squaredNorm() / (length_m * length_m);
-      waves(row, wave) = std::exp(-0.5 * square);
+      waves[row] = std::exp(-0.5 * square);
     }
-    const Eigen::RowVectorXd known = waves.row(pivot).head(wave);
-    waves.col(wave) -= waves.leftCols(wave) * known.transpose();
-    waves.col(wave) /= std::sqrt(left[pivot]);
-    left -= waves.col(wave).cwiseAbs2();
-    if (left.maxCoeff(&pivot) <= kLeftOut) return waves.leftCols(wave + 1);
-  }
-  return std::nullopt;
+    return waves;
+  };
+  return few_terms(
+      Eigen::VectorXd::Ones(count), alike,
+      {.left_out = kLeftOut,
+       .first_pivot = std::ranges::min_element(places, {}, from_middle) - places.begin(),
+       .most = kMostOfOneKind});
 }
 
 /// Of each reading, from -1/2 for the first to 1/2 for the last.
@@ -64,10 +61,10 @@ BackgroundTerms background_terms(const BackgroundReadings& readings) {
   if (readings.places.empty()) return terms;
   std::vector<Eigen::MatrixXd> parts;
   for (double length_m : kLengths_m) {
-    std::optional<Eigen::MatrixXd> waves;
-    for (; !waves; length_m *= 1.2) waves = waves_at(readings.places, length_m);
-    terms.waves.push_back(waves->cols());
-    parts.push_back(*std::move(waves));
+    FewTerms waves = waves_at(readings.places, length_m);
+    for (; !waves.is_whole; length_m *= 1.2) waves = waves_at(readings.places, length_m);
+    terms.waves.push_back(waves.terms.cols());
+    parts.push_back(std::move(waves.terms));
   }
   parts.emplace_back(drift_of(readings.when));
   parts.push_back(tilt_of(readings.places));

@@ -18,6 +18,9 @@
 
 namespace palpation {
 
+/// Columns of waves of one length, or of lasting errors: longer ones need fewer.
+inline constexpr Eigen::Index kMostOfOneKind = 128;
+
 /// What one unit of each coefficient adds to each reading: rows are readings, columns terms. First
 /// the waves of each length; then the drift, one unit from the first batch to the last; then the
 /// tilt along x and y, one unit over the readings' root mean square distance from their middle;

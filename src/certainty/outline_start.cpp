@@ -86,7 +86,8 @@ Eigen::MatrixXd seen_terms(const Layout& layout, const SeenBackground& seen,
   const Eigen::MatrixXd waves = slow_waves_of(layout, seen.slow_waves, places);
   const LastingErrors& lasting = seen.errors_in_turn;
   if (!(lasting.readings > 0.0)) return waves;
-  const Eigen::MatrixXd errors = lasting.sd * few_terms(errors_in_turn(made, lasting.readings));
+  const Eigen::MatrixXd errors =
+      lasting.sd * terms_of_errors(made, lasting.readings, kMostOfOneKind);
   Eigen::MatrixXd both(errors.rows(), waves.cols() + errors.cols());
   if (waves.cols() > 0) both.leftCols(waves.cols()) = waves;
   both.rightCols(errors.cols()) = errors;

@@ -1,9 +1,10 @@
 #include "certainty/slow_waves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "certainty/few_terms.h"
 
 namespace palpation {
 namespace {
@@ -29,22 +30,16 @@ SlowWaves::SlowWaves(Surface surface, Metric metric, double length_m,
                      std::span<const SurfacePoint> places)
     : prior_(std::move(surface), metric,
              Kernel{.family = KernelFamily::Matern52, .length_m = length_m}, Constant{.sd = 0.0}) {
-  const auto count = static_cast<Eigen::Index>(places.size());
-  terms_.resize(count, count);
-  std::vector<Eigen::Index> pivots;
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(count);
-  for (Eigen::Index pivot = middle_of(prior_.surface(), places), term = 0;
-       term < count && left[pivot] > kLeftOut; left.maxCoeff(&pivot), ++term) {
-    const std::span<const SurfacePoint> one = places.subspan(static_cast<std::size_t>(pivot), 1);
-    pivots.push_back(pivot);
-    pivots_.push_back(one.front());
-    terms_.col(term) = (prior_.covariance(places, one) -
-                        terms_.leftCols(term) * terms_.row(pivot).head(term).transpose()) /
-                       std::sqrt(left[pivot]);
-    left -= terms_.col(term).cwiseAbs2();
-  }
-  terms_.conservativeResize(Eigen::NoChange, std::ssize(pivots));
-  of_pivots_ = terms_(pivots, Eigen::all);
+  const auto alike = [&](Eigen::Index pivot) -> Eigen::VectorXd {
+    return prior_.covariance(places, places.subspan(static_cast<std::size_t>(pivot), 1));
+  };
+  FewTerms few =
+      few_terms(Eigen::VectorXd::Ones(std::ssize(places)), alike,
+                {.left_out = kLeftOut, .first_pivot = middle_of(prior_.surface(), places)});
+  terms_ = std::move(few.terms);
+  for (const Eigen::Index pivot : few.pivots)
+    pivots_.push_back(places[static_cast<std::size_t>(pivot)]);
+  of_pivots_ = terms_(few.pivots, Eigen::all);
 }
 
 Field SlowWaves::at_vertices(const Eigen::VectorXd& coefficients) const {

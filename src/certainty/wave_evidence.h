@@ -1,7 +1,9 @@
 /// How probable readings are with waves of healthy tissue among them.
 #pragma once
 
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/cholesky.h"
@@ -30,21 +32,29 @@ struct WavesFound {
 class WithWaves {
  public:
   /// `spread`: how the readings do, which heights and noise are multiples of.
-  WithWaves(const Rows& rows, double spread);
+  WithWaves(Rows rows, double spread);
 
   /// Without waves, by the likeliest noise.
   double level() const { return level_; }
-  /// With waves of these terms (SlowWaves::terms), of each height by the likeliest noise.
+  /// C^-1 times what readings are off by, with that noise: what it tells of all that is among them.
+  Eigen::VectorXd pull() const;
+  /// With waves of these terms (SlowWaves::terms), of each height by the likeliest noise, which is
+  /// looked for from the likeliest without waves on.
   std::vector<WavesFound> of(const Eigen::MatrixXd& terms) const;
 
  private:
   struct ByNoise {
     TiledLlt factor;
     Eigen::VectorXd off;
-    double log_density;
+    double log_density = -std::numeric_limits<double>::infinity();
   };
+  /// Nothing where no noise makes the covariance positive definite.
+  const std::optional<ByNoise>& by_noise(std::size_t noise) const;
+
+  Rows rows_;
   double spread_;
-  std::vector<ByNoise> by_noise_;
+  mutable std::vector<std::optional<std::optional<ByNoise>>> by_noise_;  // where it was asked for
+  std::size_t likeliest_ = 0;
   double level_ = -std::numeric_limits<double>::infinity();
 };
 

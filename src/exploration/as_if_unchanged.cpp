@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -110,13 +111,19 @@ bool may_be_errors(const Known& known, const LastingErrors& errors) {
 
 /// Errors that last over many readings look like stripes along the way, across which nothing goes
 /// on.
-void weigh_against_errors_in_turn(Known& known) {
+void weigh_against_errors_in_turn(Known& known, Eigen::Index readings) {
   if (!known.boundary.edge) return;
-  const EdgeOdds odds = known.boundary.edge->odds_over_errors_in_turn();
-  known.believed.evidence.errors_beside_edge = odds.errors_beside_edge;
-  if (odds.log_odds > surprising()) return;
-  known.believed.evidence.of_edge = odds;
-  if (odds.log_odds < -surprising() && may_be_errors(known, odds.errors)) known.boundary = {};
+  Evidence& evidence = known.believed.evidence;
+  const auto drift = std::ranges::find(evidence.taken_back, MisfitKind::Drift, &Misfit::kind);
+  const EdgeInErrors edge = known.boundary.edge->in_lasting_errors(
+      drift == evidence.taken_back.end() ? Eigen::VectorXd::Zero(readings)
+                                         : drift->background.drift);
+  evidence.errors_beside_edge = edge.errors;
+  const double log_odds = edge.log_evidence - edge.log_evidence_without_edge;
+  if (log_odds > surprising()) return;
+  evidence.of_edge = {.log_odds = log_odds, .errors = edge.errors_without_edge};
+  if (log_odds < -surprising() && may_be_errors(known, edge.errors_without_edge))
+    known.boundary = {};
 }
 
 /// Slow waves of healthy tissue have no edge. Shorter waves may be tumours in tissue that waves.
@@ -156,10 +163,15 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     return known_by(surface, model,
                     believed_with_one_zero(surface, model, palpations, apart, apart));
   };
-  Known known = without_background(
-      surface, model, felt,
-      known_by(surface, model, believed_with_one_zero(surface, model, felt, cache, apart)),
-      known_of, is_last);
+  std::shared_ptr<const TriedBackgrounds> tried = cache.tried(surface, model, felt);
+  if (!tried) {
+    Known flat =
+        known_by(surface, model, believed_with_one_zero(surface, model, felt, cache, apart));
+    tried = std::make_shared<const TriedBackgrounds>(
+        tried_backgrounds(surface, model, felt, std::move(flat), known_of));
+    cache.remember(tried);
+  }
+  Known known = without_background(surface, *tried, known_of, is_last);
   std::vector<Misfit> changes = known.believed.evidence.taken_back;
   std::vector<Palpation> readings = with_changes_taken_back(surface, felt, changes);
   const auto take_back = [&] {
@@ -179,7 +191,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     take_back();
   }
   if (is_last) {
-    weigh_against_errors_in_turn(known);
+    weigh_against_errors_in_turn(known, readings_made(felt));
     weigh_against_waves(known);
   }
   return known;

@@ -1,5 +1,6 @@
 #include "exploration/background_search.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "certainty/edge_data.h"
@@ -39,21 +40,57 @@ double log_evidence_or_drop(Known& known) {
   return without_edge;
 }
 
-Known without_background(const Surface& surface, const Model& model,
-                         const std::vector<Palpation>& felt, Known flat, const KnownOf& known_of,
-                         bool is_last) {
-  if (!model.level.is_of_edge() || model.field.trend.is_linear || model.field.is_noiseless() ||
-      flat.believed.belief.site_count() == 0)
-    return flat;
-  std::optional<WithoutBackground> without = without_tilt(surface, felt, flat, known_of);
+namespace {
+
+bool may_have_background(const Model& model, const Known& flat) {
+  return model.level.is_of_edge() && !model.field.trend.is_linear && !model.field.is_noiseless() &&
+         flat.believed.belief.site_count() > 0;
+}
+
+/// The one that gains the most by more than chance does; `flat` where none does.
+const Known& simplest(const Known& flat, const std::optional<WithoutBackground>& one,
+                      const std::optional<WithoutBackground>& other) {
+  const auto gain = [](const std::optional<WithoutBackground>& without) {
+    return without ? without->gain : 0.0;
+  };
+  const std::optional<WithoutBackground>& most = gain(other) > gain(one) ? other : one;
+  return gain(most) > surprising() ? most->known : flat;
+}
+
+}  // namespace
+
+TriedBackgrounds tried_backgrounds(const Surface& surface, const Model& model,
+                                   const std::vector<Palpation>& felt, Known flat,
+                                   const KnownOf& known_of) {
+  TriedBackgrounds tried{model, felt, std::move(flat), {}, {}};
+  if (!may_have_background(model, tried.flat)) return tried;
+  tried.tilted = without_tilt(surface, felt, tried.flat, known_of);
+  if (tried.tilted && !(tried.tilted->gain > surprising())) tried.tilted.reset();
+  tried.waved = without_waves(surface, felt, tried.flat, known_of);
+  return tried;
+}
+
+Known without_background(const Surface& surface, const TriedBackgrounds& tried,
+                         const KnownOf& known_of, bool is_last) {
+  const Known& flat = tried.flat;
+  if (!may_have_background(tried.model, flat)) return flat;
+  const double noise = flat.believed.belief.noise_variance();
+  std::optional<WithoutBackground> stepped;
+  std::optional<BesideEdge> drifted;
   if (is_last) {
-    std::optional<WithoutBackground> stepped =
-        without_zero_step(surface, model, felt, flat, known_of);
-    if (stepped && !(without && without->gain > stepped->gain)) without = std::move(stepped);
+    stepped = without_zero_step(surface, tried.model, tried.felt, flat, known_of);
+    drifted = without_drift(surface, tried.felt, flat, known_of);
   }
-  Known& simpler = without && without->gain > surprising() ? without->known : flat;
-  std::optional<WithoutBackground> waved = without_waves(surface, felt, flat, simpler, known_of);
-  return waved && waved->gain > surprising() ? std::move(waved->known) : std::move(simpler);
+  const Known& simpler = simplest(flat, tried.tilted, stepped);
+  const double waves_gain =
+      tried.waved ? tried.waved->log_evidence - log_evidence_in_waves(surface, simpler, noise)
+                  : 0.0;
+  const double drift_gain =
+      drifted ? drifted->log_evidence -
+                    log_evidence_in_errors(simpler, readings_made(tried.felt), noise)
+              : 0.0;
+  if (!(std::max(waves_gain, drift_gain) > surprising())) return simpler;
+  return waves_gain > drift_gain ? tried.waved->known : drifted->known;
 }
 
 }  // namespace palpation

@@ -1,5 +1,5 @@
-/// Whether healthy tissue slopes or waves, weighed against tissue that does not, and a zero that
-/// moves.
+/// Whether healthy tissue slopes or waves, or the sensor drifts, weighed against what does not, and
+/// a zero that moves.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,16 @@ namespace palpation {
 /// What readings say, their sessions' and the sensor's zeros taken back.
 using KnownOf = std::function<Known(const std::vector<Palpation>& palpations)>;
 
-/// Readings whose background is taken from them, the first of all that is, and by how much more
-/// probable it makes them, nats: its freedom is paid for.
+/// Readings whose background is taken from them, the first of all that is.
 struct WithoutBackground {
   Known known;
-  double gain = 0.0;
+  double gain = 0.0;  ///< by how much more probable it makes them, nats: its freedom is paid for
+};
+
+/// The same of what there may be beside any edge.
+struct BesideEdge {
+  Known known;
+  double log_evidence = 0.0;  ///< with it, comparable by the noise without
 };
 
 /// Of the readings by the edge, or where there is none as noise alone.
@@ -31,20 +36,43 @@ std::optional<WithoutBackground> without_tilt(const Surface& surface,
                                               const KnownOf& known_of);
 
 /// Without slow waves that the readings have beside an edge (EdgeBelief::in_slow_waves), which is
-/// found without waves, or without those that two parallel surfaces share (waves.h): of texture and
-/// waves, which may be there in both, more probable than `simpler`. Nothing where no such surfaces
-/// are likelier than level ones, or the sensor's zero moves.
-std::optional<WithoutBackground> without_waves(const Surface& surface,
-                                               const std::vector<Palpation>& felt,
-                                               const Known& flat, const Known& simpler,
-                                               const KnownOf& known_of);
+/// found without waves, or without those that two parallel surfaces share (waves.h). Nothing where
+/// no such surfaces are likelier than level ones, or the sensor's zero moves.
+std::optional<BesideEdge> without_waves(const Surface& surface, const std::vector<Palpation>& felt,
+                                        const Known& flat, const KnownOf& known_of);
 
-/// What is known of readings `felt` without their slope or slow waves; `flat`, with them, where
-/// none makes the readings more probable by more than chance does. They are asked for where the
-/// level is at the edge, and the field has noise and no trend of its own. Where `is_last` a step of
-/// the zero half way through a raster, which looks like either, is asked for beside them.
-Known without_background(const Surface& surface, const Model& model,
-                         const std::vector<Palpation>& felt, Known flat, const KnownOf& known_of,
-                         bool is_last);
+/// With texture, or waves of the slope that was taken back: what without_waves is weighed against.
+double log_evidence_in_waves(const Surface& surface, const Known& known, double noise_variance);
+
+/// Without the errors that last from reading to reading beside an edge
+/// (EdgeBelief::in_lasting_errors), which is found without them, or without those that two parallel
+/// lines share (drift.h). Nothing where such errors are not clearly seen beside the edge.
+std::optional<BesideEdge> without_drift(const Surface& surface, const std::vector<Palpation>& felt,
+                                        const Known& flat, const KnownOf& known_of);
+
+/// With texture or lasting errors beside an edge, each step of the zero at its price of two
+/// numbers: what without_drift is weighed against.
+double log_evidence_in_errors(const Known& known, Eigen::Index readings, double noise_variance);
+
+/// What was tried on readings `felt` at any time, not at the end alone.
+struct TriedBackgrounds {
+  Model model;
+  std::vector<Palpation> felt;
+  Known flat;  ///< with their background
+  std::optional<WithoutBackground> tilted;
+  std::optional<BesideEdge> waved;
+};
+
+/// They are asked for where the level is at the edge, and the field has noise and no trend of its
+/// own.
+TriedBackgrounds tried_backgrounds(const Surface& surface, const Model& model,
+                                   const std::vector<Palpation>& felt, Known flat,
+                                   const KnownOf& known_of);
+
+/// What is known of readings without their slope, slow waves or drift; with them, where none makes
+/// the readings more probable by more than chance does. Where `is_last` a drift, and a step of the
+/// zero half way through a raster, which look like either, are asked for beside them.
+Known without_background(const Surface& surface, const TriedBackgrounds& tried,
+                         const KnownOf& known_of, bool is_last);
 
 }  // namespace palpation

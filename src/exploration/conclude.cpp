@@ -3,10 +3,10 @@
 
 #include "boundary/erosion.h"
 #include "certainty/doubts.h"
-#include "exploration/as_if_unchanged.h"
 #include "exploration/change_search.h"
 #include "exploration/doubtful_parts.h"
 #include "exploration/likelier_scale.h"
+#include "exploration/soft_spot.h"
 #include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
 #include "palpation/base/error.h"
@@ -21,7 +21,7 @@ bool is_judged_anew(const Palpation& palpation, const Model& model) {
   const std::string& reason = palpation.set_aside;
   if (reason == kStandsAlone) return model.needs_contrast();
   const auto is_any_of = [&](const auto&... reasons) { return ((reason == reasons) || ...); };
-  return is_any_of(kNoContact, kFrozen, kOutlier, kBeyondTissue) ||
+  return is_any_of(kNoContact, kFrozen, kOutlier, kBeyondTissue, kSoftSpot) ||
          (model.field.probe.screening && is_any_of(kJammed, kStartUp, kBaseStep));
 }
 
@@ -69,15 +69,16 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
                     ConclusionCache* cache, std::optional<std::uint64_t> sampling_seed) {
   check(model);
   ConclusionCache own;
+  if (cache == nullptr) cache = &own;
   std::vector<Palpation> felt = live(surface, felt_among(readings, model));
   const ReadingScale scale =
-      model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt);
+      model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt, *cache);
   const Model scaled = on_scale(scale, model);
   // Equations (1) and (2), and whether they show more than noise.
   // The level (section V.3, equation 4) and its level set.
+  std::vector<Palpation> modelled = on_scale(scale, felt);
   auto [believed, marginals, component, boundary] =
-      known_as_if_unchanged(surface, scaled, on_scale(scale, felt), cache != nullptr ? *cache : own,
-                            sampling_seed.has_value());
+      known_beside_soft_spot(surface, scaled, modelled, *cache, sampling_seed.has_value());
   believed.evidence.scale = scale;
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
@@ -86,8 +87,8 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   if (scaled.band && boundary.level && believed.belief.site_count() > 0)
     certainty = certainty_of(surface, scaled, believed, component, boundary);
   if (certainty && believed.evidence.zero_or_tissue)
-    certainty = doubted_by_step(*std::move(certainty), surface, scaled, on_scale(scale, felt),
-                                believed.evidence);
+    certainty =
+        doubted_by_step(*std::move(certainty), surface, scaled, modelled, believed.evidence);
 
   const double tip_m = model.field.probe.indenter_radius_m;
   std::optional<Contour> contour;

@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "exploration/background_search.h"
 #include "palpation/exploration/conclusion.h"
 
 namespace palpation {
 namespace {
+
+constexpr std::size_t kScales = 2;
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
@@ -68,6 +72,24 @@ Belief ConclusionCache::grown(const Belief& blank, std::span<const Palpation> pa
 
 void ConclusionCache::foresee(std::span<const SurfacePoint> places) {
   if (last_) last_ = std::make_shared<const Belief>(last_->foresee(places));
+}
+
+std::shared_ptr<const TriedBackgrounds> ConclusionCache::tried(
+    const Surface& surface, const Model& model, std::span<const Palpation> felt) const {
+  const auto is_same = [&](const std::shared_ptr<const TriedBackgrounds>& one) {
+    return &one->flat.believed.belief.prior().surface().mesh() == &surface.mesh() &&
+           one->model == model &&
+           std::ranges::equal(one->felt, felt, [](const Palpation& a, const Palpation& b) {
+             return same_reading(a, b) && a.travel == b.travel;
+           });
+  };
+  const auto found = std::ranges::find_if(tried_, is_same);
+  return found == tried_.end() ? nullptr : *found;
+}
+
+void ConclusionCache::remember(std::shared_ptr<const TriedBackgrounds> tried) {
+  tried_.insert(tried_.begin(), std::move(tried));
+  if (tried_.size() > kScales) tried_.pop_back();
 }
 
 }  // namespace palpation

@@ -33,11 +33,13 @@ double log_density_of_logarithms(const Belief& belief, std::span<const Palpation
 
 /// `noise_variance`: that of readings as they are, where it is known.
 std::optional<Told> told_on(ReadingScale scale, const Surface& surface, const Model& model,
-                            const std::vector<Palpation>& felt,
+                            const std::vector<Palpation>& felt, ConclusionCache& cache,
                             std::optional<double> noise_variance = std::nullopt) {
-  ConclusionCache cache;
+  ConclusionCache apart;  // beliefs on another scale do not grow from those on this one
+  apart.remember_tried_by(cache);
   const Known known =
-      known_as_if_unchanged(surface, model, on_scale(scale, felt), cache, /*is_last=*/false);
+      known_as_if_unchanged(surface, model, on_scale(scale, felt), apart, /*is_last=*/false);
+  cache.remember_tried_by(apart);
   if (!known.boundary.edge) return std::nullopt;
   const Belief& belief = known.believed.belief;
   Told told{.noise_variance = noise_variance.value_or(belief.noise_variance())};
@@ -50,11 +52,11 @@ std::optional<Told> told_on(ReadingScale scale, const Surface& surface, const Mo
 }  // namespace
 
 ReadingScale likelier_scale(const Surface& surface, const Model& model,
-                            const std::vector<Palpation>& felt) {
+                            const std::vector<Palpation>& felt, ConclusionCache& cache) {
   const auto is_positive = [](const Palpation& one) { return !counts(one) || one.reading > 0.0; };
   if (!std::ranges::all_of(felt, is_positive)) return ReadingScale::Raw;
-  const std::optional<Told> raw = told_on(ReadingScale::Raw, surface, model, felt),
-                            log = raw ? told_on(ReadingScale::Log, surface, model, felt,
+  const std::optional<Told> raw = told_on(ReadingScale::Raw, surface, model, felt, cache),
+                            log = raw ? told_on(ReadingScale::Log, surface, model, felt, cache,
                                                 raw->noise_variance)
                                       : raw;
   const bool prefers_log = raw && log && raw->count == log->count &&

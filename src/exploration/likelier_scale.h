@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "palpation/exploration/model.h"
+#include "palpation/exploration/conclusion.h"
 
 namespace palpation {
 
@@ -11,7 +11,8 @@ namespace palpation {
 /// the readings more probable by them than as they are, by more than chance (misfit.h): a field's
 /// own evidence would prefer logarithms of any plateaus. As they are where a reading is not
 /// positive, no edge is found on both scales, or other readings count on one than on the other.
+/// What was tried on either is remembered.
 ReadingScale likelier_scale(const Surface& surface, const Model& model,
-                            const std::vector<Palpation>& felt);
+                            const std::vector<Palpation>& felt, ConclusionCache& cache);
 
 }  // namespace palpation

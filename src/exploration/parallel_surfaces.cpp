@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,29 @@ constexpr int kRounds = 30;
 constexpr double kElsewhere = 0.1;
 /// Noise below this part of the range is no noise: the likelihood would grow without bound.
 constexpr double kLeastSd = 1e-3;
+/// Of the values that shall lie below the first background, each weighed by how far it lies off.
+constexpr std::array kBelow = {0.05, 0.2, 0.5, 0.8, 0.95};
+constexpr double kFirstNoise = 0.1;  ///< of the range: a tumour's contrast is not the background's
+constexpr int kWeighings = 10;
+
+/// The background that values lie off, those above it `below` times as much as those below
+/// 1 - below (Newey and Powell 1987).
+Eigen::VectorXd expectile(const SharedBackground& background, const Eigen::VectorXd& values,
+                          double below) {
+  const Eigen::Index terms = background.terms.cols();
+  Eigen::MatrixXd rows(values.size(), 1 + terms);
+  rows << Eigen::VectorXd::Ones(values.size()), background.terms;
+  Eigen::VectorXd weight = Eigen::VectorXd::Constant(values.size(), 0.5), found;
+  for (int round = 0; round < kWeighings; ++round) {
+    Eigen::MatrixXd normal = rows.transpose() * weight.asDiagonal() * rows;
+    normal.diagonal().tail(terms) += kFirstNoise * kFirstNoise * background.precision;
+    found = normal.ldlt().solve(rows.transpose() * weight.cwiseProduct(values));
+    const Eigen::VectorXd level = rows * found;
+    weight = (values.array() > level.array())
+                 .select(Eigen::VectorXd::Constant(values.size(), below), 1.0 - below);
+  }
+  return background.terms * found.tail(terms);
+}
 
 /// The two groups that values are cut into by the split with the least squares.
 ParallelSurfaces first_fit(Eigen::VectorXd left) {
@@ -128,6 +152,15 @@ ParallelSurfaces parallel_surfaces(const SharedBackground& background,
                                    const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& first_background) {
   return Fitting(background, values, first_background).found();
+}
+
+std::vector<ParallelSurfaces> all_parallel_surfaces(const SharedBackground& background,
+                                                    const Eigen::VectorXd& values) {
+  std::vector<ParallelSurfaces> all = {
+      parallel_surfaces(background, values, Eigen::VectorXd::Zero(values.size()))};
+  for (const double below : kBelow)
+    all.push_back(parallel_surfaces(background, values, expectile(background, values, below)));
+  return all;
 }
 
 }  // namespace palpation

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace palpation {
 
@@ -30,5 +31,10 @@ struct ParallelSurfaces {
 ParallelSurfaces parallel_surfaces(const SharedBackground& background,
                                    const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& first_background);
+
+/// From no background, and from how high the lower and higher values of those that are alike in it
+/// lie: it is no matter how many lie on either surface.
+std::vector<ParallelSurfaces> all_parallel_surfaces(const SharedBackground& background,
+                                                    const Eigen::VectorXd& values);
 
 }  // namespace palpation

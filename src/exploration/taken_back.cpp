@@ -1,6 +1,7 @@
 #include "exploration/taken_back.h"
 
 #include "palpation/readings/screening.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
@@ -8,10 +9,13 @@ namespace {
 /// A surface ends there: no farther off does rounding or a coarse border put a place.
 constexpr double kBeyond_m = 0.0005;
 
-void take_back(const Surface& surface, const Misfit& change, Palpation& palpation) {
+void take_back(const Surface& surface, const Misfit& change, std::size_t number,
+               Palpation& palpation) {
   if (palpation.kind == TouchKind::Missed) return;
   if (change.kind == MisfitKind::Zero) palpation.reading -= change.amount;
-  if (is_background(change))
+  if (change.kind == MisfitKind::Drift)
+    palpation.reading -= change.background.drift[static_cast<Eigen::Index>(number)];
+  else if (is_background(change))
     palpation.reading -= added_at(surface, change.background, palpation.where);
   if (change.kind == MisfitKind::Gain)
     palpation.reading = change.low + (palpation.reading - change.low) / (1.0 + change.amount);
@@ -27,6 +31,12 @@ void take_back(const Surface& surface, const Misfit& change, Palpation& palpatio
 constexpr std::ptrdiff_t kOneIn = 20;  ///< a moment is known to a few readings
 
 }  // namespace
+
+Eigen::Index readings_made(std::span<const Palpation> felt) {
+  Eigen::Index made = 0;
+  for (const Palpation& one : felt) made += one.count;
+  return made;
+}
 
 double added_at(const Surface& surface, const Unevenness& background, const SurfacePoint& where) {
   const double slope = background.slope_per_m.dot(surface.position(where) - background.middle);
@@ -56,10 +66,11 @@ Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
 std::vector<Palpation> with_changes_taken_back(const Surface& surface,
                                                std::vector<Palpation> palpations,
                                                std::span<const Misfit> changes) {
+  const std::vector<std::size_t> before = readings_before_each(palpations);
   for (std::size_t i = 0; i < palpations.size(); ++i) {
     for (const Misfit& change : changes) {
-      const Made made{palpations[i].batch, i, palpations[i].session};
-      if (is_since(change, made)) take_back(surface, change, palpations[i]);
+      const Made made{palpations[i].batch, before[i], palpations[i].session};
+      if (is_since(change, made)) take_back(surface, change, before[i], palpations[i]);
     }
   }
   return palpations;

@@ -1,6 +1,5 @@
 #include "exploration/waves.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,10 +14,6 @@ namespace {
 
 constexpr std::size_t kFewest = 15;
 constexpr std::size_t kMost = 200;  ///< of which all are used: a slow wave needs no more
-/// Of readings that shall lie below the first background, each weighed by how far it lies off.
-constexpr std::array kBelow = {0.05, 0.2, 0.5, 0.8, 0.95};
-constexpr double kFirstNoise = 0.1;  ///< of the range: a tumour's contrast is none of the waves'
-constexpr int kWeighings = 10;
 /// Two that differ by less are one, of the range: root mean square.
 constexpr double kSame = 0.05;
 
@@ -50,25 +45,6 @@ Scaled scaled(const Layout& layout, const EdgeData& readings) {
   return made;
 }
 
-/// The background that values lie off, those above it `below` times as much as those below
-/// 1 - below (Newey and Powell 1987).
-Eigen::VectorXd expectile(const SharedBackground& background, const Eigen::VectorXd& values,
-                          double below) {
-  const Eigen::Index terms = background.terms.cols();
-  Eigen::MatrixXd rows(values.size(), 1 + terms);
-  rows << Eigen::VectorXd::Ones(values.size()), background.terms;
-  Eigen::VectorXd weight = Eigen::VectorXd::Constant(values.size(), 0.5), found;
-  for (int round = 0; round < kWeighings; ++round) {
-    Eigen::MatrixXd normal = rows.transpose() * weight.asDiagonal() * rows;
-    normal.diagonal().tail(terms) += kFirstNoise * kFirstNoise * background.precision;
-    found = normal.ldlt().solve(rows.transpose() * weight.cwiseProduct(values));
-    const Eigen::VectorXd level = rows * found;
-    weight = (values.array() > level.array())
-                 .select(Eigen::VectorXd::Constant(values.size(), below), 1.0 - below);
-  }
-  return background.terms * found.tail(terms);
-}
-
 /// Of one length.
 struct Candidate {
   std::size_t length = 0;
@@ -94,15 +70,13 @@ std::vector<Field> waves_of_parallel_surfaces(const Layout& layout, const EdgeDa
     waves.emplace_back(layout.surface(), layout.metric(), length_m, places);
     const Eigen::MatrixXd& terms = waves.back().terms();
     const SharedBackground background{terms, Eigen::VectorXd::Ones(terms.cols())};
-    const auto add_from = [&](const Eigen::VectorXd& first) {
-      Candidate one{waves.size() - 1, parallel_surfaces(background, values, first), {}};
-      if (!(one.surfaces.log_evidence > level + needed)) return;
+    for (ParallelSurfaces& surfaces : all_parallel_surfaces(background, values)) {
+      if (!(surfaces.log_evidence > level + needed)) continue;
+      Candidate one{waves.size() - 1, std::move(surfaces), {}};
       one.shared = terms * one.surfaces.coefficients;
       one.shared.array() -= one.shared.mean();
       candidates.push_back(std::move(one));
-    };
-    add_from(level_ones);
-    for (const double below : kBelow) add_from(expectile(background, values, below));
+    }
   }
   std::ranges::stable_sort(candidates, std::greater{},
                            [](const Candidate& one) { return one.surfaces.log_evidence; });

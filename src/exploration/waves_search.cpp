@@ -6,6 +6,7 @@
 
 #include "exploration/background_search.h"
 #include "exploration/comparable_evidence.h"
+#include "exploration/soft_spot.h"
 #include "exploration/taken_back.h"
 #include "exploration/waves.h"
 
@@ -15,9 +16,6 @@ namespace {
 constexpr int kBackgrounds = 4;  ///< of parallel surfaces: each costs a conclusion
 /// So often waves are found again about the edge that is seen without them.
 constexpr int kWaveRounds = 3;
-
-/// Of the readings, at least, outside of a tumour in tissue that waves.
-constexpr std::ptrdiff_t kOneIn = 10;
 
 /// The readings without waves, and how probable they are with them.
 struct Waved {
@@ -35,19 +33,6 @@ bool has_moving_zero(const Known& known) {
   return std::ranges::any_of(known.believed.evidence.taken_back, [](const Misfit& change) {
     return change.kind == MisfitKind::Zero && change.session == 0;
   });
-}
-
-/// Tissue that is stiff but for a patch is healthy, with a soft spot: waves hid the tumour.
-bool is_all_but_a_patch(const Known& known) {
-  const Surface& surface = known.believed.belief.prior().surface();
-  const Field& depth = known.boundary.edge->depth();
-  std::ptrdiff_t count = 0, outside = 0;
-  for (const Palpation& one : known.believed.palpations) {
-    if (!counts(one)) continue;
-    ++count;
-    outside += surface.interpolate(depth, one.where) < 0.0;
-  }
-  return kOneIn * outside < count;
 }
 
 /// What an edge leaves of the readings that count, beyond noise: standard deviation.
@@ -121,25 +106,25 @@ class WavesSearch {
   std::optional<Waved> best_;
 };
 
-/// Without a slope that may be taken back.
-double log_evidence_in_waves(const Surface& surface, const Known& known) {
-  if (!known.boundary.edge) return log_evidence_of(known);
-  Field slope = Field::Zero(surface.vertex_count());
-  for (const Misfit& change : known.believed.evidence.taken_back) {
-    if (!is_background(change)) continue;
-    for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
-      slope[vertex] += added_at(surface, change.background, surface.at_vertex(vertex));
-  }
-  const EdgeInWaves edge = known.boundary.edge->in_slow_waves(slope);
-  return std::max(edge.log_evidence, edge.log_evidence_level);
-}
-
 }  // namespace
 
-std::optional<WithoutBackground> without_waves(const Surface& surface,
-                                               const std::vector<Palpation>& felt,
-                                               const Known& flat, const Known& simpler,
-                                               const KnownOf& known_of) {
+double log_evidence_in_waves(const Surface& surface, const Known& known, double noise_variance) {
+  double log_evidence = log_evidence_of(known);
+  if (known.boundary.edge) {
+    Field slope = Field::Zero(surface.vertex_count());
+    for (const Misfit& change : known.believed.evidence.taken_back) {
+      if (change.kind != MisfitKind::Tilted) continue;
+      for (int vertex = 0; vertex < surface.vertex_count(); ++vertex)
+        slope[vertex] += added_at(surface, change.background, surface.at_vertex(vertex));
+    }
+    const EdgeInWaves edge = known.boundary.edge->in_slow_waves(slope);
+    log_evidence = std::max(edge.log_evidence, edge.log_evidence_level);
+  }
+  return comparable(log_evidence, known.believed.belief, noise_variance);
+}
+
+std::optional<BesideEdge> without_waves(const Surface& surface, const std::vector<Palpation>& felt,
+                                        const Known& flat, const KnownOf& known_of) {
   if (has_moving_zero(flat)) return std::nullopt;
   const Belief& belief = flat.believed.belief;
   const std::vector<Field> backgrounds = waves_of_parallel_surfaces(
@@ -152,11 +137,9 @@ std::optional<WithoutBackground> without_waves(const Surface& surface,
   if (!waved) return std::nullopt;
   std::vector<Misfit>& changes = waved->known.believed.evidence.taken_back;
   changes.insert(changes.begin(), std::move(waved->waves));
-  const double noise = belief.noise_variance();
-  const double gain =
-      comparable(waved->edge.log_evidence, waved->known.believed.belief, noise) -
-      comparable(log_evidence_in_waves(surface, simpler), simpler.believed.belief, noise);
-  return WithoutBackground{std::move(waved->known), gain};
+  const double log_evidence =
+      comparable(waved->edge.log_evidence, waved->known.believed.belief, belief.noise_variance());
+  return BesideEdge{std::move(waved->known), log_evidence};
 }
 
 }  // namespace palpation

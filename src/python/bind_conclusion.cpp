@@ -59,6 +59,10 @@ py::dict change_of(const Misfit& change) {
     return py::dict("kind"_a = std::string(name_of(change.kind)),
                     "waves"_a = change.background.waves,
                     "length_m"_a = change.background.wave_scale.length_m);
+  if (change.kind == MisfitKind::Drift)
+    return py::dict("kind"_a = std::string(name_of(change.kind)),
+                    "drift"_a = change.background.drift,
+                    "readings"_a = change.background.errors.readings);
   const Vec3& to = change.moved_m;
   py::dict result("kind"_a = std::string(name_of(change.kind)), "batch"_a = change.from_batch,
                   "reading"_a = change.number);

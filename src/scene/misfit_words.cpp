@@ -75,6 +75,21 @@ std::string waves_words(const Surface& surface, ReadingScale scale, const Field&
          at(highest) + " than at " + at(lowest) + ". That is taken from them.";
 }
 
+std::string drift_words(ReadingScale scale, const Unevenness& background) {
+  Eigen::Index lowest = 0, highest = 0;
+  const double rise = background.drift.maxCoeff(&highest) - background.drift.minCoeff(&lowest);
+  const std::string by = scale == ReadingScale::Log
+                             ? "are " + fixed(std::exp(rise), 2) + " times as high"
+                             : "lie " + reading_text(rise) + " higher";
+  return "Readings rise and fall as time goes on, as a sensor that drifts makes them: wherever "
+         "they "
+         "are, they " +
+         by + " about reading " + std::to_string(highest + 1) + " than about reading " +
+         std::to_string(lowest + 1) +
+         ". That is taken from them, and the band knows how unsure it is; set the sensor's zero "
+         "more often.";
+}
+
 /// Of what may be tumour.
 std::string doubt_words(const Conclusion& conclusion, const Misfit& misfit) {
   const Surface& surface = conclusion.belief.prior().surface();
@@ -108,6 +123,8 @@ std::string words_of(const Conclusion& conclusion, const Misfit& misfit) {
       return tilt_words(scale, misfit.background.slope_per_m);
     case MisfitKind::Waves:
       return waves_words(surface, scale, misfit.background.waves);
+    case MisfitKind::Drift:
+      return drift_words(scale, misfit.background);
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
              standing_out_words(scale, misfit.amount) + ", which the outline does not hold" +
@@ -165,6 +182,8 @@ std::string taken_back_words(const Surface& surface, ReadingScale scale, const M
       return tilt_words(scale, change.background.slope_per_m);
     case MisfitKind::Waves:
       return waves_words(surface, scale, change.background.waves);
+    case MisfitKind::Drift:
+      return drift_words(scale, change.background);
     default:
       return since + "readings lie " + raised_words(scale, change.amount) +
              ", wherever they are: the sensor's zero has moved. That much is taken from "
@@ -178,6 +197,11 @@ std::string errors_words(ReadingScale scale, const LastingErrors& errors) {
          (scale == ReadingScale::Log ? percent(errors.sd) : reading_text(errors.sd)) +
          ", as a sensor that drifts makes them. The band knows of it, but a larger drift passes "
          "for softer tissue beside a core: touch again in another order.";
+}
+
+bool has_drift(const Conclusion& conclusion) {
+  return std::ranges::find(conclusion.evidence.taken_back, MisfitKind::Drift, &Misfit::kind) !=
+         conclusion.evidence.taken_back.end();
 }
 
 std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
@@ -230,7 +254,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& change : other_changes(conclusion))
     words.push_back(taken_back_words(surface, conclusion.scale(), change));
   if (const LastingErrors& errors = conclusion.evidence.errors_beside_edge;
-      conclusion.outlines && errors.readings > 0.0)
+      conclusion.outlines && errors.readings > 0.0 && !has_drift(conclusion))
     words.push_back(errors_words(conclusion.scale(), errors));
   if (conclusion.evidence.zero_or_tissue)
     words.push_back(zero_or_tissue_words(conclusion.scale(), *conclusion.evidence.zero_or_tissue));

@@ -50,10 +50,10 @@ std::string set_aside_words(const Exploration& exploration, const std::string& r
 /// What a screen found, and whether the probe kept its contact.
 std::vector<std::string> screening_remarks(const Exploration& exploration) {
   std::vector<std::string> remarks;
-  for (const std::string& reason : {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier}) {
-    if (std::string words = set_aside_words(exploration, reason); !words.empty())
-      remarks.push_back(std::move(words));
-  }
+  for (const std::string& reason :
+       {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier, kSoftSpot})
+    remarks.push_back(set_aside_words(exploration, reason));
+  std::erase(remarks, "");
   if (!exploration.conclusion().model.field.probe.screening) return remarks;
   if (const std::optional<FadingContact> fading =
           fading_contact(exploration.surface(), readings_as_if_unchanged(exploration.conclusion())))

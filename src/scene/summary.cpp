@@ -130,6 +130,10 @@ json change_json(const Misfit& change) {
     return {{"kind", name_of(change.kind)},
             {"rise", change.background.waves.maxCoeff() - change.background.waves.minCoeff()},
             {"length_mm", kMm * change.background.wave_scale.length_m}};
+  if (change.kind == MisfitKind::Drift)
+    return {{"kind", name_of(change.kind)},
+            {"rise", change.background.drift.maxCoeff() - change.background.drift.minCoeff()},
+            {"readings", change.background.errors.readings}};
   json result = {
       {"kind", name_of(change.kind)}, {"batch", change.from_batch}, {"reading", change.number + 1}};
   if (change.kind == MisfitKind::Zero)

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstddef>
 
@@ -32,13 +31,24 @@ TEST(ErrorsInTurn, OfAMeanAreTheMeanOverWhatItWasMadeOf) {
   EXPECT_NEAR(errors(2, 2), 0.5 * (1.0 + std::exp(-1.25)), 1e-15);
 }
 
-TEST(FewTerms, LeaveOutATwentiethOfTheVarianceAtMost) {
-  const Eigen::MatrixXd errors = errors_in_turn(made_in_turn(200), 30.0);
-  const Eigen::MatrixXd terms = few_terms(errors);
-  EXPECT_LT(terms.cols(), 100);
-  const Eigen::MatrixXd left = errors - terms * terms.transpose();
-  EXPECT_LE(left.diagonal().maxCoeff(), 0.05);
-  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(left).eigenvalues().minCoeff(), -1e-12);
+TEST(ErrorsInTurn, OfEachReadingAreWithThoseThatWereMade) {
+  const std::vector<std::vector<Made>> made = {{{.number = 2}, {.number = 7}}, {{.number = 9}}};
+  const Eigen::MatrixXd errors = errors_at_each(12, made, 4.0);
+  EXPECT_NEAR(errors(3, 0), 0.5 * (std::exp(-0.25) + std::exp(-1.0)), 1e-15);
+  EXPECT_NEAR(errors(11, 1), std::exp(-0.5), 1e-15);
+  const Eigen::VectorXd of_each = Eigen::VectorXd::LinSpaced(12, 0.0, 11.0);
+  EXPECT_EQ(mean_in_turn(of_each, made), Eigen::Vector2d(4.5, 9.0));
+}
+
+TEST(ErrorsInTurn, LastLongerWhereTheyWouldNeedTooManyTerms) {
+  const std::vector<std::vector<Made>> made = made_in_turn(300);
+  EXPECT_GT(terms_of_errors(made, 3.0, 300).cols(), 200);
+  const Eigen::MatrixXd terms = terms_of_errors(made, 3.0, 60);
+  EXPECT_LE(terms.cols(), 60);
+  EXPECT_GE(terms.cols(), 40);
+  // Errors of any reading are as high as before.
+  EXPECT_GE(terms.rowwise().squaredNorm().minCoeff(), 0.95 - 1e-12);
+  EXPECT_LE(terms.rowwise().squaredNorm().maxCoeff(), 1.0 + 1e-12);
 }
 
 }  // namespace

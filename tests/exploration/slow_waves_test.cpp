@@ -171,7 +171,8 @@ TEST(NoiseThatLasts, FromTouchToTouchHidesNoTumour) {
   const Conclusion conclusion =
       conclude(surface, model, stops_in_rows(surface, disk, 1), nullptr, 1);
   ASSERT_TRUE(conclusion.edge);
-  EXPECT_GT(conclusion.edge->odds_over_errors_in_turn().log_odds, 10.0);
+  const EdgeInErrors edge = conclusion.edge->in_lasting_errors(Eigen::VectorXd::Zero(144));
+  EXPECT_GT(edge.log_evidence, edge.log_evidence_without_edge + 10.0);
   ASSERT_TRUE(conclusion.outlines);
   EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 49.0, 25.0);
 }

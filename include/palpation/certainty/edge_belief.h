@@ -57,17 +57,10 @@ struct PartContrast {
   double stddev = 0.0;        ///< of that; 0: taken for the same
 };
 
-/// Errors that last over some readings, in the order in which these were made.
-struct LastingErrors {
-  double readings = 0.0;  ///< over so many they are alike; 0: there are none
-  double sd = 0.0;        ///< in readings
-};
-
 struct EdgeOdds {
   double log_odds = 0.0;
   double wave_length_m = 0.0;  ///< of the likeliest waves without an edge; 0: noise explains more
   LastingErrors errors{};  ///< that explain the most without an edge, where these were asked for
-  LastingErrors errors_beside_edge{};  ///< that make this edge clearly more probable
 };
 
 /// An edge in healthy tissue that waves slowly.
@@ -78,6 +71,16 @@ struct EdgeInWaves {
   double log_evidence_without_edge = 0.0;  ///< by texture and waves alone
   WaveScale scale{};                       ///< of the likeliest slow waves
   Field waves{};                           ///< their mean, at the vertices: the edge takes its part
+};
+
+/// An edge beside errors that last over some readings. There may be none.
+struct EdgeInErrors {
+  double log_evidence = 0.0;  ///< of the readings, nats, by the likeliest errors
+  double log_evidence_without_edge = 0.0;
+  LastingErrors errors{};  ///< beside the edge, where they make it clearly more probable
+  LastingErrors errors_without_edge{};
+  /// Their mean at each reading, in the order in which these were made: the edge takes its part.
+  Eigen::VectorXd drift{};
 };
 
 class EdgeBelief {
@@ -113,13 +116,13 @@ class EdgeBelief {
   /// made, and the outline's freedom has its price. `taken_back`: waves that the readings are
   /// without (with_changes_taken_back), at the vertices; with them, they are weighed.
   EdgeOdds odds_over_waves(const Field& taken_back = {}) const;
-  /// The same without waves, against errors that last over some readings, in the order in which
-  /// they were made. There may be such errors beside the edge, too.
-  EdgeOdds odds_over_errors_in_turn() const;
   /// How probable this edge makes the readings, waves that were taken back included, where tissue
   /// waves over 40 mm or more: compares as log_evidence does. Noise is as probable as it can be
   /// made.
   EdgeInWaves in_slow_waves(const Field& taken_back = {}) const;
+  /// The same of errors that last over some readings. `taken_back`: of each reading, in the order
+  /// in which they were made, that it is without; zeros where nothing was taken from them.
+  EdgeInErrors in_lasting_errors(const Eigen::VectorXd& taken_back) const;
 
   /// Standard deviation of the boundary's offset, in metres, at the vertices: of the depth where
   /// the boundary comes nearest.
@@ -155,7 +158,7 @@ class EdgeBelief {
  private:
   struct Fit;
   struct Task;
-  struct InWaves;
+  struct AsFelt;
   explicit EdgeBelief(Surface surface);
   static std::optional<EdgeBelief> fitted(const Task& task, const std::vector<OwnPart>& parts,
                                           double low);

@@ -28,6 +28,7 @@ enum class MisfitKind {
   WeakerPart,  ///< something stands out that the outline does not hold
   Tilted,      ///< all readings rise to one side
   Waves,       ///< all readings rise and fall slowly over the tissue
+  Drift,       ///< errors last from reading to reading, in the order in which these were made
 };
 
 /// Of slow waves over tissue.
@@ -36,12 +37,20 @@ struct WaveScale {
   double sd = 0.0;        ///< how high they are, in readings
 };
 
-/// What healthy tissue and the way a sensor is held add to all readings.
+/// Errors that last over some readings, in the order in which these were made.
+struct LastingErrors {
+  double readings = 0.0;  ///< over so many they are alike; 0: there are none
+  double sd = 0.0;        ///< in readings
+};
+
+/// What healthy tissue, the way a sensor is held and its drift add to all readings.
 struct Unevenness {
   Vec3 slope_per_m = Vec3::Zero();  ///< of Tilted: readings per metre, and
   Vec3 middle = Vec3::Zero();       ///< where it adds nothing
   Field waves{};                    ///< of Waves: at the vertices, in readings
   WaveScale wave_scale{};
+  Eigen::VectorXd drift{};  ///< of Drift: of each reading, in the order in which they were made
+  LastingErrors errors{};   ///< which the drift is of
 };
 
 /// Of a kind, the rival that explains the most.
@@ -60,16 +69,16 @@ struct Misfit {
   double low = 0.0;                     ///< Gain: what reads so is not changed by it
   Vec3 moved_m = Vec3::Zero();          ///< Moved: where to
   std::optional<SurfacePoint> where{};  ///< WeakerPart
-  Unevenness background{};              ///< Tilted, Waves
+  Unevenness background{};              ///< Tilted, Waves, Drift
 };
 
-/// Whether it is of the tissue as a whole, all the while: a slope or waves.
+/// Whether it is of all readings, all the while: a slope, waves or drift.
 bool is_background(const Misfit& change);
 
 /// Whether it was made after that.
 bool is_since(const Misfit& change, const Made& made);
 
-/// "zero", "gain", "moved", "weaker", "tilt", "waves".
+/// "zero", "gain", "moved", "weaker", "tilt", "waves", "drift".
 std::string_view name_of(MisfitKind kind);
 
 /// What a kind's evidence must exceed, nats, so that a true model is doubted in so many runs at

@@ -51,7 +51,7 @@ struct Evidence {
   /// By how much an edge makes the readings more probable than healthy tissue alone that waves, or
   /// errors that last from reading to reading, whichever explains the most; asked at the end, of
   /// waves (EdgeBelief::odds_over_waves) where a smooth field explains the readings as well or some
-  /// were made on the way, kept of errors (odds_over_errors_in_turn) where they may be all. Where
+  /// were made on the way, kept of errors (in_lasting_errors) where they may be all. Where
   /// an edge is clearly less probable than errors, or than waves that are slower than a tumour is
   /// wide, there is no level: no tumour was felt.
   std::optional<EdgeOdds> of_edge{};
@@ -68,8 +68,9 @@ struct Evidence {
   /// What is not cut out and may yet be tumour, as likely as not: it lies in the band, and a half
   /// of it counts as expected to be missed.
   std::vector<DoubtfulPart> doubtful{};
-  /// Slope, zeros, gains and moves of the tissue, in the order in which they were found: each is
-  /// of readings without those before it. Numbers are those of Conclusion::palpations.
+  /// Slope, waves, drift, zeros, gains and moves of the tissue, in the order in which they were
+  /// found: each is of readings without those before it. Numbers are those of
+  /// Conclusion::palpations.
   std::vector<Misfit> taken_back{};
   /// A step in readings that were made on other ground since then, which tissue may have made, or
   /// the zero: it is taken for tissue.
@@ -144,9 +145,13 @@ std::optional<Level> level_in_readings(const Conclusion& conclusion);
 /// Takes a tenth of a second.
 std::vector<Misfit> misfits(const Conclusion& conclusion);
 
+/// exploration/background_search.h
+struct TriedBackgrounds;
+
 /// Beliefs that were made on the way to a conclusion, for the next one to grow by its fresh
-/// readings alone. It changes nothing but the time: what is concluded with it is what is concluded
-/// without, to the bit. Copies share.
+/// readings alone, and what was tried, for another conclusion from the same ones. It changes
+/// nothing but the time: what is concluded with it is what is concluded without, to the bit. Copies
+/// share.
 class ConclusionCache {
  public:
   /// The belief of this prior and these options that knows the palpations. Grows batch by batch, by
@@ -155,8 +160,16 @@ class ConclusionCache {
   /// Does the work for touches at these places that no reading changes (Belief::foresee).
   void foresee(std::span<const SurfacePoint> places);
 
+  /// What was tried on such readings; nothing where it is not remembered.
+  std::shared_ptr<const TriedBackgrounds> tried(const Surface& surface, const Model& model,
+                                                std::span<const Palpation> felt) const;
+  /// The two last are remembered: readings have two scales.
+  void remember(std::shared_ptr<const TriedBackgrounds> tried);
+  void remember_tried_by(const ConclusionCache& other) { tried_ = other.tried_; }
+
  private:
   std::shared_ptr<const Belief> last_;
+  std::vector<std::shared_ptr<const TriedBackgrounds>> tried_;  // the latest first
 };
 
 /// Where nothing is felt yet, the prior's; a given level is known even then. Depends on the

@@ -17,6 +17,8 @@ struct KernelModel {
   double length_median_m =
       0.0035;             ///< of the prior of a length that is learned (hyperparameters.h)
   double period_m = 0.0;  ///< of the periodic kernel
+
+  bool operator==(const KernelModel&) const = default;
 };
 
 /// The kernel before any reading: for what is learned its prior's median stands in.
@@ -28,12 +30,18 @@ struct Trend {
   /// The field has a slope (prior.h), which tilts and drifts add; it joins once fifteen places are
   /// touched, and until then nothing is concluded. Level and boundary are of the field without it.
   bool is_linear = false;
+
+  bool operator==(const Trend& other) const {
+    return constant.sd == other.constant.sd && is_linear == other.is_linear;
+  }
 };
 
 /// Of readings whose own noise is not given.
 struct NoiseModel {
   Learnable sd = kLearned;
   bool is_relative = false;  ///< sd, which is given, is a fraction of the kernel's signal_sd
+
+  bool operator==(const NoiseModel&) const = default;
 };
 
 /// What a probe does to what is felt.
@@ -47,6 +55,8 @@ struct ProbeModel {
   bool screening = false;
 
   bool has_lag() const { return lag_m != Learnable(0.0); }
+
+  bool operator==(const ProbeModel&) const = default;
 };
 
 /// What is saved, and what it costs.
@@ -59,6 +69,8 @@ struct Economy {
   /// old readings: no lag, screening or trend, a constant that is not zero, and
   /// touches at stops.
   double rebuild_gain = 0.0;
+
+  bool operator==(const Economy&) const = default;
 };
 
 /// How the field is modelled. What is to be learned is learned anew after every batch.
@@ -76,6 +88,8 @@ struct FieldModel {
     return kernel.length_m.is_learned() || kernel.signal_sd.is_learned() || noise.sd.is_learned();
   }
   bool is_noiseless() const { return noise.sd == Learnable(0.0); }
+
+  bool operator==(const FieldModel&) const = default;
 };
 
 /// What the level is estimated from, where it is not known: the range of the mean (the paper's
@@ -91,6 +105,8 @@ struct LevelRule {
 
   /// Whether it is to be told by the tumour's edge.
   bool is_of_edge() const { return !known && estimate == LevelEstimate::Edge; }
+
+  bool operator==(const LevelRule&) const = default;
 };
 
 /// What counts as a tumour's contrast.
@@ -107,6 +123,8 @@ struct Contrast {
   /// that noise is all, by that of a field of the prior's length, with a second look where readings
   /// were high. Not asked of a field and a level that are both given.
   bool safe_start = true;
+
+  bool operator==(const Contrast&) const = default;
 };
 
 /// Between whose two curves the whole true outline lies.
@@ -115,6 +133,8 @@ struct Band {
   /// Standard deviation of where the readings lie along the tissue, all off the same way: what a
   /// registration to the robot's frame leaves open. The band is wider by it.
   double place_sd_m = 0.0;
+
+  bool operator==(const Band&) const = default;
 };
 
 struct Model {
@@ -125,6 +145,8 @@ struct Model {
   Contrast contrast{};
 
   bool needs_contrast() const { return contrast.safe_start && (field.learns() || !level.known); }
+
+  bool operator==(const Model&) const = default;
 };
 
 /// Throws InvalidInput unless the level's fraction and the band's probability lie in (0, 1), its

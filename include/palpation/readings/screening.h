@@ -42,6 +42,9 @@ inline const std::string kStandsAlone =
 inline const std::string kBeyondTissue =
     "beyond the tissue: where it was felt none lay before it moved";  ///< Exploration's
 
+inline const std::string kSoftSpot =
+    "soft spot: below healthy tissue, as lost contact or something soft";  ///< Exploration's
+
 /// As fine as anything is felt with a tip of 4.5 mm.
 inline constexpr double kShortLength_m = 0.0035;
 
