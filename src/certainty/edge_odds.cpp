@@ -24,6 +24,8 @@ constexpr std::array kErrors = {0.03, 0.1, 0.3, 1.0};
 /// Texture of real tissue beside an edge and slow waves, and how high it may be, of how the
 /// readings spread.
 constexpr double kTexture_m = 0.005;
+/// Of what lies in the tissue and passes for errors in turn along a row.
+constexpr std::array kTextureLengths_m = {0.005, 0.012};
 constexpr std::array kTextures = {0.0, 0.03, 0.1, 0.3};
 
 double spread_of(const Eigen::VectorXd& values) {
@@ -46,7 +48,8 @@ WavesFound likeliest(std::vector<WavesFound> found) {
   return *std::ranges::max_element(found, {}, &WavesFound::log_density);
 }
 
-/// By errors that last, without waves: how probable the likeliest make the readings.
+/// By what makes readings alike, in turn or in space, without waves: how probable the likeliest
+/// errors make the readings.
 struct ByErrors {
   double level = -std::numeric_limits<double>::infinity();
   LastingErrors errors{};
@@ -147,14 +150,19 @@ EdgeInErrors EdgeBelief::in_lasting_errors(const Eigen::VectorXd& taken_back) co
   const AsFelt here(fit, mean_in_turn(taken_back, fit.data.made));
   const double spread = spread_of(here.readings);
   const Rows flat = without_edge(here.rows, here.readings);
-  ByErrors alone, beside;
+  ByErrors alone, beside, textured;
   for (const double readings : kInTurn) {
     const Eigen::MatrixXd alike = errors_in_turn(fit.data.made, readings);
     alone.weigh(flat, spread, alike, readings);
     beside.weigh(here.rows, spread, alike, readings);
   }
+  for (const double length_m : kTextureLengths_m) {
+    const Eigen::MatrixXd texture = waves_of(fit.correction, length_m, fit.data).terms();
+    textured.weigh(here.rows, spread, texture * texture.transpose(), 0.0);
+  }
   const double by_noise = WithWaves(here.rows, spread).level();
   EdgeInErrors found{.log_evidence = std::max(by_noise, beside.level) - freedom_,
+                     .log_evidence_in_texture = std::max(by_noise, textured.level) - freedom_,
                      .log_evidence_without_edge = alone.level,
                      .errors_without_edge = alone.errors,
                      .drift = Eigen::VectorXd::Zero(taken_back.size())};

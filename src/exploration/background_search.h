@@ -50,8 +50,8 @@ double log_evidence_in_waves(const Surface& surface, const Known& known, double 
 std::optional<BesideEdge> without_drift(const Surface& surface, const std::vector<Palpation>& felt,
                                         const Known& flat, const KnownOf& known_of);
 
-/// With texture or lasting errors beside an edge, each step of the zero at its price of two
-/// numbers: what without_drift is weighed against.
+/// With texture, something else in one place or lasting errors beside an edge, each step of the
+/// zero at its price of two numbers: what without_drift is weighed against.
 double log_evidence_in_errors(const Known& known, Eigen::Index readings, double noise_variance);
 
 /// What was tried on readings `felt` at any time, not at the end alone.

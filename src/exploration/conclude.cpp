@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "boundary/erosion.h"
@@ -46,6 +47,11 @@ Model on_scale(ReadingScale scale, Model model) {
   return model;
 }
 
+/// Whether errors or waves alone make the readings about as probable as the edge does.
+bool may_be_no_tumour(const Evidence& evidence) {
+  return evidence.of_edge && std::abs(evidence.of_edge->log_odds) < surprising();
+}
+
 /// The step that tissue or the zero may have made is taken for tissue; were it the zero's, nothing
 /// or another outline is left.
 Certainty doubted_by_step(Certainty certainty, const Surface& surface, const Model& model,
@@ -89,6 +95,8 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   if (certainty && believed.evidence.zero_or_tissue)
     certainty =
         doubted_by_step(*std::move(certainty), surface, scaled, modelled, believed.evidence);
+  if (certainty && may_be_no_tumour(believed.evidence))
+    certainty = as_likely_another(*std::move(certainty), surface, std::nullopt);
 
   const double tip_m = model.field.probe.indenter_radius_m;
   std::optional<Contour> contour;

@@ -99,14 +99,26 @@ class DriftSearch {
   std::optional<Drifted> best_;
 };
 
+/// By something else that stands out, or reads less, in one place: nats.
+double most_explained_by_a_part(const EdgeBelief& edge) {
+  double most = 0.0;
+  for (const Misfit& one : edge.misfits()) {
+    if (one.kind == MisfitKind::WeakerPart) most = std::max(most, one.evidence);
+  }
+  return most;
+}
+
 }  // namespace
 
 double log_evidence_in_errors(const Known& known, Eigen::Index readings, double noise_variance) {
   const Belief& belief = known.believed.belief;
   double log_evidence = log_evidence_of(known);
-  if (const std::optional<EdgeBelief>& edge = known.boundary.edge)
-    log_evidence = std::max(edge->in_lasting_errors(Eigen::VectorXd::Zero(readings)).log_evidence,
-                            edge->in_slow_waves().log_evidence_level);
+  if (known.boundary.edge) {
+    const EdgeInErrors edge =
+        known.boundary.edge->in_lasting_errors(Eigen::VectorXd::Zero(readings));
+    log_evidence = std::max({edge.log_evidence, edge.log_evidence_in_texture,
+                             log_evidence + most_explained_by_a_part(*known.boundary.edge)});
+  }
   return comparable(log_evidence, belief, noise_variance) -
          static_cast<double>(steps_of_zero(known)) *
              std::log(static_cast<double>(belief.site_count()));

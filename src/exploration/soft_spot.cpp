@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
-#include "certainty/edge_data.h"
-#include "exploration/background_search.h"
+#include "palpation/boundary/level_set.h"
 #include "palpation/readings/screening.h"
 
 namespace palpation {
 namespace {
 
-/// Of the readings, at least, outside of a tumour.
+/// Of the readings, at least, outside of a tumour in tissue that waves.
 constexpr std::size_t kOneIn = 10;
+/// Of the tissue, at most, a soft spot: where stiff tissue is all around it, and anywhere.
+constexpr double kMostEnclosed = 0.25;
+constexpr double kMostAnywhere = 0.1;
 
 /// Numbers of those that count and lie outside of the edge.
 std::vector<std::size_t> outside_of(const Known& known) {
@@ -27,18 +28,21 @@ std::vector<std::size_t> outside_of(const Known& known) {
   return outside;
 }
 
-/// Whether the edge leaves out none of the tissue's border.
-bool holds_border(const Known& known) {
-  const Field& depth = known.boundary.edge->depth();
-  return std::ranges::all_of(
-      known.believed.belief.prior().surface().border_loops(), [&](const std::vector<int>& loop) {
-        return std::ranges::all_of(loop, [&](int vertex) { return depth[vertex] > 0.0; });
-      });
+/// Whether the tissue has a border, of which the edge leaves nothing out.
+bool holds_border(const Surface& surface, const Field& depth) {
+  const auto is_inside = [&](int vertex) { return depth[vertex] > 0.0; };
+  const std::vector<std::vector<int>>& loops = surface.border_loops();
+  return !loops.empty() && std::ranges::all_of(loops, [&](const std::vector<int>& loop) {
+    return std::ranges::all_of(loop, is_inside);
+  });
 }
 
-bool has_clear_edge(const Known& known) {
-  return known.boundary.edge && known.boundary.edge->log_evidence() >
-                                    log_evidence_without_edge(known.believed.belief) + surprising();
+bool leaves_out_a_spot(const Known& known) {
+  if (!known.boundary.edge) return false;
+  const Surface& surface = known.believed.belief.prior().surface();
+  const Field& depth = known.boundary.edge->depth();
+  const double outside = 1.0 - superlevel_area(surface, depth, 0.0) / surface.area();
+  return outside < (holds_border(surface, depth) ? kMostEnclosed : kMostAnywhere);
 }
 
 }  // namespace
@@ -51,14 +55,13 @@ bool is_all_but_a_patch(const Known& known) {
 
 Known known_beside_soft_spot(const Surface& surface, const Model& model,
                              std::vector<Palpation>& felt, ConclusionCache& cache, bool is_last) {
-  Known known = known_as_if_unchanged(surface, model, felt, cache, is_last);
-  if (!known.boundary.edge || !is_all_but_a_patch(known) || !holds_border(known)) return known;
-  std::vector<Palpation> rest = felt;
-  for (const std::size_t i : outside_of(known)) rest[i].set_aside = kSoftSpot;
-  Known beside = known_as_if_unchanged(surface, model, rest, cache, is_last);
-  if (!has_clear_edge(beside) || is_all_but_a_patch(beside)) return known;
-  felt = std::move(rest);
-  return beside;
+  if (model.level.is_of_edge()) {
+    const Known first = known_as_if_unchanged(surface, model, felt, cache, /*is_last=*/false);
+    if (leaves_out_a_spot(first)) {
+      for (const std::size_t i : outside_of(first)) felt[i].set_aside = kSoftSpot;
+    }
+  }
+  return known_as_if_unchanged(surface, model, felt, cache, is_last);
 }
 
 }  // namespace palpation

@@ -12,8 +12,9 @@ namespace palpation {
 bool is_all_but_a_patch(const Known& known);
 
 /// What readings say as if nothing had changed (known_as_if_unchanged). Where they make a tumour of
-/// all but a patch within the tissue, and without that patch show an edge of their own, the patch
-/// is set aside in `felt` (kSoftSpot): three levels are no tumour of two.
+/// all but a spot, the spot is set aside in `felt` (kSoftSpot): it is soft, and the rest healthy
+/// but for what shows an edge of its own. That nearly all of some tissue is tumour is less probable
+/// than a cyst, a vessel or contact that was lost for a while.
 Known known_beside_soft_spot(const Surface& surface, const Model& model,
                              std::vector<Palpation>& felt, ConclusionCache& cache, bool is_last);
 

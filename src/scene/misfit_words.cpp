@@ -86,8 +86,8 @@ std::string drift_words(ReadingScale scale, const Unevenness& background) {
          "are, they " +
          by + " about reading " + std::to_string(highest + 1) + " than about reading " +
          std::to_string(lowest + 1) +
-         ". That is taken from them, and the band knows how unsure it is; set the sensor's zero "
-         "more often.";
+         ". That is taken from them; where the way leads over the tissue as time goes on, tissue "
+         "may do the same: touch again in another order.";
 }
 
 /// Of what may be tumour.
@@ -195,8 +195,8 @@ std::string errors_words(ReadingScale scale, const LastingErrors& errors) {
   return "Readings that were made one after the other err alike, over some " +
          fixed(errors.readings, 0) + " of them, by " +
          (scale == ReadingScale::Log ? percent(errors.sd) : reading_text(errors.sd)) +
-         ", as a sensor that drifts makes them. The band knows of it, but a larger drift passes "
-         "for softer tissue beside a core: touch again in another order.";
+         ", as a sensor that drifts makes them, or tissue that changes along the way. The band "
+         "knows of it: touch again in another order to tell which.";
 }
 
 bool has_drift(const Conclusion& conclusion) {

@@ -18,7 +18,7 @@ constexpr double kRadius_m = 0.009;
 double off_middle(const Vec3& place) { return (place - Vec3(0.018, 0.022, 0.0)).norm(); }
 
 /// A raster over 7 beside a tumour of 8, and 6 within a spot in its middle.
-Conclusion concluded(double spot_m) {
+Conclusion concluded(double spot_m, double contrast = 1.0) {
   Random random(1);
   const Surface surface(make_plane({.size_m = {0.04, 0.05}, .columns = 41, .rows = 51}, random));
   std::vector<Palpation> palpations;
@@ -27,7 +27,7 @@ Conclusion concluded(double spot_m) {
       const Vec3 place(0.002 + 0.003 * (row % 2 == 0 ? i : 12 - i), 0.0025 + 0.003 * row, 0.0);
       const double off_m = off_middle(place);
       const double stiffness =
-          off_m < spot_m ? 6.0 : 7.0 + 1.0 / (1.0 + std::exp(-1200.0 * (kRadius_m - off_m)));
+          off_m < spot_m ? 6.0 : 7.0 + contrast / (1.0 + std::exp(-1200.0 * (kRadius_m - off_m)));
       palpations.push_back(
           {.where = surface.project(place), .reading = stiffness + 0.05 * random.normal()});
     }
@@ -45,6 +45,12 @@ TEST(SoftSpot, OfContactThatWasLostOverATumourHidesItNot) {
   EXPECT_GE(soft_spots(conclusion), 8);
   ASSERT_TRUE(conclusion.outlines);
   EXPECT_NEAR(conclusion.outlines->area_m2.mean * 1e6, std::numbers::pi * 81.0, 40.0);
+}
+
+TEST(SoftSpot, MakesNoTumourOfHealthyTissue) {
+  const Conclusion conclusion = concluded(0.0055, 0.0);
+  EXPECT_GE(soft_spots(conclusion), 8);
+  EXPECT_FALSE(conclusion.level);
 }
 
 TEST(SoftSpot, IsNoneWithoutOne) { EXPECT_EQ(soft_spots(concluded(0.0)), 0); }

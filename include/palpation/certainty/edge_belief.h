@@ -75,7 +75,8 @@ struct EdgeInWaves {
 
 /// An edge beside errors that last over some readings. There may be none.
 struct EdgeInErrors {
-  double log_evidence = 0.0;  ///< of the readings, nats, by the likeliest errors
+  double log_evidence = 0.0;             ///< of the readings, nats, by the likeliest errors
+  double log_evidence_in_texture = 0.0;  ///< by the likeliest texture of the tissue instead
   double log_evidence_without_edge = 0.0;
   LastingErrors errors{};  ///< beside the edge, where they make it clearly more probable
   LastingErrors errors_without_edge{};

@@ -43,7 +43,7 @@ inline const std::string kBeyondTissue =
     "beyond the tissue: where it was felt none lay before it moved";  ///< Exploration's
 
 inline const std::string kSoftSpot =
-    "soft spot: below healthy tissue, as lost contact or something soft";  ///< Exploration's
+    "soft spot: below nearly all of the tissue, which is taken for healthy, not for tumour";  ///< Exploration's
 
 /// As fine as anything is felt with a tip of 4.5 mm.
 inline constexpr double kShortLength_m = 0.0035;
