@@ -25,30 +25,13 @@ constexpr double kOfOneReading = 0.05;
 /// Two that differ by less are one, of the range: root mean square.
 constexpr double kSame = 0.05;
 
-/// Every so many of them in turn, from 0 to 1.
-struct Scaled {
-  std::vector<std::vector<Made>> made;
-  Eigen::VectorXd values;
-  double range = 0.0;
-};
-
-Scaled scaled(const EdgeData& readings) {
+/// The rows as their readings were made.
+std::vector<std::size_t> in_turn(const EdgeData& readings) {
   std::vector<std::size_t> order(readings.made.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {},
                            [&](std::size_t i) { return readings.made[i].front().number; });
-  const std::size_t step = (order.size() + kMost - 1) / kMost;
-  Scaled made;
-  std::vector<Eigen::Index> some;
-  for (std::size_t i = 0; i < order.size(); i += step) {
-    made.made.push_back(readings.made[order[i]]);
-    some.push_back(static_cast<Eigen::Index>(order[i]));
-  }
-  made.values = readings.reading(some);
-  const double least = made.values.minCoeff();
-  made.range = made.values.maxCoeff() - least;
-  if (made.range > 0.0) made.values = (made.values.array() - least) / made.range;
-  return made;
+  return order;
 }
 
 struct Candidate {
@@ -61,8 +44,10 @@ struct Candidate {
 std::vector<Eigen::VectorXd> drifts_of_parallel_lines(const EdgeData& readings, Eigen::Index count,
                                                       double needed, std::size_t most) {
   if (readings.places.size() < kFewest) return {};
-  const auto [made, values, range] = scaled(readings);
+  const auto [rows, values, range] = some_of(readings.reading, in_turn(readings), kMost);
   if (!(range > 0.0)) return {};
+  std::vector<std::vector<Made>> made;
+  for (const std::size_t row : rows) made.push_back(readings.made[row]);
   const Eigen::MatrixXd no_terms(values.size(), 0);
   const double level =
       parallel_surfaces({no_terms, {}}, values, Eigen::VectorXd::Zero(values.size()))

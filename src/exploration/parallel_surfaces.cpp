@@ -163,4 +163,16 @@ std::vector<ParallelSurfaces> all_parallel_surfaces(const SharedBackground& back
   return all;
 }
 
+SomeValues some_of(const Eigen::VectorXd& values, std::span<const std::size_t> order,
+                   std::size_t most) {
+  const std::size_t step = (order.size() + most - 1) / most;
+  SomeValues some;
+  for (std::size_t i = 0; i < order.size(); i += step) some.rows.push_back(order[i]);
+  some.scaled = values(some.rows);
+  const double least = some.scaled.minCoeff();
+  some.range = some.scaled.maxCoeff() - least;
+  if (some.range > 0.0) some.scaled = (some.scaled.array() - least) / some.range;
+  return some;
+}
+
 }  // namespace palpation

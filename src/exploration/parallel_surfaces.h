@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace palpation {
@@ -36,5 +38,15 @@ ParallelSurfaces parallel_surfaces(const SharedBackground& background,
 /// lie: it is no matter how many lie on either surface.
 std::vector<ParallelSurfaces> all_parallel_surfaces(const SharedBackground& background,
                                                     const Eigen::VectorXd& values);
+
+/// Some of many values, from 0 for the least to 1.
+struct SomeValues {
+  std::vector<std::size_t> rows;  ///< which
+  Eigen::VectorXd scaled;         ///< as they are where all are alike
+  double range = 0.0;
+};
+/// Every so many in this order of their rows, `most` at most.
+SomeValues some_of(const Eigen::VectorXd& values, std::span<const std::size_t> order,
+                   std::size_t most);
 
 }  // namespace palpation

@@ -17,32 +17,15 @@ constexpr std::size_t kMost = 200;  ///< of which all are used: a slow wave need
 /// Two that differ by less are one, of the range: root mean square.
 constexpr double kSame = 0.05;
 
-/// Every so many of them, whatever order they come in, from 0 to 1.
-struct Scaled {
-  std::vector<SurfacePoint> places;
-  Eigen::VectorXd values;
-  double range = 0.0;
-};
-
-Scaled scaled(const Layout& layout, const EdgeData& readings) {
+/// The rows in an order that is the same however they come.
+std::vector<std::size_t> by_place(const Layout& layout, const EdgeData& readings) {
   std::vector<std::size_t> order(readings.places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) {
     const Vec3 at = layout.at(readings.places[i]);
     return std::array{at.x(), at.y(), at.z(), readings.reading[static_cast<Eigen::Index>(i)]};
   });
-  const std::size_t step = (order.size() + kMost - 1) / kMost;
-  Scaled made;
-  std::vector<Eigen::Index> some;
-  for (std::size_t i = 0; i < order.size(); i += step) {
-    made.places.push_back(readings.places[order[i]]);
-    some.push_back(static_cast<Eigen::Index>(order[i]));
-  }
-  made.values = readings.reading(some);
-  const double least = made.values.minCoeff();
-  made.range = made.values.maxCoeff() - least;
-  if (made.range > 0.0) made.values = (made.values.array() - least) / made.range;
-  return made;
+  return order;
 }
 
 /// Of one length.
@@ -57,8 +40,10 @@ struct Candidate {
 std::vector<Field> waves_of_parallel_surfaces(const Layout& layout, const EdgeData& readings,
                                               double needed, int most) {
   if (readings.places.size() < kFewest) return {};
-  const auto [places, values, range] = scaled(layout, readings);
+  const auto [rows, values, range] = some_of(readings.reading, by_place(layout, readings), kMost);
   if (!(range > 0.0)) return {};
+  std::vector<SurfacePoint> places;
+  for (const std::size_t row : rows) places.push_back(readings.places[row]);
   const Eigen::Index count = values.size();
   const Eigen::VectorXd level_ones = Eigen::VectorXd::Zero(count);
   const double level =
