@@ -10,7 +10,7 @@ import random
 import sys
 import unittest
 
-from support import BRIEFLY, InFolder, main_without_pictures, palpate, rows_of
+from support import BRIEFLY, SANITIZED, InFolder, main_without_pictures, palpate, rows_of
 
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 REAL = ROOT.parent.parent / "shared" / "data" / "vu-arma"
@@ -313,6 +313,8 @@ class Readings(InFolder):
         scene = self.write("tissue.json", '{"surface": {"mesh": "tissue.ply", "unit": "mm"}, "field": {"metric": "ambient"}}')
         readings, mesh = self.folder / "readings.csv", self.folder / "tissue.ply"
         for name in ["probing_ridge.csv", "probing_small_balls.csv", "probing_pig_liver.csv", "continuous_ridge.csv"]:
+            if SANITIZED and name == "probing_ridge.csv":
+                continue  # the same code as of the others, for 872 readings
             if not (REAL / name).exists():
                 self.skip(f"{REAL / name} is absent")
             with self.subTest(name):
