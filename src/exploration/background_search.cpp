@@ -25,6 +25,19 @@ std::optional<WithoutBackground> without_zero_step(const Surface& surface, const
 
 }  // namespace
 
+bool is_step_of_zero(const Misfit& change) {
+  return change.kind == MisfitKind::Zero && change.session == 0;
+}
+
+std::ptrdiff_t steps_of_zero(const Known& known) {
+  return std::ranges::count_if(known.believed.evidence.taken_back, is_step_of_zero);
+}
+
+std::ptrdiff_t set_aside(const Known& known) {
+  return std::ranges::count_if(known.believed.palpations,
+                               [](const Palpation& one) { return !counts(one); });
+}
+
 double log_evidence_of(const Known& known) {
   const std::optional<EdgeBelief>& edge = known.boundary.edge;
   return edge ? edge->log_evidence() : log_evidence_without_edge(known.believed.belief);

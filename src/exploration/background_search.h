@@ -2,6 +2,7 @@
 /// a zero that moves.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -24,6 +25,12 @@ struct BesideEdge {
   Known known;
   double log_evidence = 0.0;  ///< with it, comparable by the noise without
 };
+
+/// Of the sensor, that were taken back: not of sessions.
+bool is_step_of_zero(const Misfit& change);
+std::ptrdiff_t steps_of_zero(const Known& known);
+/// How many readings do not count.
+std::ptrdiff_t set_aside(const Known& known);
 
 /// Of the readings by the edge, or where there is none as noise alone.
 double log_evidence_of(const Known& known);

@@ -20,14 +20,6 @@ constexpr std::size_t kDrifts = 3;  ///< of parallel lines: each costs a conclus
 /// So often a drift is found again about the edge that is seen without it.
 constexpr int kDriftRounds = 3;
 
-bool is_step_of_zero(const Misfit& change) {
-  return change.kind == MisfitKind::Zero && change.session == 0;
-}
-
-std::ptrdiff_t steps_of_zero(const Known& known) {
-  return std::ranges::count_if(known.believed.evidence.taken_back, is_step_of_zero);
-}
-
 /// What steps of the zero that were taken back added to each reading.
 Eigen::VectorXd steps_in_turn(const std::vector<Palpation>& felt, const Known& known) {
   Eigen::VectorXd steps = Eigen::VectorXd::Zero(readings_made(felt));
@@ -41,11 +33,6 @@ Eigen::VectorXd steps_in_turn(const std::vector<Palpation>& felt, const Known& k
     }
   }
   return steps;
-}
-
-std::ptrdiff_t set_aside(const Known& known) {
-  return std::ranges::count_if(known.believed.palpations,
-                               [](const Palpation& one) { return !counts(one); });
 }
 
 /// The readings without drift, and how probable they are with it.

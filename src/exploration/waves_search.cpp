@@ -29,11 +29,7 @@ struct Waved {
 constexpr double kMayLeave = 0.5;
 
 /// While one sweeps over tissue, a zero that drifts passes for waves, and waves for it.
-bool has_moving_zero(const Known& known) {
-  return std::ranges::any_of(known.believed.evidence.taken_back, [](const Misfit& change) {
-    return change.kind == MisfitKind::Zero && change.session == 0;
-  });
-}
+bool has_moving_zero(const Known& known) { return steps_of_zero(known) > 0; }
 
 /// What an edge leaves of the readings that count, beyond noise: standard deviation.
 double left_by(const Known& known) {
@@ -77,11 +73,6 @@ class WavesSearch {
   std::optional<Waved>& best() { return best_; }
 
  private:
-  static std::ptrdiff_t set_aside(const Known& known) {
-    return std::ranges::count_if(known.believed.palpations,
-                                 [](const Palpation& one) { return !counts(one); });
-  }
-
   /// Nothing where no edge is seen or waves alone explain as much, where a zero moves beside the
   /// waves, nor where readings stand out that do not with the waves.
   std::optional<Waved> tried(Field field) const {
