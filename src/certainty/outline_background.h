@@ -5,9 +5,10 @@
 /// The waves are a Gaussian field, by the pivoted Cholesky decomposition of its covariance at the
 /// readings (Harbrecht, Peters and Schneider 2012), so that they are the same however tissue is
 /// turned: of a length as short as what a tip can feel, and of one longer than an edge; how high
-/// each are is learned. Slow ones, and errors that last over some readings, are there where they
-/// were seen, and have the height that was.
-/// All is linear in coefficients that are normal, and can be integrated out (outline_residuals.h).
+/// each are is learned, and whether there are any: half of the tissues have none of a kind, and
+/// half no drift, and half no tilt. Slow ones, and errors that last over some readings, are there
+/// where they were seen, and have the height that was. All is linear in coefficients that are
+/// normal, and can be integrated out (outline_residuals.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -45,6 +46,8 @@ struct ResidualScales {
   std::vector<double> log_sd{};  ///< of the waves of each length, over its median
   double wild = 0.0;             ///< part of the readings that tell nothing
   double growth = 0.0;           ///< logarithm: the noise on a plateau over that beside it
+  /// Whether there are waves of each length; and a drift, and a tilt.
+  std::vector<bool> has{};
 };
 
 struct BackgroundReadings {

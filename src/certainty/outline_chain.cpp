@@ -167,10 +167,8 @@ double OutlineChain::log_density() const {
 }
 
 double OutlineChain::shape_about(const Step& step) const {
-  double sum = 0.0;
-  for (const int node : step.turning)
-    sum += log_turn_density(step.loop, outline_.place[outline_.before(node)], outline_.place[node],
-                            outline_.place[outline_.next(node)], profile_);
+  double sum = log_turns_density(outline_, step.turning.front(),
+                                 static_cast<int>(step.turning.size()), profile_.log_turn);
   const double log_spacing = profile_.log_spacing[outline_.loop_of[step.nodes.front()]];
   for (const MovedPiece& piece : step.pieces)
     sum += log_length_density(outline_.place[piece.node], outline_.place[outline_.next(piece.node)],

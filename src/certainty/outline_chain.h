@@ -32,6 +32,9 @@ class OutlineChain {
   /// log_spacing alone, else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
 
+  /// Proposes that it is as steep on all sides, or that it leans somehow.
+  bool switch_lean(Random& random);
+
   /// Proposes that all nodes move to these places and the slope is another, whatever the plateaus:
   /// those are integrated out, and drawn anew from what they are given all else, whether the step
   /// was taken or not. `log_volume` as move_nodes has it.
@@ -47,7 +50,7 @@ class OutlineChain {
 
   /// Another noise, background and other readings that tell nothing, from what they are given all
   /// else. Returns the zero's steps, drawn with them.
-  Eigen::VectorXd redraw_residuals(Random& random);
+  Eigen::VectorXd redraw_residuals(Random& random, bool keeps_telling);
 
   /// Proposes that a cut which is present is not, or that a fresh one is.
   bool switch_cut(int which, Random& random);
@@ -105,6 +108,7 @@ class OutlineChain {
   /// Whether what is considered is taken, where the rest of the log density changes by so much;
   /// makes it so.
   bool takes(double change, Random& random);
+  bool feels_profile(const OutlineProfile& profile, double change, Random& random);
   bool try_cut(int which, const OutlineCut& cut, double change, Random& random);
   Step step_from(int first, int moved) const;
   double shape_about(const Step& step) const;

@@ -1,25 +1,42 @@
 // How a chain moves the profile, the tissue, and what readings are off by.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "certainty/outline_chain.h"
 
 namespace palpation {
 
 bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random) {
-  double change = log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
-  const ReadingLaw law = law_of(profile, *prior_);
+  const double change =
+      log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
+  if (!is_of_shape) return feels_profile(profile, change, random);
   consider_none();
-  if (is_of_shape) {
-    change += log_shape_density(outline_, profile) - log_shape_density(outline_, profile_);
-  } else {
-    const bool keeps_shares = law.slope_per_m == law_.slope_per_m && law.lean == law_.lean &&
-                              law.shoulder == law_.shoulder && law.skirt == law_.skirt;
-    for (std::size_t i = 0; i < felt_.size(); ++i) {
-      Felt felt = felt_[i];
-      if (!keeps_shares) felt.share = share_of(i, felt, law);
-      consider(i, felt, law);
-    }
+  if (!takes(change + log_shape_density(outline_, profile) - log_shape_density(outline_, profile_),
+             random))
+    return false;
+  profile_ = profile;
+  law_ = law_of(profile, *prior_);
+  return true;
+}
+
+/// As likely as not beforehand, and how it leans is drawn from the prior: so the readings decide.
+bool OutlineChain::switch_lean(Random& random) {
+  OutlineProfile profile = profile_;
+  profile.lean = profile_.lean ? std::nullopt : std::optional(draw_lean(random));
+  return feels_profile(profile, 0.0, random);
+}
+
+/// Whether another profile is taken, where the rest of the log density changes by so much.
+bool OutlineChain::feels_profile(const OutlineProfile& profile, double change, Random& random) {
+  const ReadingLaw law = law_of(profile, *prior_);
+  const bool keeps_shares = law.slope_per_m == law_.slope_per_m && law.lean == law_.lean &&
+                            law.shoulder == law_.shoulder && law.skirt == law_.skirt;
+  consider_none();
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    Felt felt = felt_[i];
+    if (!keeps_shares) felt.share = share_of(i, felt, law);
+    consider(i, felt, law);
   }
   if (!takes(change, random)) return false;
   profile_ = profile;
@@ -63,6 +80,8 @@ bool OutlineChain::move_tissue_and_nodes(int change, const Vec2& moved_m,
   return taken;
 }
 
-Eigen::VectorXd OutlineChain::redraw_residuals(Random& random) { return residuals_.redraw(random); }
+Eigen::VectorXd OutlineChain::redraw_residuals(Random& random, bool keeps_telling) {
+  return residuals_.redraw(random, keeps_telling);
+}
 
 }  // namespace palpation

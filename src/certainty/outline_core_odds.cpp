@@ -88,7 +88,7 @@ bool are_apart(const SettledOutline& some, const SettledOutline& others) {
 
 SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
-  walk.settle(kSettling);
+  walk.settle(kSettling, kSettling / 2);
   SettledOutline sum;
   sum.readings.resize(start.readings.places.size());
   CoreNumbers numbers;

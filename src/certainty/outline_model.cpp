@@ -5,6 +5,7 @@
 
 #include "base/normal.h"
 #include "base/sigmoid.h"
+#include "certainty/turn_law.h"
 
 namespace palpation {
 namespace {
@@ -24,23 +25,17 @@ double bent(double t, double power) { return std::sinh(power * std::asinh(t)) / 
 double logit(double share) { return std::log(share / (1.0 - share)); }
 
 /// Of lines of so many nodes, how densely they end where they began, in direction and place, but
-/// for a factor. Turns are Cauchy's, of half a turn at most. They sum to whole turns with density
-/// 1 / (pi nodes turn). Given that, the directions of two pieces differ from an even loop's by an
-/// angle whose mean cosine is (b exp(-a) - a exp(-b)) / (b - a), with a, b = turn times the nodes
-/// between them on either side; and where the line ends is taken for normal. Right to a factor of
-/// two and a half, where the density falls by thousands (outline_shape_test.cpp).
-double log_density_of_closing(int nodes, const OutlineProfile& profile, double log_spacing) {
-  const double turn = std::exp(profile.log_turn);
+/// for a factor. Turns' sums are taken for normal, of so much variance each, and so is where the
+/// line ends. Given that turns sum to whole ones, the directions of two pieces differ from an even
+/// loop's by an angle whose variance is that times the nodes between them on either side, over all
+/// nodes. Right to a factor of one and a half, where the density falls by thousands
+/// (outline_shape_test.cpp).
+double log_density_of_closing(int nodes, double variance, double log_spacing) {
   double square = std::exp(kPieceLogSd * kPieceLogSd);  // of the end's place, over pieces and nodes
-  for (int apart = 1; apart < nodes; ++apart) {
-    const double a = turn * apart, b = turn * (nodes - apart);
-    const double cosine = 2 * apart == nodes ? (1.0 + a) * std::exp(-a)
-                                             : (b * std::exp(-a) - a * std::exp(-b)) / (b - a);
-    square += cosine * std::cos(2.0 * std::numbers::pi * apart / nodes);
-  }
-  const double below_half_turn = std::atan2(std::numbers::pi, turn) / (0.5 * std::numbers::pi);
-  return nodes * std::log(below_half_turn) - profile.log_turn - 2.0 * log_spacing -
-         std::log(square);
+  for (int apart = 1; apart < nodes; ++apart)
+    square += std::exp(-0.5 * variance * apart * (nodes - apart) / nodes) *
+              std::cos(2.0 * std::numbers::pi * apart / nodes);
+  return -0.5 * std::log(variance) - 2.0 * log_spacing - std::log(square);
 }
 
 /// Of shoulder and skirt, where they spread so.
@@ -67,7 +62,7 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
                  .shoulder = std::exp(profile.log_shoulder),
                  .skirt = std::exp(profile.log_skirt),
                  .logit_fraction = logit(prior.fraction),
-                 .lean = profile.lean,
+                 .lean = profile.lean.value_or(Vec2::Zero()),
                  .middle = prior.middle,
                  .radius_m = prior.radius_m,
                  .contrast = {},
@@ -111,13 +106,24 @@ ResidualPrior residual_prior(const OutlinePrior& prior) {
           .least_log_noise = prior.least_log_noise};
 }
 
-double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,
-                        const Vec2& after, const OutlineProfile& profile) {
-  const Vec2 in = node - before, out = after - node;
-  const double angle = std::atan2(cross(in, out), in.dot(out)),
-               even = loop.turns * 2.0 * std::numbers::pi / loop.count;
-  const double off = (angle - even) * std::exp(-profile.log_turn);
-  return -std::log1p(off * off) - profile.log_turn;
+double turn_off_even(const OutlineNodes& outline, int node) {
+  const NodeLoop& loop = outline.loops[outline.loop_of[node]];
+  const Vec2 &here = outline.place[node], in = here - outline.place[outline.before(node)],
+             out = outline.place[outline.next(node)] - here;
+  return std::atan2(cross(in, out), in.dot(out)) - loop.turns * 2.0 * std::numbers::pi / loop.count;
+}
+
+double log_turns_density(const OutlineNodes& outline, int first, int count, double log_turn) {
+  const bool is_whole = count == outline.loops[outline.loop_of[first]].count;
+  double here = turn_off_even(outline, first), sum = 0.0;
+  if (!is_whole) sum += log_bend_density(here - turn_off_even(outline, outline.before(first)));
+  for (int i = 0, node = first; i < count; ++i) {
+    node = outline.next(node);
+    const double after = turn_off_even(outline, node);
+    sum += log_turn_density(here, log_turn) + log_bend_density(after - here);
+    here = after;
+  }
+  return sum;
 }
 
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing) {
@@ -127,17 +133,22 @@ double log_length_density(const Vec2& from, const Vec2& to, double log_spacing) 
 }
 
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile) {
+  const TurnLaw law = turn_law(profile.log_turn);
   double sum = 0.0;
-  for (int node = 0; node < outline.count(); ++node) {
-    const int loop = outline.loop_of[node];
-    const Vec2 &here = outline.place[node], &after = outline.place[outline.next(node)];
-    sum += log_turn_density(outline.loops[loop], outline.place[outline.before(node)], here, after,
-                            profile) +
-           log_length_density(here, after, profile.log_spacing[loop]);
+  for (std::size_t i = 0; i < outline.loops.size(); ++i) {
+    const auto [first, count, part, turns] = outline.loops[i];
+    sum += log_turns_density(outline, first, count, profile.log_turn) - count * law.log_share -
+           log_density_of_closing(count, law.variance, profile.log_spacing[i]);
+    for (int node = first; node < first + count; ++node)
+      sum += log_length_density(outline.place[node], outline.place[outline.next(node)],
+                                profile.log_spacing[i]);
   }
-  for (std::size_t i = 0; i < outline.loops.size(); ++i)
-    sum -= log_density_of_closing(outline.loops[i].count, profile, profile.log_spacing[i]);
   return sum;
+}
+
+Vec2 draw_lean(Random& random) {
+  const double x = random.normal(), y = random.normal();
+  return kLean * Vec2(x, y);
 }
 
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior) {
@@ -145,8 +156,10 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   double sum = half_square((profile.low - median.low) / prior.plateau_sd) +
                half_square((profile.high - median.high) / prior.plateau_sd) +
                half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
-               half_square(profile.lean.norm() / kLean) +
                half_square((profile.log_turn - median.log_turn) / kTurnLogSd);
+  if (profile.lean)
+    sum += half_square(profile.lean->norm() / kLean) +
+           std::log(2.0 * std::numbers::pi * kLean * kLean);
   for (std::size_t loop = 0; loop < profile.log_spacing.size(); ++loop)
     sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)

@@ -1,9 +1,9 @@
 /// What outlines are taken for, and what readings say of one: the density that is sampled.
 ///
 /// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns from node
-/// to node by an angle that is Cauchy's about an even turn: most of an outline is smooth, and
-/// corners, horns and necks are as likely as that law's tails make them; how wide it is, is learned
-/// with the outline. Pieces are about as long as each other. An outline is one of the lines that
+/// to node as the one before, but for corners, horns and necks (turn_law.h); how wide the law of
+/// its turns is, is learned with the outline. Pieces are about as long as each other. An outline is
+/// one of the lines that
 /// end where they began, whose density is divided by how densely lines of such turns do: else
 /// outlines would be the smoother beforehand the more loops there are. It is of what was felt: each
 /// loop holds a reading, else it could leave the tissue, where none contradicts it. Depth is the
@@ -27,6 +27,7 @@
 #include "certainty/outline_core.h"
 #include "certainty/outline_nodes.h"
 #include "certainty/outline_residuals.h"
+#include "palpation/base/random.h"
 #include "palpation/certainty/misfit.h"
 
 namespace palpation {
@@ -50,7 +51,7 @@ struct OutlineProfile {
   double low = 0.0;
   double high = 0.0;
   double log_slope = 0.0;            ///< of a slope per metre, in the tumour's middle
-  Vec2 lean = Vec2::Zero();          ///< how that rises towards a side (OutlinePrior::middle)
+  std::optional<Vec2> lean{};        ///< how that rises towards a side (OutlinePrior::middle)
   double log_shoulder = 0.0;         ///< of the power with which readings rise on inside
   double log_skirt = 0.0;            ///< and fall on outside
   double log_turn = 0.0;             ///< of the law's half width, radians
@@ -104,15 +105,21 @@ double depth_where(const ReadingLaw& law, double share, double steepness = 1.0);
 /// Of what a reading is off by that.
 ResidualPrior residual_prior(const OutlinePrior& prior);
 
-/// Of the turn at a node of a loop, by the places before it, of it and after it.
-double log_turn_density(const NodeLoop& loop, const Vec2& before, const Vec2& node,
-                        const Vec2& after, const OutlineProfile& profile);
+/// Of the turn at a node, radians, how far it is off an even loop's.
+double turn_off_even(const OutlineNodes& outline, int node);
+/// Of all turns at consecutive nodes of a loop, and of how unlike they are and those next to them
+/// (turn_law.h).
+double log_turns_density(const OutlineNodes& outline, int first, int count, double log_turn);
 /// Of a piece's length, as a density of its end's place.
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
 /// Of all nodes, given that loops close.
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile);
-/// Of the profile itself. Two tumours in three are as equation 4 has them, with a plateau; the
-/// others are bent, and no law tells how high they would be if they were wider.
+/// How a tumour's slope leans, of those that lean, beforehand.
+Vec2 draw_lean(Random& random);
+
+/// Of the profile itself. Every second tumour is as steep on all sides. Two in three are as
+/// equation 4 has them, with a plateau; the others are bent, and no law tells how high they would
+/// be if they were wider.
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);
 /// That one with such bends is of the first kind.
 double plateau_probability(const OutlineProfile& profile);

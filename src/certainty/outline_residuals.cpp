@@ -15,6 +15,7 @@ namespace {
 constexpr int kWild = 1, kTelling = 99;
 constexpr double kSdLogSd = 1.0;
 constexpr double kSdStep = 1.0;
+constexpr std::size_t kDriftAndTilt = 2;
 constexpr int kNoiseTries = 2;
 constexpr std::array kGrowthSteps = {0.3, 0.1};
 
@@ -59,7 +60,8 @@ OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<do
       information_(information_of(terms, variance)),
       scales_{.log_noise = std::max(log_noise, prior.least_log_noise),
               .log_sd = std::vector(terms.waves.size(), 0.0),
-              .wild = static_cast<double>(kWild) / (kWild + kTelling)} {
+              .wild = static_cast<double>(kWild) / (kWild + kTelling),
+              .has = std::vector(terms.waves.size() + kDriftAndTilt, true)} {
   factor();
 }
 
@@ -124,17 +126,20 @@ OutlineResiduals::Told OutlineResiduals::told() const {
   return told;
 }
 
-Eigen::VectorXd OutlineResiduals::sds(const std::vector<double>& log_sd) const {
-  Eigen::VectorXd sd(information_.rows());
+Eigen::VectorXd OutlineResiduals::sds(const ResidualScales& scales) const {
+  Eigen::VectorXd sd = Eigen::VectorXd::Zero(information_.rows());
   Eigen::Index first = 0;
-  for (std::size_t length = 0; length < log_sd.size(); ++length) {
-    sd.segment(first, terms_->waves[length])
-        .setConstant(terms_->median_sd * std::exp(log_sd[length]));
+  for (std::size_t length = 0; length < scales.log_sd.size(); ++length) {
+    if (scales.has[length])
+      sd.segment(first, terms_->waves[length])
+          .setConstant(terms_->median_sd * std::exp(scales.log_sd[length]));
     first += terms_->waves[length];
   }
   if (first < sd.size()) {
-    sd[first] = terms_->drift_sd;
-    sd.segment(first + 1, 2).setConstant(terms_->tilt_sd);
+    const auto [drifts, tilts] =
+        std::pair(scales.has[scales.log_sd.size()], scales.has[scales.log_sd.size() + 1]);
+    if (drifts) sd[first] = terms_->drift_sd;
+    if (tilts) sd.segment(first + 1, 2).setConstant(terms_->tilt_sd);
     sd.segment(first + 3, terms_->seen).setOnes();
   }
   sd.tail(terms_->steps()) = terms_->step_sd;
@@ -144,7 +149,7 @@ Eigen::VectorXd OutlineResiduals::sds(const std::vector<double>& log_sd) const {
 OutlineResiduals::Marginal OutlineResiduals::marginal_of(const Told& told,
                                                          const ResidualScales& scales) const {
   const double scale = std::exp(-2.0 * scales.log_noise);
-  Marginal marginal{.precision = {}, .sd = sds(scales.log_sd), .mean = {}};
+  Marginal marginal{.precision = {}, .sd = sds(scales), .mean = {}};
   double& sum = marginal.log_density;
   sum = told.log_constant - 0.5 * scale * told.square - told.count * scales.log_noise -
         half_square((scales.log_noise - prior_.log_noise) / prior_.noise_log_sd);
@@ -163,23 +168,30 @@ OutlineResiduals::Marginal OutlineResiduals::marginal_of(const Told& told,
 
 double OutlineResiduals::log_density() const { return marginal_of(told(), scales_).log_density; }
 
-Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
+Eigen::VectorXd OutlineResiduals::redraw(Random& random, bool keeps_telling) {
   const Told told = this->told();
   Marginal now = marginal_of(told, scales_);
+  const auto takes = [&] {
+    Marginal then = marginal_of(told, scales_);
+    if (scales_.log_noise < prior_.least_log_noise ||
+        !(std::log(random.uniform()) < then.log_density - now.log_density))
+      return false;
+    now = std::move(then);
+    return true;
+  };
   const auto move = [&](double& scale, double step) {
     const double before = std::exchange(scale, scale + step * random.normal());
-    Marginal then = marginal_of(told, scales_);
-    if (scales_.log_noise >= prior_.least_log_noise &&
-        std::log(random.uniform()) < then.log_density - now.log_density) {
-      now = std::move(then);
-    } else {
-      scale = before;
-    }
+    if (!takes()) scale = before;
   };
   // Of a variance that so many readings tell.
   const double noise_step = 1.7 / std::sqrt(told.count + 10.0);
   for (int i = 0; i < kNoiseTries; ++i) move(scales_.log_noise, noise_step);
   for (double& log_sd : scales_.log_sd) move(log_sd, kSdStep);
+  if (!terms_->is_none()) {
+    const std::size_t kind = random.below(static_cast<int>(scales_.has.size()));
+    scales_.has[kind].flip();
+    if (!takes()) scales_.has[kind].flip();
+  }
   Eigen::VectorXd steps, noise = Eigen::Map<const Eigen::VectorXd>(
                              off_.data(), static_cast<Eigen::Index>(off_.size()));
   if (!terms_->is_none()) {
@@ -190,7 +202,7 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random) {
     steps = coefficients.tail(terms_->steps());
   }
   redraw_growth(noise, random);
-  redraw_telling(noise, random);
+  if (!keeps_telling) redraw_telling(noise, random);
   factor();
   return steps;
 }

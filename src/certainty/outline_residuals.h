@@ -58,8 +58,9 @@ class OutlineResiduals {
   void forget();
 
   /// Other scales and other readings that tell nothing, given all residuals: from their posterior,
-  /// by Metropolis' and Gibbs' steps. Returns the zero's steps, drawn with them.
-  Eigen::VectorXd redraw(Random& random);
+  /// by Metropolis' and Gibbs' steps. Returns the zero's steps, drawn with them. `keeps_telling`:
+  /// those that tell go on doing so, no matter how far they are off.
+  Eigen::VectorXd redraw(Random& random, bool keeps_telling = false);
 
   /// X' C^-1 X of columns X with a row for each reading, C the covariance of those that tell.
   Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const;
@@ -79,7 +80,7 @@ class OutlineResiduals {
 
   double mixed_density(double off, double variance) const;
   Told told() const;
-  Eigen::VectorXd sds(const std::vector<double>& log_sd) const;
+  Eigen::VectorXd sds(const ResidualScales& scales) const;
   Marginal marginal_of(const Told& told, const ResidualScales& scales) const;
   void redraw_growth(const Eigen::VectorXd& noise, Random& random);
   void redraw_telling(const Eigen::VectorXd& noise, Random& random);

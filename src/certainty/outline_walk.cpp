@@ -83,10 +83,13 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   lengths_.of_core = {kFirst_m, kFirst_m, 0.1, kFirst_m, 0.3, 0.05};
 }
 
-void OutlineWalk::settle(int sweeps) {
+void OutlineWalk::settle(int sweeps, int telling) {
   settling_ = true;
-  for (int i = 0; i < sweeps; ++i) sweep();
-  settling_ = false;
+  for (int i = 0; i < sweeps; ++i) {
+    keeps_telling_ = i < telling;
+    sweep();
+  }
+  settling_ = keeps_telling_ = false;
 }
 
 std::vector<OutlineDraw> OutlineWalk::draws(int sweeps, int count) {
@@ -137,7 +140,7 @@ void OutlineWalk::sweep() {
     move_core();
   }
   move_changes();
-  if (swept_++ % kResidualsEvery == 0) steps_ = chain_.redraw_residuals(random_);
+  if (swept_++ % kResidualsEvery == 0) steps_ = chain_.redraw_residuals(random_, keeps_telling_);
   move_cuts();
 }
 
@@ -202,11 +205,17 @@ void OutlineWalk::move_size() {
 }
 
 void OutlineWalk::move_profile() {
+  chain_.switch_lean(random_);
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
-    double* const number[kOfProfile] = {&profile.log_slope, &profile.lean.x(),
-                                        &profile.lean.y(),  &profile.log_shoulder,
-                                        &profile.log_skirt, &profile.log_turn};
+    Vec2* const lean = profile.lean ? &*profile.lean : nullptr;
+    double* const number[kOfProfile] = {&profile.log_slope,
+                                        lean != nullptr ? &lean->x() : nullptr,
+                                        lean != nullptr ? &lean->y() : nullptr,
+                                        &profile.log_shoulder,
+                                        &profile.log_skirt,
+                                        &profile.log_turn};
+    if (number[i] == nullptr) continue;
     *number[i] += lengths_.of_profile[i] * random_.normal();
     const bool is_turn = i == kOfProfile - 1;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);

@@ -35,8 +35,10 @@ class OutlineWalk {
   OutlineWalk(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
               OutlineProfile profile, std::uint64_t seed);
 
-  /// Sweeps while the steps' lengths are found.
-  void settle(int sweeps);
+  /// Sweeps while the steps' lengths are found. In the first of them, `telling` so many, readings
+  /// that tell go on doing so: noise falls faster than an outline follows sharp readings to a
+  /// corner, and those there would be told as nothing before it came.
+  void settle(int sweeps, int telling = 0);
   /// Further sweeps, of which so many outlines are kept, evenly.
   std::vector<OutlineDraw> draws(int sweeps, int count);
 
@@ -77,6 +79,7 @@ class OutlineWalk {
   std::vector<std::vector<double>> felt_since_;  // by change and node, a share
   Eigen::VectorXd steps_;                        // of the zero, as last drawn
   bool settling_ = false;
+  bool keeps_telling_ = false;  // readings that tell
   int swept_ = 0;
 };
 

@@ -133,6 +133,52 @@ TEST(OutlineResiduals, OfReadingsThatTellNothingDoNotMatter) {
   EXPECT_EQ(residuals.change(), 0.0);
 }
 
+/// That a drift, and nothing else, is likely: waves, tilt and step add nothing to speak of.
+Readings that_may_drift() {
+  Readings readings = raster(0.01);
+  readings.terms.median_sd = readings.terms.tilt_sd = readings.terms.step_sd[0] = 1e-6;
+  Random random(11);
+  for (std::size_t i = 0; i < 64; ++i)
+    readings.off[i] = 0.1 * random.normal() + 0.08 * (readings.when[i] / 63.0 - 0.5);
+  return readings;
+}
+
+// By how densely the readings' whole covariance has them with a drift and without.
+TEST(OutlineResiduals, DriftAsOftenAsTheReadingsSay) {
+  const Readings readings = that_may_drift();
+  Readings still = readings;
+  still.terms.drift_sd = 1e-6;
+  const double odds = std::exp(log_density_by_hand(readings) - log_density_by_hand(still));
+  OutlineResiduals residuals =
+      residuals_of(readings, {.noise_log_sd = 1e-9, .wild_density = 1e-12});
+  const Eigen::MatrixXd drift =
+      readings.terms.of_readings.col(readings.terms.of_readings.cols() - 4);
+  const double if_still = residuals_of(still).products(drift)(0, 0);
+  Random random(12);
+  double drifts = 0.0;
+  constexpr int kDraws = 8'000;
+  for (int i = 0; i < kDraws; ++i) {
+    residuals.redraw(random);
+    drifts += residuals.products(drift)(0, 0) < 0.9 * if_still ? 1.0 / kDraws : 0.0;
+  }
+  EXPECT_GT(odds / (1.0 + odds), 0.1);
+  EXPECT_LT(odds / (1.0 + odds), 0.9);
+  EXPECT_NEAR(drifts, odds / (1.0 + odds), 0.04);
+}
+
+// Where they are asked to, a sharp reading that fits badly widens the noise.
+TEST(OutlineResiduals, KeepTellingWhereTheyAreToldTo) {
+  Readings readings = raster(0.01);
+  readings.off[9] = 4.0;
+  OutlineResiduals residuals = residuals_of(readings);
+  Random random(13);
+  for (int i = 0; i < 50; ++i) residuals.redraw(random, true);
+  EXPECT_TRUE(residuals.tells(9));
+  EXPECT_GT(residuals.log_noise(), std::log(2.0));
+  for (int i = 0; i < 50; ++i) residuals.redraw(random);
+  EXPECT_FALSE(residuals.tells(9));
+}
+
 // Without a background and with the noise known, a reading tells nothing as often as Bayes' rule
 // says.
 TEST(OutlineResiduals, AReadingTellsNothingAsOftenAsItShould) {

@@ -122,7 +122,7 @@ TEST(ReadingLaw, IsSteeperTowardsASide) {
   prior.middle = {0.1, 0.2};
   prior.radius_m = 4 * kMm;
   OutlineProfile profile = prior.median;
-  profile.lean = {0.4, 0.0};
+  profile.lean = Vec2(0.4, 0.0);
   const ReadingLaw law = law_of(profile, prior);
   EXPECT_EQ(steepness_at(law, Vec2(0.1, 0.2)), 1.0);
   EXPECT_NEAR(steepness_at(law, Vec2(0.104, 0.2)), std::exp(0.4 / std::sqrt(2.0)), 1e-12);
@@ -467,7 +467,7 @@ TEST(OutlineWalk, FindsASlopeForEachSide) {
     ratio += std::log(steepness_at(draw.law, kMm * Vec2(8, 4)) /
                       steepness_at(draw.law, kMm * Vec2(0, 4))) /
              100.0;
-    across += std::abs(draw.profile.lean.y()) / 100.0;
+    across += std::abs(draw.law.lean.y()) / 100.0;
     left += depth_in(draw.outline, kMm * Vec2(0, 4)) / 100.0;
   }
   EXPECT_NEAR(ratio, 0.7, 0.25);
