@@ -168,7 +168,7 @@ double OutlineChain::log_density() const {
 
 double OutlineChain::shape_about(const Step& step) const {
   double sum = log_turns_density(outline_, step.turning.front(),
-                                 static_cast<int>(step.turning.size()), profile_.log_turn);
+                                 static_cast<int>(step.turning.size()), profile_);
   const double log_spacing = profile_.log_spacing[outline_.loop_of[step.nodes.front()]];
   for (const MovedPiece& piece : step.pieces)
     sum += log_length_density(outline_.place[piece.node], outline_.place[outline_.next(piece.node)],

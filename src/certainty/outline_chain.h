@@ -28,7 +28,7 @@ class OutlineChain {
   /// was taken.
   bool move_nodes(int first, const std::vector<Vec2>& places, Random& random,
                   double log_volume = 0.0);
-  /// Proposes another profile of the same noise; `is_of_shape` where it differs in log_turn and
+  /// Proposes another profile of the same noise; `is_of_shape` where it differs in turns and
   /// log_spacing alone, else it must differ in the others alone.
   bool move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random);
 

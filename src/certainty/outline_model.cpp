@@ -5,7 +5,6 @@
 
 #include "base/normal.h"
 #include "base/sigmoid.h"
-#include "certainty/turn_law.h"
 
 namespace palpation {
 namespace {
@@ -113,14 +112,16 @@ double turn_off_even(const OutlineNodes& outline, int node) {
   return std::atan2(cross(in, out), in.dot(out)) - loop.turns * 2.0 * std::numbers::pi / loop.count;
 }
 
-double log_turns_density(const OutlineNodes& outline, int first, int count, double log_turn) {
+double log_turns_density(const OutlineNodes& outline, int first, int count,
+                         const OutlineProfile& profile) {
   const bool is_whole = count == outline.loops[outline.loop_of[first]].count;
   double here = turn_off_even(outline, first), sum = 0.0;
-  if (!is_whole) sum += log_bend_density(here - turn_off_even(outline, outline.before(first)));
+  if (!is_whole)
+    sum += log_bend_density(here - turn_off_even(outline, outline.before(first)), profile.turns);
   for (int i = 0, node = first; i < count; ++i) {
     node = outline.next(node);
     const double after = turn_off_even(outline, node);
-    sum += log_turn_density(here, log_turn) + log_bend_density(after - here);
+    sum += log_turn_density(here, profile.turns) + log_bend_density(after - here, profile.turns);
     here = after;
   }
   return sum;
@@ -133,11 +134,11 @@ double log_length_density(const Vec2& from, const Vec2& to, double log_spacing) 
 }
 
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile) {
-  const TurnLaw law = turn_law(profile.log_turn);
+  const TurnLaw law = turn_law(profile.turns);
   double sum = 0.0;
   for (std::size_t i = 0; i < outline.loops.size(); ++i) {
     const auto [first, count, part, turns] = outline.loops[i];
-    sum += log_turns_density(outline, first, count, profile.log_turn) - count * law.log_share -
+    sum += log_turns_density(outline, first, count, profile) - count * law.log_share -
            log_density_of_closing(count, law.variance, profile.log_spacing[i]);
     for (int node = first; node < first + count; ++node)
       sum += log_length_density(outline.place[node], outline.place[outline.next(node)],
@@ -153,10 +154,11 @@ Vec2 draw_lean(Random& random) {
 
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior) {
   const OutlineProfile& median = prior.median;
-  double sum = half_square((profile.low - median.low) / prior.plateau_sd) +
-               half_square((profile.high - median.high) / prior.plateau_sd) +
-               half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
-               half_square((profile.log_turn - median.log_turn) / kTurnLogSd);
+  double sum =
+      half_square((profile.low - median.low) / prior.plateau_sd) +
+      half_square((profile.high - median.high) / prior.plateau_sd) +
+      half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
+      half_square((profile.turns.log_half_width - median.turns.log_half_width) / kTurnLogSd);
   if (profile.lean)
     sum += half_square(profile.lean->norm() / kLean) +
            std::log(2.0 * std::numbers::pi * kLean * kLean);

@@ -27,6 +27,7 @@
 #include "certainty/outline_core.h"
 #include "certainty/outline_nodes.h"
 #include "certainty/outline_residuals.h"
+#include "certainty/turn_law.h"
 #include "palpation/base/random.h"
 #include "palpation/certainty/misfit.h"
 
@@ -50,11 +51,11 @@ struct OutlineReadings {
 struct OutlineProfile {
   double low = 0.0;
   double high = 0.0;
-  double log_slope = 0.0;            ///< of a slope per metre, in the tumour's middle
-  std::optional<Vec2> lean{};        ///< how that rises towards a side (OutlinePrior::middle)
-  double log_shoulder = 0.0;         ///< of the power with which readings rise on inside
-  double log_skirt = 0.0;            ///< and fall on outside
-  double log_turn = 0.0;             ///< of the law's half width, radians
+  double log_slope = 0.0;      ///< of a slope per metre, in the tumour's middle
+  std::optional<Vec2> lean{};  ///< how that rises towards a side (OutlinePrior::middle)
+  double log_shoulder = 0.0;   ///< of the power with which readings rise on inside
+  double log_skirt = 0.0;      ///< and fall on outside
+  Turns turns{};
   std::vector<double> log_spacing;   ///< of each loop's pieces, metres
   std::vector<double> log_contrast;  ///< of each part, the first one's 0
   std::optional<OutlineCore> core{};
@@ -109,7 +110,8 @@ ResidualPrior residual_prior(const OutlinePrior& prior);
 double turn_off_even(const OutlineNodes& outline, int node);
 /// Of all turns at consecutive nodes of a loop, and of how unlike they are and those next to them
 /// (turn_law.h).
-double log_turns_density(const OutlineNodes& outline, int first, int count, double log_turn);
+double log_turns_density(const OutlineNodes& outline, int first, int count,
+                         const OutlineProfile& profile);
 /// Of a piece's length, as a density of its end's place.
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
 /// Of all nodes, given that loops close.
@@ -117,9 +119,9 @@ double log_shape_density(const OutlineNodes& outline, const OutlineProfile& prof
 /// How a tumour's slope leans, of those that lean, beforehand.
 Vec2 draw_lean(Random& random);
 
-/// Of the profile itself. Every second tumour is as steep on all sides. Two in three are as
-/// equation 4 has them, with a plateau; the others are bent, and no law tells how high they would
-/// be if they were wider.
+/// Of the profile itself. Every second tumour is as steep on all sides, and every second smooth.
+/// Two in three are as equation 4 has them, with a plateau; the others are bent, and no law tells
+/// how high they would be if they were wider.
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);
 /// That one with such bends is of the first kind.
 double plateau_probability(const OutlineProfile& profile);

@@ -198,7 +198,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
   median = {.low = mean.minCoeff(),
             .high = mean.maxCoeff(),
             .log_slope = std::log(shape.slope_per_m),
-            .log_turn = std::log(kTurn),
+            .turns = {.log_half_width = std::log(kTurn)},
             .log_spacing = {},
             .log_contrast = {},
             .moved_m = unmoved(surface, edge, changes),

@@ -214,12 +214,15 @@ void OutlineWalk::move_profile() {
                                         lean != nullptr ? &lean->y() : nullptr,
                                         &profile.log_shoulder,
                                         &profile.log_skirt,
-                                        &profile.log_turn};
+                                        &profile.turns.log_half_width};
     if (number[i] == nullptr) continue;
     *number[i] += lengths_.of_profile[i] * random_.normal();
     const bool is_turn = i == kOfProfile - 1;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);
   }
+  OutlineProfile bent = chain_.profile();
+  bent.turns.bends = bent.turns.bends == Bends::Smooth ? Bends::Angular : Bends::Smooth;
+  chain_.move_profile(bent, true, random_);
   for (std::size_t part = 1; part < lengths_.of_contrasts.size(); ++part) {
     OutlineProfile profile = chain_.profile();
     profile.log_contrast[part] += lengths_.of_contrasts[part] * random_.normal();

@@ -14,7 +14,8 @@ namespace {
 
 /// Of the turn of a piece of a millimetre on a circle of 4 mm, the least radius of small tumours.
 constexpr double kBend = 0.25;
-constexpr double kCorners = 0.1;     ///< of the bends
+constexpr double kCornersOfSmooth = 0.1;  ///< of the bends
+constexpr double kCornersOfAngular = 0.4;
 constexpr double kCornerBend = 2.5;  ///< half width of Cauchy's law of theirs
 
 constexpr int kTurns = 96;
@@ -40,8 +41,8 @@ double largest_eigenvalue(const Eigen::MatrixXcd& kernel) {
 }
 
 /// With turns as Cauchy's law has them equally likely.
-TurnLaw calculated(double log_half_width) {
-  const double half_width = std::exp(log_half_width),
+TurnLaw calculated(const Turns& of) {
+  const double half_width = std::exp(of.log_half_width),
                most = std::atan(std::numbers::pi / half_width);
   Eigen::VectorXd turns(kTurns);
   for (int i = 0; i < kTurns; ++i)
@@ -50,7 +51,7 @@ TurnLaw calculated(double log_half_width) {
   Eigen::MatrixXcd kernel(kTurns, kTurns), turned(kTurns, kTurns);
   for (int i = 0; i < kTurns; ++i) {
     for (int j = 0; j < kTurns; ++j) {
-      kernel(i, j) = each * std::exp(log_bend_density(turns[i] - turns[j]));
+      kernel(i, j) = each * std::exp(log_bend_density(turns[i] - turns[j], of));
       turned(i, j) = kernel(i, j) * std::exp(Complex(0.0, 0.5 * (turns[i] + turns[j])));
     }
   }
@@ -59,33 +60,38 @@ TurnLaw calculated(double log_half_width) {
   return {std::log(all), -2.0 * std::log(largest_eigenvalue(turned) / all)};
 }
 
-const std::array<TurnLaw, kTabulated>& table() {
-  static const auto laws = [] {
-    std::array<TurnLaw, kTabulated> all;
-    for (int i = 0; i < kTabulated; ++i) all[i] = calculated(kLeast + kStep * i);
-    return all;
-  }();
-  return laws;
+using Table = std::array<TurnLaw, kTabulated>;
+
+Table table_of(Bends bends) {
+  Table all;
+  for (int i = 0; i < kTabulated; ++i) all[i] = calculated({kLeast + kStep * i, bends});
+  return all;
+}
+
+const Table& table(Bends bends) {
+  static const Table smooth = table_of(Bends::Smooth), angular = table_of(Bends::Angular);
+  return bends == Bends::Smooth ? smooth : angular;
 }
 
 }  // namespace
 
-double log_turn_density(double off, double log_half_width) {
-  const double half_widths = off * std::exp(-log_half_width);
-  return -std::log1p(half_widths * half_widths) - log_half_width;
+double log_turn_density(double off, const Turns& turns) {
+  const double half_widths = off * std::exp(-turns.log_half_width);
+  return -std::log1p(half_widths * half_widths) - turns.log_half_width;
 }
 
-double log_bend_density(double differ) {
-  const double corner = differ / kCornerBend;
-  return std::log((1.0 - kCorners) * std::exp(-half_square(differ / kBend)) +
-                  kCorners / (1.0 + corner * corner));
+double log_bend_density(double differ, const Turns& turns) {
+  const double corners = turns.bends == Bends::Smooth ? kCornersOfSmooth : kCornersOfAngular,
+               corner = differ / kCornerBend;
+  return std::log((1.0 - corners) * std::exp(-half_square(differ / kBend)) +
+                  corners / (1.0 + corner * corner));
 }
 
-TurnLaw turn_law(double log_half_width) {
-  const double place = std::clamp((log_half_width - kLeast) / kStep, 0.0, kTabulated - 1.001);
+TurnLaw turn_law(const Turns& turns) {
+  const double place = std::clamp((turns.log_half_width - kLeast) / kStep, 0.0, kTabulated - 1.001);
   const int below = static_cast<int>(place);
   const double part = place - below;
-  const TurnLaw &some = table()[below], &others = table()[below + 1];
+  const TurnLaw &some = table(turns.bends)[below], &others = table(turns.bends)[below + 1];
   return {std::lerp(some.log_share, others.log_share, part),
           std::exp(std::lerp(std::log(some.variance), std::log(others.variance), part))};
 }

@@ -63,7 +63,7 @@ OutlineStart start_of(const Surface& surface, const Share& share, double noise =
   median.low = 7.0;
   median.high = 9.0;
   median.log_slope = std::log(1200.0);
-  median.log_turn = std::log(0.12);
+  median.turns.log_half_width = std::log(0.12);
   start.profile = median;
   const Field depth = field_of(surface, share).array() - 8.0;
   begin_with(outline_from(lines_of(surface, depth), start.readings.places), start);

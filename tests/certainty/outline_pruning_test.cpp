@@ -55,7 +55,7 @@ OutlineStart start_of(const std::vector<Loop>& loops, double noise) {
   median.low = 7.0;
   median.high = 9.0;
   median.log_slope = std::log(1200.0);
-  median.log_turn = std::log(0.12);
+  median.turns.log_half_width = std::log(0.12);
   median.log_spacing.assign(loops.size(), std::log(kMm));
   median.log_contrast.assign(static_cast<std::size_t>(part) + 1, 0.0);
   start.profile = median;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMm = 1e-3;
 constexpr double kPieceLogSd = 0.25;
+constexpr Bends kBends = Bends::Smooth;
 
 /// A regular polygon with sides of a millimetre.
 OutlineNodes polygon(int nodes) {
@@ -29,7 +30,7 @@ OutlineNodes polygon(int nodes) {
 
 OutlineProfile profile_of(double turn, double spacing_m) {
   OutlineProfile profile;
-  profile.log_turn = std::log(turn);
+  profile.turns = {std::log(turn), kBends};
   profile.log_spacing = {std::log(spacing_m)};
   return profile;
 }
@@ -38,7 +39,7 @@ OutlineProfile profile_of(double turn, double spacing_m) {
 double log_density_of_closing(int nodes, double turn, double spacing_m) {
   const OutlineNodes outline = polygon(nodes);
   const OutlineProfile profile = profile_of(turn, spacing_m);
-  double open = log_turns_density(outline, 0, nodes, profile.log_turn);
+  double open = log_turns_density(outline, 0, nodes, profile);
   for (int node = 0; node < nodes; ++node)
     open += log_length_density(outline.place[node], outline.place[outline.next(node)],
                                profile.log_spacing[0]);
@@ -76,7 +77,8 @@ double density_of_closing_by_drawing(int nodes, double turn, Random& random) {
     off.push_back(turned - even);
     off.push_back(last - even);
     double log_bends = 0.0;
-    for (int i = 0; i < nodes; ++i) log_bends += log_bend_density(off[(i + 1) % nodes] - off[i]);
+    for (int i = 0; i < nodes; ++i)
+      log_bends += log_bend_density(off[(i + 1) % nodes] - off[i], {0.0, kBends});
     sum += density(off[nodes - 2]) * density(off[nodes - 1]) * std::exp(log_bends) *
            std::exp(-0.5 * z * z) /
            (kPieceLogSd * std::sqrt(2.0 * std::numbers::pi) * length * length);
@@ -117,8 +119,9 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
     OutlineWalk walk(nothing, prior, outline, prior.median, 42);
     walk.settle(300);
     double mean = 0.0;
-    for (const OutlineDraw& draw : walk.draws(2000, 500)) mean += draw.profile.log_turn / 500.0;
-    return mean - prior.median.log_turn;
+    for (const OutlineDraw& draw : walk.draws(2000, 500))
+      mean += draw.profile.turns.log_half_width / 500.0;
+    return mean - prior.median.turns.log_half_width;
   };
   EXPECT_NEAR(log_turn(1), 0.0, 1.0);
   EXPECT_NEAR(log_turn(7), 0.0, 1.0);

@@ -54,7 +54,7 @@ OutlinePrior prior_of(const OutlineNodes& outline) {
   prior.median = {.low = 7.0,
                   .high = 9.0,
                   .log_slope = std::log(1200.0),
-                  .log_turn = std::log(0.12),
+                  .turns = {.log_half_width = std::log(0.12)},
                   .log_spacing = std::vector(outline.loops.size(), std::log(kMm)),
                   .log_contrast = {0.0, 0.0}};
   prior.plateau_sd = 0.5;
