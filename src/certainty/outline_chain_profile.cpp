@@ -20,10 +20,11 @@ bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape,
   return true;
 }
 
-/// As likely as not beforehand, and how it leans is drawn from the prior: so the readings decide.
+/// As likely as not beforehand, as is proposed, and how it leans is drawn from the prior: so the
+/// readings decide.
 bool OutlineChain::switch_lean(Random& random) {
   OutlineProfile profile = profile_;
-  profile.lean = profile_.lean ? std::nullopt : std::optional(draw_lean(random));
+  profile.lean = random.uniform() < 0.5 ? std::nullopt : std::optional(draw_lean(random));
   return feels_profile(profile, 0.0, random);
 }
 

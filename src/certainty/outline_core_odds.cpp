@@ -73,9 +73,40 @@ class CoreNumbers {
   int count_ = 0;
 };
 
-/// Of all of the profile but a core.
-double log_density_but_core(OutlineProfile profile, const OutlinePrior& prior) {
+/// How a slope leans, where it does.
+class LeanNumbers {
+ public:
+  void add(const OutlineProfile& profile, const OutlinePrior& prior) {
+    OutlineProfile level = profile;
+    level.lean.reset();
+    log_prior_ += log_profile_density(profile, prior) - log_profile_density(level, prior);
+    mean_ += *profile.lean;
+    square_ += *profile.lean * profile.lean->transpose();
+    ++count_;
+  }
+
+  /// As a core's: of those that lean, times how many of all do.
+  double log_room() const {
+    if (count_ < kFewest) return 0.0;
+    const double count = count_;
+    const Vec2 mean = mean_ / count;
+    const Eigen::Matrix2d covariance = kNormal * (square_ / count - mean * mean.transpose());
+    const double volume = std::max(covariance.determinant(), std::numeric_limits<double>::min());
+    return count / kWeighed * std::min(log_prior_ / count + 0.5 * std::log(volume), 0.0);
+  }
+
+ private:
+  static constexpr int kFewest = 5;
+  Vec2 mean_ = Vec2::Zero();
+  Eigen::Matrix2d square_ = Eigen::Matrix2d::Zero();
+  double log_prior_ = 0.0;
+  int count_ = 0;
+};
+
+/// Of all of the profile but a core and a lean.
+double log_density_but_room(OutlineProfile profile, const OutlinePrior& prior) {
   profile.core.reset();
+  profile.lean.reset();
   return log_profile_density(profile, prior);
 }
 
@@ -92,26 +123,28 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
   SettledOutline sum;
   sum.readings.resize(start.readings.places.size());
   CoreNumbers numbers;
+  LeanNumbers leans;
   double square_m4 = 0.0;
   for (int i = 0; i < kWeighed; ++i) {
     walk.settle(1);
     const OutlineChain& chain = walk.chain();
     const double area_m2 = enclosed_area(chain.outline());
     sum.log_odds +=
-        (chain.residuals().log_density() + log_density_but_core(chain.profile(), start.prior) -
+        (chain.residuals().log_density() + log_density_but_room(chain.profile(), start.prior) -
          price_of_loops(chain.outline(), start.readings.places.size())) /
         kWeighed;
     sum.has_plateau += plateau_probability(chain.profile()) / kWeighed;
     sum.area_m2 += area_m2 / kWeighed;
     square_m4 += area_m2 * area_m2 / kWeighed;
     count_plateaus(chain, start.readings, sum.readings);
+    if (chain.profile().lean) leans.add(chain.profile(), start.prior);
     if (!chain.profile().core) continue;
     numbers.add(*chain.profile().core, start.prior);
     if (chain.profile().core->beside > kLevel) sum.level += 1.0 / kWeighed;
   }
   sum.area_sd_m2 = std::sqrt(std::max(square_m4 - sum.area_m2 * sum.area_m2, 0.0));
   sum.log_room = numbers.log_room();
-  sum.log_odds += sum.log_room;
+  sum.log_odds += sum.log_room + leans.log_room();
   return sum;
 }
 

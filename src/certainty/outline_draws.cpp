@@ -44,7 +44,7 @@ OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed
     std::vector<Draws> of_chain(kChains);
     for_ranges(kChains, 1, [&](int first, int last) {
       for (int chain = first; chain < last; ++chain) {
-        walks[chain].settle(kSettling, kSettling / 2);
+        walks[chain].settle(kSettling, round == 0 ? kSettling / 2 : 0);
         of_chain[chain] = walks[chain].draws(kSweeps, each);
       }
     });

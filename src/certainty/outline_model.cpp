@@ -27,7 +27,7 @@ double logit(double share) { return std::log(share / (1.0 - share)); }
 /// for a factor. Turns' sums are taken for normal, of so much variance each, and so is where the
 /// line ends. Given that turns sum to whole ones, the directions of two pieces differ from an even
 /// loop's by an angle whose variance is that times the nodes between them on either side, over all
-/// nodes. Right to a factor of one and a half, where the density falls by thousands
+/// nodes. Right to a factor of two, where the density falls by thousands
 /// (outline_shape_test.cpp).
 double log_density_of_closing(int nodes, double variance, double log_spacing) {
   double square = std::exp(kPieceLogSd * kPieceLogSd);  // of the end's place, over pieces and nodes
@@ -117,11 +117,13 @@ double log_turns_density(const OutlineNodes& outline, int first, int count,
   const bool is_whole = count == outline.loops[outline.loop_of[first]].count;
   double here = turn_off_even(outline, first), sum = 0.0;
   if (!is_whole)
-    sum += log_bend_density(here - turn_off_even(outline, outline.before(first)), profile.turns);
+    sum +=
+        log_bend_density(here - turn_off_even(outline, outline.before(first)), profile.turns.kind);
   for (int i = 0, node = first; i < count; ++i) {
     node = outline.next(node);
     const double after = turn_off_even(outline, node);
-    sum += log_turn_density(here, profile.turns) + log_bend_density(after - here, profile.turns);
+    sum +=
+        log_turn_density(here, profile.turns) + log_bend_density(after - here, profile.turns.kind);
     here = after;
   }
   return sum;

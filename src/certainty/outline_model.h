@@ -1,13 +1,13 @@
 /// What outlines are taken for, and what readings say of one: the density that is sampled.
 ///
-/// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns from node
-/// to node as the one before, but for corners, horns and necks (turn_law.h); how wide the law of
-/// its turns is, is learned with the outline. Pieces are about as long as each other. An outline is
-/// one of the lines that
-/// end where they began, whose density is divided by how densely lines of such turns do: else
-/// outlines would be the smoother beforehand the more loops there are. It is of what was felt: each
-/// loop holds a reading, else it could leave the tissue, where none contradicts it. Depth is the
-/// signed distance to the polygon, and a reading
+/// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns at a node
+/// as at the one before, but for corners, horns and necks (turn_law.h); how wide the law of its
+/// turns is, and whether corners are the rule, is learned with the outline. Pieces are about as
+/// long as each other. An outline is one of the lines that end where they began, whose density is
+/// divided by how densely lines of such turns do: else outlines would be the smoother beforehand
+/// the more loops there are. It is of what was felt: each loop holds a reading, else it could leave
+/// the tissue, where none contradicts it. Depth is the signed distance to the polygon, and a
+/// reading
 ///
 ///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction)))
 ///         + background + noise
@@ -15,9 +15,9 @@
 /// these two as outline_residuals.h has them. Unbent, that is equation 4 of Garg et al. 2016, zero
 /// where the boundary is; bent(t) = sinh(k asinh t) / k (Jones and Pewsey 2009) is t near the
 /// boundary and goes on as t^k, with a k for each side: a round top or a sharp one, the wide skirt
-/// of something that lies deep or none. The slope may be another on each side, its logarithm that
-/// in the middle + lean . x / (x^2 + radius^2)^(1/2) at x from there. Cuts take from the inside
-/// (outline_cut.h), and contrast may be less beyond a core (outline_core.h).
+/// of something that lies deep or none. The slope may be the same on all sides, or another on each,
+/// its logarithm that in the middle + lean . x / (x^2 + radius^2)^(1/2) at x from there. Cuts take
+/// from the inside (outline_cut.h), and contrast may be less beyond a core (outline_core.h).
 #pragma once
 
 #include <limits>

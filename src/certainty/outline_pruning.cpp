@@ -1,6 +1,6 @@
 #include "certainty/outline_pruning.h"
 
-#include <tuple>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -10,7 +10,8 @@
 namespace palpation {
 namespace {
 
-constexpr int kSettling = 150;  ///< sweeps
+constexpr int kSettling = 150, kBetween = 10;  ///< sweeps
+constexpr int kStates = 5;
 
 /// An outline, with what of the prior and of a profile is of its loops and parts.
 struct Loops {
@@ -71,24 +72,33 @@ double price_of_losing(const OutlineNodes& outline, const NodeLoop& lost, std::s
   return price;
 }
 
-/// The loop that the readings pay the least for, and without which they say more; 0 for none.
-std::size_t unpaid_loop(const OutlineReadings& readings, const Loops& loops,
-                        const OutlineChain& settled) {
-  const auto evidence_of = [&](const Loops& some) {
-    return OutlineChain(readings, some.prior, some.outline, some.profile, settled.cuts(),
-                        &settled.residuals())
-        .log_evidence();
-  };
-  const double with_all = evidence_of(loops);
-  double most = 0.0;
-  std::size_t unpaid = 0;
-  for (std::size_t i = 1; i < loops.outline.loops.size(); ++i) {
-    const NodeLoop& loop = loops.outline.loops[i];
-    const double gained = evidence_of(without(loops, loop)) - with_all +
-                          price_of_losing(loops.outline, loop, readings.places.size());
-    if (gained > most) std::tie(most, unpaid) = std::pair(gained, i);
+/// Where a walk has come to.
+struct State {
+  Loops loops;
+  OutlineCuts cuts;
+  OutlineResiduals residuals;
+};
+
+/// Of the readings, by what else they are off by in that state.
+double evidence_of(const OutlineReadings& readings, const State& state, const Loops& loops) {
+  return OutlineChain(readings, loops.prior, loops.outline, loops.profile, state.cuts,
+                      &state.residuals)
+      .log_evidence();
+}
+
+/// The loop that the readings pay the least for, and without which they say more, on average over
+/// states: in one or the other, a sound reading in it tells nothing. 0 for none.
+std::size_t unpaid_loop(const OutlineReadings& readings, const std::vector<State>& states) {
+  std::vector<double> gained(states.front().loops.outline.loops.size(), 0.0);
+  for (const State& state : states) {
+    const double with_all = evidence_of(readings, state, state.loops);
+    for (std::size_t i = 1; i < gained.size(); ++i) {
+      const NodeLoop& loop = state.loops.outline.loops[i];
+      gained[i] += evidence_of(readings, state, without(state.loops, loop)) - with_all +
+                   price_of_losing(state.loops.outline, loop, readings.places.size());
+    }
   }
-  return unpaid;
+  return static_cast<std::size_t>(std::ranges::max_element(gained) - gained.begin());
 }
 
 }  // namespace
@@ -104,10 +114,17 @@ OutlineStart pruned(OutlineStart start, std::uint64_t seed) {
   for (bool loses = true; loses && first.outline.loops.size() > 1;) {
     OutlineWalk walk(start.readings, first.prior, first.outline, first.profile, seed);
     walk.settle(kSettling);
-    Loops settled{walk.chain().outline(), first.prior, walk.chain().profile()};
+    std::vector<State> states;
+    for (int i = 0; i < kStates; ++i) {
+      walk.settle(kBetween);
+      const OutlineChain& chain = walk.chain();
+      states.push_back(
+          {{chain.outline(), first.prior, chain.profile()}, chain.cuts(), chain.residuals()});
+    }
     loses = false;
-    while (const std::size_t unpaid = unpaid_loop(start.readings, settled, walk.chain())) {
-      settled = without(settled, settled.outline.loops[unpaid]);
+    while (const std::size_t unpaid = unpaid_loop(start.readings, states)) {
+      for (State& state : states)
+        state.loops = without(state.loops, state.loops.outline.loops[unpaid]);
       first = without(first, first.outline.loops[unpaid]);
       loses = true;
     }

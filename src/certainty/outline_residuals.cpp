@@ -188,9 +188,12 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random, bool keeps_telling) {
   for (int i = 0; i < kNoiseTries; ++i) move(scales_.log_noise, noise_step);
   for (double& log_sd : scales_.log_sd) move(log_sd, kSdStep);
   if (!terms_->is_none()) {
-    const std::size_t kind = random.below(static_cast<int>(scales_.has.size()));
-    scales_.has[kind].flip();
-    if (!takes()) scales_.has[kind].flip();
+    for (std::size_t kind = 0; kind < scales_.has.size(); ++kind) {
+      // Every second time: what is always taken would be there in every second draw, in turn.
+      if (random.uniform() < 0.5) continue;
+      scales_.has[kind].flip();
+      if (!takes()) scales_.has[kind].flip();
+    }
   }
   Eigen::VectorXd steps, noise = Eigen::Map<const Eigen::VectorXd>(
                              off_.data(), static_cast<Eigen::Index>(off_.size()));

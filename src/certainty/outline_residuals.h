@@ -59,7 +59,7 @@ class OutlineResiduals {
 
   /// Other scales and other readings that tell nothing, given all residuals: from their posterior,
   /// by Metropolis' and Gibbs' steps. Returns the zero's steps, drawn with them. `keeps_telling`:
-  /// those that tell go on doing so, no matter how far they are off.
+  /// which readings tell stays as it is, no matter how far they are off.
   Eigen::VectorXd redraw(Random& random, bool keeps_telling = false);
 
   /// X' C^-1 X of columns X with a row for each reading, C the covariance of those that tell.

@@ -206,6 +206,7 @@ void OutlineWalk::move_size() {
 
 void OutlineWalk::move_profile() {
   chain_.switch_lean(random_);
+  switch_line_kind();
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
     Vec2* const lean = profile.lean ? &*profile.lean : nullptr;
@@ -220,9 +221,6 @@ void OutlineWalk::move_profile() {
     const bool is_turn = i == kOfProfile - 1;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);
   }
-  OutlineProfile bent = chain_.profile();
-  bent.turns.bends = bent.turns.bends == Bends::Smooth ? Bends::Angular : Bends::Smooth;
-  chain_.move_profile(bent, true, random_);
   for (std::size_t part = 1; part < lengths_.of_contrasts.size(); ++part) {
     OutlineProfile profile = chain_.profile();
     profile.log_contrast[part] += lengths_.of_contrasts[part] * random_.normal();
@@ -234,6 +232,12 @@ void OutlineWalk::move_profile() {
     profile.log_spacing[loop] += kSpacingStep * random_.normal();
     chain_.move_profile(profile, true, random_);
   }
+}
+
+void OutlineWalk::switch_line_kind() {
+  OutlineProfile profile = chain_.profile();
+  profile.turns.kind = random_.uniform() < 0.5 ? LineKind::Smooth : LineKind::Angular;
+  chain_.move_profile(profile, true, random_);
 }
 
 void OutlineWalk::move_changes() {

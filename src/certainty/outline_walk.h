@@ -35,9 +35,10 @@ class OutlineWalk {
   OutlineWalk(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
               OutlineProfile profile, std::uint64_t seed);
 
-  /// Sweeps while the steps' lengths are found. In the first of them, `telling` so many, readings
-  /// that tell go on doing so: noise falls faster than an outline follows sharp readings to a
-  /// corner, and those there would be told as nothing before it came.
+  /// Sweeps while the steps' lengths are found. In the first of them, `telling` so many, which
+  /// readings tell stays as it is: noise falls faster than an outline follows sharp readings to a
+  /// corner, and those there would be told as nothing before it came. Not where loops are weighed:
+  /// one that is noise would settle about the reading that it is of.
   void settle(int sweeps, int telling = 0);
   /// Further sweeps, of which so many outlines are kept, evenly.
   std::vector<OutlineDraw> draws(int sweeps, int count);
@@ -66,6 +67,7 @@ class OutlineWalk {
   void move_loop(int loop, int kind);
   void move_size();
   void move_profile();
+  void switch_line_kind();
   void move_core();
   void move_changes();
   void move_with_nodes(std::size_t change);

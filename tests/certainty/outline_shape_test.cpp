@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kMm = 1e-3;
 constexpr double kPieceLogSd = 0.25;
-constexpr Bends kBends = Bends::Smooth;
 
 /// A regular polygon with sides of a millimetre.
 OutlineNodes polygon(int nodes) {
@@ -28,17 +27,17 @@ OutlineNodes polygon(int nodes) {
   return outline;
 }
 
-OutlineProfile profile_of(double turn, double spacing_m) {
+OutlineProfile profile_of(const Turns& turns, double spacing_m) {
   OutlineProfile profile;
-  profile.turns = {std::log(turn), kBends};
+  profile.turns = turns;
   profile.log_spacing = {std::log(spacing_m)};
   return profile;
 }
 
 /// What the shape's density was divided by.
-double log_density_of_closing(int nodes, double turn, double spacing_m) {
+double log_density_of_closing(int nodes, const Turns& turns, double spacing_m) {
   const OutlineNodes outline = polygon(nodes);
-  const OutlineProfile profile = profile_of(turn, spacing_m);
+  const OutlineProfile profile = profile_of(turns, spacing_m);
   double open = log_turns_density(outline, 0, nodes, profile);
   for (int node = 0; node < nodes; ++node)
     open += log_length_density(outline.place[node], outline.place[outline.next(node)],
@@ -50,9 +49,9 @@ double within_half_a_turn(double angle) { return std::remainder(angle, 2.0 * std
 
 /// The mean, over lines whose last piece is missing, of how dense the one that closes them, the
 /// turns at its ends and all bends are.
-double density_of_closing_by_drawing(int nodes, double turn, Random& random) {
+double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& random) {
   constexpr int kLines = 200'000;
-  const double even = 2.0 * std::numbers::pi / nodes;
+  const double even = 2.0 * std::numbers::pi / nodes, turn = std::exp(turns.log_half_width);
   const auto density = [&](double off) {
     return 1.0 / (std::numbers::pi * turn * (1.0 + off * off / (turn * turn)));
   };
@@ -78,7 +77,7 @@ double density_of_closing_by_drawing(int nodes, double turn, Random& random) {
     off.push_back(last - even);
     double log_bends = 0.0;
     for (int i = 0; i < nodes; ++i)
-      log_bends += log_bend_density(off[(i + 1) % nodes] - off[i], {0.0, kBends});
+      log_bends += log_bend_density(off[(i + 1) % nodes] - off[i], turns.kind);
     sum += density(off[nodes - 2]) * density(off[nodes - 1]) * std::exp(log_bends) *
            std::exp(-0.5 * z * z) /
            (kPieceLogSd * std::sqrt(2.0 * std::numbers::pi) * length * length);
@@ -88,17 +87,22 @@ double density_of_closing_by_drawing(int nodes, double turn, Random& random) {
 
 TEST(OutlineShape, LinesCloseAsDenselyAsDrawnOnesDo) {
   Random random(41);
-  const double first = log_density_of_closing(12, 0.01, kMm) -
-                       std::log(density_of_closing_by_drawing(12, 0.01, random));
-  for (const double turn : {0.03, 0.1, 0.3}) {
-    const double drawn = density_of_closing_by_drawing(12, turn, random);
-    EXPECT_NEAR(log_density_of_closing(12, turn, kMm) - first, std::log(drawn), std::log(1.5));
+  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
+    const Turns narrow{std::log(0.01), kind};
+    const double first = log_density_of_closing(12, narrow, kMm) -
+                         std::log(density_of_closing_by_drawing(12, narrow, random));
+    for (const double turn : {0.03, 0.1, 0.3}) {
+      const Turns turns{std::log(turn), kind};
+      const double drawn = density_of_closing_by_drawing(12, turns, random);
+      EXPECT_NEAR(log_density_of_closing(12, turns, kMm) - first, std::log(drawn), std::log(2.0));
+    }
   }
 }
 
 TEST(OutlineShape, LinesOfPiecesTwiceAsLongCloseAQuarterAsDensely) {
-  EXPECT_NEAR(log_density_of_closing(40, 0.1, 2 * kMm),
-              log_density_of_closing(40, 0.1, kMm) - std::log(4.0), 1e-12);
+  const Turns turns{std::log(0.1), LineKind::Smooth};
+  EXPECT_NEAR(log_density_of_closing(40, turns, 2 * kMm),
+              log_density_of_closing(40, turns, kMm) - std::log(4.0), 1e-12);
 }
 
 // With neither readings nor a price of closing, seven loops would be circles: their turns' half
@@ -112,7 +116,7 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
       outline.add(line, 0);
     }
     OutlinePrior prior;
-    prior.median = profile_of(0.12, kMm);
+    prior.median = profile_of({std::log(0.12), LineKind::Smooth}, kMm);
     prior.median.log_spacing.resize(outline.loops.size(), std::log(kMm));
     prior.median.log_contrast = {0.0};
     const OutlineReadings nothing;
@@ -125,6 +129,26 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
   };
   EXPECT_NEAR(log_turn(1), 0.0, 1.0);
   EXPECT_NEAR(log_turn(7), 0.0, 1.0);
+}
+
+// With no readings, every second outline leans and every second is smooth, as they are beforehand.
+TEST(OutlineShape, WhatAnOutlineMayLackIsLackingInHalfOfThem) {
+  OutlinePrior prior;
+  prior.median = profile_of({std::log(0.12), LineKind::Smooth}, kMm);
+  prior.median.log_contrast = {0.0};
+  const OutlineReadings nothing;
+  OutlineWalk walk(nothing, prior, polygon(16), prior.median, 43);
+  walk.settle(300);
+  double leaning = 0.0, smooth = 0.0, square = 0.0;
+  constexpr int kDraws = 4000;
+  for (const OutlineDraw& draw : walk.draws(2 * kDraws, kDraws)) {
+    leaning += draw.profile.lean ? 1.0 : 0.0;
+    square += draw.profile.lean ? draw.profile.lean->squaredNorm() : 0.0;
+    smooth += draw.profile.turns.kind == LineKind::Smooth ? 1.0 : 0.0;
+  }
+  EXPECT_NEAR(leaning / kDraws, 0.5, 0.05);
+  EXPECT_NEAR(square / leaning, 2.0 * 0.3 * 0.3, 0.03);
+  EXPECT_NEAR(smooth / kDraws, 0.5, 0.15);
 }
 
 }  // namespace

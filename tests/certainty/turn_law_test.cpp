@@ -32,7 +32,7 @@ Drawn drawn_lines(const Turns& of, Random& random) {
       sum += turn;
     }
     for (int i = 0; i < kNodes; ++i)
-      log_weight += log_bend_density(turns[(i + 1) % kNodes] - turns[i], of);
+      log_weight += log_bend_density(turns[(i + 1) % kNodes] - turns[i], of.kind);
     drawn.weight += std::exp(log_weight) / kLines;
     drawn.all_around += std::exp(log_weight) * std::cos(sum) / kLines;
   }
@@ -44,40 +44,46 @@ Drawn drawn_lines(const Turns& of, Random& random) {
 
 TEST(TurnLaw, IsDividedByWhatAllLinesHave) {
   Random random(51);
-  for (const Bends bends : {Bends::Smooth, Bends::Angular}) {
-    for (const double half_width : {0.02, 0.1, 0.3}) {
-      const double drawn = drawn_lines({std::log(half_width), bends}, random).weight;
-      EXPECT_NEAR(kNodes * turn_law({std::log(half_width), bends}).log_share, std::log(drawn), 0.1)
-          << half_width;
+  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
+    for (const double log_half_width : {-4.0, -2.3, -1.1, 0.0}) {
+      const double drawn = drawn_lines({log_half_width, kind}, random).weight;
+      EXPECT_NEAR(kNodes * turn_law({log_half_width, kind}).log_share / std::log(drawn), 1.0, 0.03)
+          << log_half_width;
     }
   }
 }
 
 TEST(TurnLaw, LinesPointApartAsDrawnOnesDo) {
   Random random(52);
-  for (const Bends bends : {Bends::Smooth, Bends::Angular}) {
-    for (const double half_width : {0.02, 0.1, 0.3}) {
-      const Drawn drawn = drawn_lines({std::log(half_width), bends}, random);
-      EXPECT_NEAR(0.5 * kNodes * turn_law({std::log(half_width), bends}).variance,
-                  -std::log(drawn.all_around / drawn.weight), 0.2)
-          << half_width;
+  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
+    for (const double log_half_width : {-4.0, -2.3, -1.1}) {
+      const Drawn drawn = drawn_lines({log_half_width, kind}, random);
+      const double variance = -2.0 * std::log(drawn.all_around / drawn.weight) / kNodes;
+      EXPECT_NEAR(std::log(turn_law({log_half_width, kind}).variance / variance), 0.0, 0.15)
+          << log_half_width;
     }
   }
 }
 
-TEST(TurnLaw, BendsDoNotMatterToSmallTurns) {
-  EXPECT_NEAR(turn_law({std::log(0.002), Bends::Smooth}).log_share, 0.0, 0.05);
-  EXPECT_NEAR(turn_law({std::log(0.002), Bends::Angular}).log_share, 0.0, 0.05);
+// The wider each turn may be, the wider is their sum, and the less likely are they alike.
+TEST(TurnLaw, IsKnownHoweverWideItIs) {
+  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
+    TurnLaw before = turn_law({-9.0, kind});
+    for (double log_half_width = -6.9; log_half_width < 2.9; log_half_width += 0.1) {
+      const TurnLaw law = turn_law({log_half_width, kind});
+      EXPECT_GE(law.variance, before.variance) << log_half_width;
+      EXPECT_LT(law.log_share, before.log_share) << log_half_width;
+      before = law;
+    }
+    EXPECT_LT(before.variance, 2.0);
+  }
 }
 
-// A corner of a right angle takes two bends.
-TEST(TurnLaw, CornersAreLikelierThanBendsThatAreNormal) {
-  constexpr double kRight = 0.5 * std::numbers::pi;
-  const Turns smooth{0.0, Bends::Smooth}, angular{0.0, Bends::Angular};
-  EXPECT_GT(log_bend_density(kRight, smooth),
-            -0.5 * std::pow(kRight / 0.25, 2) + 2.0 * std::log(10.0));
-  EXPECT_LT(log_bend_density(kRight, smooth), log_bend_density(0.1, smooth) - 2.0);
-  EXPECT_GT(log_bend_density(kRight, angular), log_bend_density(kRight, smooth) + 1.0);
+// By hand: 0.9 exp(-2) + 0.1 / (1 + 0.04), and with 0.6 and 0.4.
+TEST(TurnLaw, BendsAreAsLikelyAsByHand) {
+  EXPECT_NEAR(log_bend_density(0.5, LineKind::Smooth), std::log(0.2179556), 1e-6);
+  EXPECT_NEAR(log_bend_density(0.5, LineKind::Angular), std::log(0.4658166), 1e-6);
+  EXPECT_EQ(log_bend_density(0.0, LineKind::Smooth), 0.0);
 }
 
 }  // namespace
