@@ -45,63 +45,53 @@ void count_plateaus(const OutlineChain& chain, const OutlineReadings& readings,
   }
 }
 
-/// A core's numbers as the walk had them, but for its direction, which a round one has not.
-class CoreNumbers {
+/// Numbers as a walk had them, in the sweeps in which there were any, and their prior's logarithm.
+template <int kNumbers>
+class Room {
  public:
-  void add(const OutlineCore& core, const OutlinePrior& prior) {
-    numbers_.row(count_++) << core.middle.x(), core.middle.y(), core.log_radius, core.half_length_m,
-        core.beside;
-    log_prior_ += log_core_density(core, prior.middle, prior.radius_m, prior.fraction) / kWeighed;
+  void add(const Eigen::Matrix<double, kNumbers, 1>& numbers, double log_prior) {
+    numbers_.row(count_++) = numbers.transpose();
+    log_prior_ += log_prior;
   }
 
   /// How much less room for them readings leave than there was beforehand, nats, not positive: the
-  /// entropy of a normal law of their covariance less that which the prior would give them there.
+  /// entropy of a normal law of their covariance less that which the prior would give them there;
+  /// times the part of the sweeps in which there were any.
   double log_room() const {
-    if (count_ < kWeighed) return 0.0;
-    const Numbers off = numbers_.rowwise() - numbers_.colwise().mean();
-    const Eigen::Matrix<double, kOfCore, kOfCore> covariance =
-        kNormal / (kWeighed - 1.0) * off.transpose() * off;
+    if (count_ <= kNumbers) return 0.0;
+    const auto had = numbers_.topRows(count_);
+    const Eigen::Matrix<double, Eigen::Dynamic, kNumbers> off =
+        had.rowwise() - had.colwise().mean();
+    const Eigen::Matrix<double, kNumbers, kNumbers> covariance =
+        kNormal / (count_ - 1.0) * off.transpose() * off;
     const double volume = std::max(covariance.determinant(), std::numeric_limits<double>::min());
-    return std::min(log_prior_ + 0.5 * std::log(volume), 0.0);
+    return static_cast<double>(count_) / kWeighed *
+           std::min(log_prior_ / count_ + 0.5 * std::log(volume), 0.0);
   }
 
  private:
-  static constexpr int kOfCore = 5;
-  using Numbers = Eigen::Matrix<double, kWeighed, kOfCore>;
-  Numbers numbers_ = Numbers::Zero();
+  Eigen::Matrix<double, kWeighed, kNumbers> numbers_;
   double log_prior_ = 0.0;
   int count_ = 0;
 };
 
-/// How a slope leans, where it does.
-class LeanNumbers {
- public:
-  void add(const OutlineProfile& profile, const OutlinePrior& prior) {
-    OutlineProfile level = profile;
-    level.lean.reset();
-    log_prior_ += log_profile_density(profile, prior) - log_profile_density(level, prior);
-    mean_ += *profile.lean;
-    square_ += *profile.lean * profile.lean->transpose();
-    ++count_;
-  }
+/// But for its direction, which a round one has not.
+Eigen::Vector<double, 5> numbers_of(const OutlineCore& core) {
+  Eigen::Vector<double, 5> numbers;
+  numbers << core.middle, core.log_radius, core.half_length_m, core.beside;
+  return numbers;
+}
 
-  /// As a core's: of those that lean, times how many of all do.
-  double log_room() const {
-    if (count_ < kFewest) return 0.0;
-    const double count = count_;
-    const Vec2 mean = mean_ / count;
-    const Eigen::Matrix2d covariance = kNormal * (square_ / count - mean * mean.transpose());
-    const double volume = std::max(covariance.determinant(), std::numeric_limits<double>::min());
-    return count / kWeighed * std::min(log_prior_ / count + 0.5 * std::log(volume), 0.0);
-  }
+double log_density(const OutlineCore& core, const OutlinePrior& prior) {
+  return log_core_density(core, prior.middle, prior.radius_m, prior.fraction);
+}
 
- private:
-  static constexpr int kFewest = 5;
-  Vec2 mean_ = Vec2::Zero();
-  Eigen::Matrix2d square_ = Eigen::Matrix2d::Zero();
-  double log_prior_ = 0.0;
-  int count_ = 0;
-};
+/// Of how the slope leans.
+double log_density_of_lean(const OutlineProfile& profile, const OutlinePrior& prior) {
+  OutlineProfile even = profile;
+  even.lean.reset();
+  return log_profile_density(profile, prior) - log_profile_density(even, prior);
+}
 
 /// Of all of the profile but a core and a lean.
 double log_density_but_room(OutlineProfile profile, const OutlinePrior& prior) {
@@ -122,8 +112,8 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
   walk.settle(kSettling, kSettling / 2);
   SettledOutline sum;
   sum.readings.resize(start.readings.places.size());
-  CoreNumbers numbers;
-  LeanNumbers leans;
+  Room<5> cores;
+  Room<2> leans;
   double square_m4 = 0.0;
   for (int i = 0; i < kWeighed; ++i) {
     walk.settle(1);
@@ -137,13 +127,14 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
     sum.area_m2 += area_m2 / kWeighed;
     square_m4 += area_m2 * area_m2 / kWeighed;
     count_plateaus(chain, start.readings, sum.readings);
-    if (chain.profile().lean) leans.add(chain.profile(), start.prior);
-    if (!chain.profile().core) continue;
-    numbers.add(*chain.profile().core, start.prior);
-    if (chain.profile().core->beside > kLevel) sum.level += 1.0 / kWeighed;
+    const OutlineProfile& profile = chain.profile();
+    if (profile.lean) leans.add(*profile.lean, log_density_of_lean(profile, start.prior));
+    if (!profile.core) continue;
+    cores.add(numbers_of(*profile.core), log_density(*profile.core, start.prior));
+    if (profile.core->beside > kLevel) sum.level += 1.0 / kWeighed;
   }
   sum.area_sd_m2 = std::sqrt(std::max(square_m4 - sum.area_m2 * sum.area_m2, 0.0));
-  sum.log_room = numbers.log_room();
+  sum.log_room = cores.log_room();
   sum.log_odds += sum.log_room + leans.log_room();
   return sum;
 }
