@@ -105,6 +105,14 @@ bool are_apart(const SettledOutline& some, const SettledOutline& others) {
   return std::abs(some.area_m2 - others.area_m2) > some.area_sd_m2 + others.area_sd_m2;
 }
 
+/// The most by which its being of two heights may be more probable, nats: what is level is of one,
+/// and of what two heights explain the more, it is there the less often (Savage and Dickey's
+/// ratio).
+double most_gained(const SettledOutline& of_two) {
+  return of_two.level > 0.0 ? std::log(of_two.level_beforehand / of_two.level)
+                            : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
@@ -133,6 +141,7 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
     cores.add(numbers_of(*profile.core), log_density(*profile.core, start.prior));
     if (profile.core->beside > kLevel) sum.level += 1.0 / kWeighed;
   }
+  sum.level_beforehand = (1.0 - kLevel) / (1.0 - least_beside(start.prior.fraction));
   sum.area_sd_m2 = std::sqrt(std::max(square_m4 - sum.area_m2 * sum.area_m2, 0.0));
   sum.log_room = cores.log_room();
   sum.log_odds += sum.log_room + leans.log_room();
@@ -154,7 +163,7 @@ double alike(const SettledOutline& of_one, const SettledOutline& of_two) {
 /// speaks for it where it has a plateau, as equation 4 has it: bends follow any heights.
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two) {
   const double by_alike = alike(of_one, of_two),
-               gained = of_two.log_odds + by_alike - of_one.log_odds;
+               gained = std::min(of_two.log_odds + by_alike - of_one.log_odds, most_gained(of_two));
   if (of_two.level < kSeldom && by_alike > kChance && gained > kChance) return Heights::Two;
   const double at_most = of_one.has_plateau > 0.5 ? gained : gained - of_two.log_room;
   const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kChance);

@@ -24,7 +24,8 @@ struct SettledOutline {
   double has_plateau = 0.0;  ///< how probable it is that it has one
   double area_m2 = 0.0;      ///< within the outline,
   double area_sd_m2 = 0.0;   ///< and how much that varies
-  double level = 0.0;        ///< how often what lies beside the core is as good as level with it
+  double level = 0.0;        ///< how often what lies beside the core is as good as level with it,
+  double level_beforehand = 1.0;  ///< and how probable that was before any reading
   std::vector<SettledReading> readings{};
 
   /// There is no second height.

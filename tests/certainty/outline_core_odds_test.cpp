@@ -45,5 +45,17 @@ TEST(OutlineCoreOdds, ReadingsThatOneHeightHasOnItsPlateauSpeakForNoCore) {
   EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
 }
 
+// Half of the time where a sixth was probable beforehand: one height is three times as probable.
+TEST(OutlineCoreOdds, OfACoreThatIsOftenLevelAreNoMoreThanThatTells) {
+  const SettledOutline one = settled_at(100.0, 80.0);
+  SettledOutline two = settled_at(110.0, 81.0);
+  two.level_beforehand = 1.0 / 6.0;
+  EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
+  two.level = 0.5;
+  EXPECT_EQ(heights_by(one, two), Heights::One);
+  two.area_m2 = 120e-6;
+  EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
+}
+
 }  // namespace
 }  // namespace palpation
