@@ -16,9 +16,10 @@ namespace {
 constexpr double kFalseAlarms = 0.02;
 constexpr double kLevel = 0.9;  ///< of the way up: it levels off
 constexpr double kSeldom = 0.05;
-constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
+constexpr int kWeighed = 50;  ///< sweeps
 
 const double kChance = -std::log(kFalseAlarms);
+const double kRuledOut = std::log(1000.0);  ///< by odds of a thousand to one
 
 /// Of a number that is normal with variance 1, e to its entropy, squared.
 constexpr double kNormal = 2.0 * std::numbers::pi * std::numbers::e;
@@ -115,9 +116,9 @@ double most_gained(const SettledOutline& of_two) {
 
 }  // namespace
 
-SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
+SettledOutline settled(const OutlineStart& start, std::uint64_t seed, int sweeps) {
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
-  walk.settle(kSettling, kSettling / 2);
+  walk.settle(sweeps, sweeps / 2);
   SettledOutline sum;
   sum.readings.resize(start.readings.places.size());
   Room<5> cores;
@@ -155,18 +156,24 @@ double alike(const SettledOutline& of_one, const SettledOutline& of_two) {
   return sum;
 }
 
+double area_between(const SettledOutline& of_one, const SettledOutline& of_two) {
+  if (!are_apart(of_one, of_two) || of_two.area_m2 < of_one.area_m2) return 0.0;
+  return (of_one.area_m2 * of_two.area_sd_m2 + of_two.area_m2 * of_one.area_sd_m2) /
+         (of_one.area_sd_m2 + of_two.area_sd_m2);
+}
+
 /// An outline of one height follows such readings as lie on a plateau beside the core by fingers,
 /// and could have followed any: that they read alike speaks for the core. Where that is not surely
 /// so, tissue may as well rise all the way up to its middle: then readings that make a core more
-/// probable tell neither. Nor do those that do not, where the two end elsewhere: then it is told by
-/// readings that speak against a core by more than chance. That one height takes fewer numbers
-/// speaks for it where it has a plateau, as equation 4 has it: bends follow any heights.
+/// probable tell neither. Nor do those that do not, where the two end elsewhere, unless they make
+/// one height surely more probable. That one height takes fewer numbers speaks for it where it has
+/// a plateau, as equation 4 has it: bends follow any heights.
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two) {
   const double by_alike = alike(of_one, of_two),
                gained = std::min(of_two.log_odds + by_alike - of_one.log_odds, most_gained(of_two));
   if (of_two.level < kSeldom && by_alike > kChance && gained > kChance) return Heights::Two;
   const double at_most = of_one.has_plateau > 0.5 ? gained : gained - of_two.log_room;
-  const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kChance);
+  const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kRuledOut);
   return is_open ? Heights::OneOrTwo : Heights::One;
 }
 

@@ -31,11 +31,16 @@ struct SettledOutline {
   /// There is no second height.
   bool is_level() const { return level > 0.5; }
 };
-SettledOutline settled(const OutlineStart& start, std::uint64_t seed);
+/// In fifty sweeps after so many.
+SettledOutline settled(const OutlineStart& start, std::uint64_t seed, int sweeps);
 
 /// How improbable it is that readings beside the core read alike by chance, nats: of those that are
 /// on no plateau of an outline of one height, whose edge could have followed any others.
 double alike(const SettledOutline& of_one, const SettledOutline& of_two);
+
+/// Within an outline, metres squared: as many of their standard deviations from one as from two
+/// heights, where these end farther out; else 0.
+double area_between(const SettledOutline& of_one, const SettledOutline& of_two);
 
 enum class Heights { One, OneOrTwo, Two };
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two);

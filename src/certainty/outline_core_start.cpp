@@ -19,6 +19,8 @@ namespace {
 /// Contrasts beside a core that are tried, of its own.
 constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
 
+constexpr int kSettling = 150;  ///< sweeps
+
 /// Of one part.
 OutlineNodes part_of(const OutlineNodes& outline, int part) {
   OutlineNodes alone;
@@ -121,7 +123,7 @@ SettledOutlines settled_outlines(const OutlineStart& plain, const Surface& surfa
   for_ranges(static_cast<int>(starts.size()), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       if (i > 0) starts[i] = pruned(std::move(starts[i]), seed);
-      walks[i] = settled(starts[i], seed);
+      walks[i] = settled(starts[i], seed, kSettling);
     }
   });
   SettledOutlines all{.plain = walks.front()};
@@ -143,16 +145,16 @@ ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface,
                               std::uint64_t seed) {
   const SettledOutlines all = settled_outlines(plain, surface, mean, seed);
   for (const Cored& one : all.cored) {
-    switch (heights_by(all.plain, one.walk)) {
-      case Heights::Two:
-        return {one.start, one.start};
-      case Heights::OneOrTwo:
-        return {plain, one.start};
-      case Heights::One:
-        break;
-    }
+    if (heights_by(all.plain, one.walk) == Heights::Two)
+      return {.of = {one.start, one.start}, .least_area_m2 = area_between(all.plain, one.walk)};
   }
-  return {plain, plain};
+  for (const Cored& one : all.cored) {
+    if (heights_by(all.plain, one.walk) == Heights::OneOrTwo)
+      return {.of = {plain, one.start},
+              .least_area_m2 = area_between(all.plain, one.walk),
+              .is_left = all.plain.has_plateau < 0.5};
+  }
+  return {.of = {plain, plain}};
 }
 
 }  // namespace palpation

@@ -208,23 +208,14 @@ std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
   return left;
 }
 
-/// Every second of either's, as two chains'. Chains agree as far as `some` do.
-OutlineDraws halves_of(const OutlineDraws& some, const OutlineDraws& others) {
-  OutlineDraws both;
-  for (const OutlineDraws* of : {&some, &others}) {
-    for (std::size_t i = 0; i < of->draws.size(); i += 2) both.draws.push_back(of->draws[i]);
-  }
-  both.disagreement = some.disagreement;
-  return both;
-}
-
 /// A core that is not the same however one comes to it is not all that is drawn.
 OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const Field& mean,
                         const OutlineOptions& options) {
   const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
   OutlineDraws drawn = draws_from(starts, options.draws, options.seed);
-  if (!starts.front().profile.core || drawn.do_agree()) return drawn;
-  return halves_of(draws_from({plain, plain}, options.draws, options.seed), drawn);
+  if (!starts.of.front().profile.core || drawn.do_agree()) return drawn;
+  return draws_from({{plain, starts.of.front()}, starts.least_area_m2, true}, options.draws,
+                    options.seed);
 }
 
 }  // namespace

@@ -237,9 +237,10 @@ std::string core_words(const Surface& surface, const DrawnCore& core) {
   if (core.probability < 1.0)
     return "Whether the stiff region has a core around " +
            place_words(surface.position(core.where), 1) +
-           " in softer tumour, which reaches farther, the readings do not tell: the band is of "
-           "both. "
-           "Touch farther out from its boundary.";
+           " in softer tumour, which reaches farther, the readings do not tell (it has in " +
+           fixed(100.0 * core.probability, 0) +
+           " % of the outlines that they leave): the band is of both. Touch farther out from its "
+           "boundary.";
   return "The stiff region has a core of " + fixed(core.area_m2.mean * 1e6, 0) + " mm2 around " +
          place_words(surface.position(core.where), 1) + "; beside it tissue stands out " +
          fixed(core.beside.mean, 2) + " times as much (" + fixed(core.beside.least, 2) + " to " +

@@ -15,12 +15,12 @@ SettledOutline settled_at(double log_odds, double area_mm2, double has_plateau =
           .area_sd_m2 = 1e-6};
 }
 
-// Chance, 2 %, is 3.9 nats.
-TEST(OutlineCoreOdds, OfAsMuchAsChanceTellNeitherWhereTheTwoEndElsewhere) {
+// Chance, 2 %, is 3.9 nats; a thousand to one are 6.9.
+TEST(OutlineCoreOdds, OfLessThanAThousandToOneTellNeitherWhereTheTwoEndElsewhere) {
   const SettledOutline one = settled_at(100.0, 80.0);
-  EXPECT_EQ(heights_by(one, settled_at(97.0, 120.0)), Heights::OneOrTwo);
+  EXPECT_EQ(heights_by(one, settled_at(94.0, 120.0)), Heights::OneOrTwo);
   EXPECT_EQ(heights_by(one, settled_at(97.0, 81.0)), Heights::One);
-  EXPECT_EQ(heights_by(one, settled_at(95.0, 120.0)), Heights::One);
+  EXPECT_EQ(heights_by(one, settled_at(92.0, 120.0)), Heights::One);
   EXPECT_EQ(heights_by(one, settled_at(105.0, 81.0)), Heights::OneOrTwo);
 }
 

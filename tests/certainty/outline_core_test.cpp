@@ -47,12 +47,13 @@ Field field_of(const Surface& surface, const Share& share) {
   return field;
 }
 
-/// Felt every 2 mm with a noise, about the line half way up to the highest.
-OutlineStart start_of(const Surface& surface, const Share& share, double noise = 0.1) {
+/// Felt every so many millimetres with a noise, about the line half way up to the highest.
+OutlineStart start_of(const Surface& surface, const Share& share, double noise = 0.1,
+                      int step = 2) {
   OutlineStart start;
   Random random(2);
-  for (int x = 1; x < 40; x += 2) {
-    for (int y = 1; y < 40; y += 2) {
+  for (int x = 1; x < 40; x += step) {
+    for (int y = 1; y < 40; y += step) {
       start.readings.places.push_back(kMm * Vec2(x, y));
       start.readings.reading.push_back(7.0 + 2.0 * share(kMm * Vec2(x, y)) +
                                        noise * random.normal());
@@ -70,9 +71,10 @@ OutlineStart start_of(const Surface& surface, const Share& share, double noise =
   return start;
 }
 
-ChainStarts starts_of(const Share& share, double noise = 0.1) {
+ChainStarts starts_of(const Share& share, double noise = 0.1, int step = 2) {
   const Surface surface = tissue();
-  return with_core_if_paid(start_of(surface, share, noise), surface, field_of(surface, share), 3);
+  return with_core_if_paid(start_of(surface, share, noise, step), surface, field_of(surface, share),
+                           3);
 }
 
 OutlineCore core_at(const Vec2& middle, double radius_m, double beside) {
@@ -142,7 +144,7 @@ TEST(OutlineCore, IsDrawnFromItsPriorWhereReadingsTellNothing) {
 }
 
 TEST(OutlineCore, IsFoundWhereReadingsLieOnAPlateauBesideIt) {
-  const auto [start, other] = starts_of(cored(0.55));
+  const auto [start, other] = starts_of(cored(0.55)).of;
   ASSERT_TRUE(start.profile.core);
   EXPECT_TRUE(other.profile.core);
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, 4);
@@ -159,7 +161,7 @@ TEST(OutlineCore, IsFoundWhereReadingsLieOnAPlateauBesideIt) {
 // Two thirds of the contrast beside it and 8 % noise: of the outlines that begin at various heights
 // the one whose readings lie on a plateau is nowhere near the likeliest before it has settled.
 TEST(OutlineCore, IsNotLostWhereTheRimIsNearlyAsStiff) {
-  const auto [plain, cored_start] = starts_of(cored(0.65), 0.16);
+  const auto [plain, cored_start] = starts_of(cored(0.65), 0.16).of;
   ASSERT_TRUE(cored_start.profile.core);
   EXPECT_GT(enclosed_area(cored_start.outline.place), 0.85 * std::numbers::pi * 81e-6);
 }
@@ -168,25 +170,49 @@ TEST(OutlineCore, IsNotFoundInATumourOfOneHeight) {
   const Share disk = [](const Vec2& place) {
     return sigmoid_of(kSlope_per_m * (9 * kMm - (place - kMm * Vec2(20, 20)).norm()));
   };
-  for (const OutlineStart& start : starts_of(disk)) EXPECT_FALSE(start.profile.core);
+  for (const OutlineDraw& draw : draws_from(starts_of(disk, 0.1, 3), 80, 5).draws)
+    EXPECT_FALSE(draw.profile.core);
 }
 
-// Its slope is too gentle for a plateau beside the core: a skirt explains it as well. The two end
-// elsewhere, and that fewer numbers do it tells of no tissue.
-TEST(OutlineCore, IsOneOfTwoThatEndElsewhereWhereReadingsTellNeither) {
-  const Share gentle = [](const Vec2& place) {
-    const auto disk = [&](double radius_m) {
-      return sigmoid_of(700.0 * (radius_m - (place - kMm * Vec2(20, 20)).norm()));
-    };
-    return std::max(disk(4 * kMm), 0.5 * disk(8 * kMm));
+/// Its slope is too gentle for a plateau beside the core: a skirt explains it as well.
+double gentle(const Vec2& place) {
+  const auto disk = [&](double radius_m) {
+    return sigmoid_of(700.0 * (radius_m - (place - kMm * Vec2(20, 20)).norm()));
   };
-  const auto [plain, cored] = starts_of(gentle);
+  return std::max(disk(4 * kMm), 0.5 * disk(8 * kMm));
+}
+
+// The two end elsewhere, and that fewer numbers do it tells of no tissue.
+TEST(OutlineCore, IsOneOfTwoThatEndElsewhereWhereReadingsTellNeither) {
+  const auto [plain, cored] = starts_of(gentle).of;
   EXPECT_FALSE(plain.profile.core);
   EXPECT_TRUE(cored.profile.core);
 }
 
+// A chain that begins with a core in an outline that reaches farther comes to one in the other,
+// which no reading tells from none.
+TEST(OutlineCore, IsOfOutlinesThatReachFartherAlone) {
+  ChainStarts starts = starts_of(gentle, 0.1, 3);
+  ASSERT_GT(starts.least_area_m2, 0.0);
+  for (const bool is_left : {false, true}) {
+    starts.is_left = is_left;
+    const OutlineDraws drawn = draws_from(starts, 80, 5);
+    ASSERT_EQ(drawn.draws.size(), 80U);
+    int cores = 0;
+    for (const OutlineDraw& draw : drawn.draws) {
+      if (!draw.profile.core) continue;
+      ++cores;
+      EXPECT_GE(enclosed_area(draw.outline), starts.least_area_m2);
+    }
+    EXPECT_LE(cores, 40);
+    if (is_left) {
+      EXPECT_EQ(cores, 40);
+    }
+  }
+}
+
 // It has no plateau anywhere: that it has a core is never all that is said.
-TEST(OutlineCore, IsNotClaimedOfACone) { EXPECT_FALSE(starts_of(cone).front().profile.core); }
+TEST(OutlineCore, IsNotClaimedOfACone) { EXPECT_FALSE(starts_of(cone).of.front().profile.core); }
 
 }  // namespace
 }  // namespace palpation

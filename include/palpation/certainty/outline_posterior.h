@@ -58,8 +58,8 @@ struct DrawnCore {
   SurfacePoint where;   ///< its middle
   DrawnNumber area_m2;  ///< within the outline
   DrawnNumber beside;   ///< contrast beside it, over its own
-  /// That there is one. A half where the readings do not tell (certainty/outline_core_start.h):
-  /// then as many draws are of either kind, and all that is concluded is of both.
+  /// That there is one: its share of the draws. At most a half where the readings do not tell
+  /// (certainty/outline_core_start.h): then all that is concluded is of both kinds.
   double probability = 1.0;
 };
 
