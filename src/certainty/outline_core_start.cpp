@@ -150,9 +150,7 @@ ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface,
   }
   for (const Cored& one : all.cored) {
     if (heights_by(all.plain, one.walk) == Heights::OneOrTwo)
-      return {.of = {plain, one.start},
-              .least_area_m2 = area_between(all.plain, one.walk),
-              .is_left = all.plain.has_plateau < 0.5};
+      return {.of = {plain, one.start}, .least_area_m2 = area_between(all.plain, one.walk)};
   }
   return {.of = {plain, plain}};
 }

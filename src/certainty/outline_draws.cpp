@@ -15,10 +15,10 @@ constexpr int kSettling = 400, kSweeps = 800;
 /// As often chains that do not agree go on, each time for as long as before.
 constexpr int kMostRounds = 3;
 
-/// Chains of a kind that is left, and sweeps of each.
-constexpr int kOfKind = 6, kSettlingOfKind = 150, kSweepsOfKind = 100;
-/// Fewer of all draws with a core have not left their kind yet.
-constexpr double kFew = 0.05;
+/// Chains that begin anew, and sweeps of each.
+constexpr int kThatStay = 6, kSettlingToStay = 150, kSweepsToStay = 100;
+/// Of a chain with a core, fewer draws that reach farther have not left yet.
+constexpr double kFew = 0.1;
 
 using Draws = std::vector<OutlineDraw>;
 
@@ -54,34 +54,35 @@ Draws of_kind(const Draws& drawn, double least_area_m2, int count) {
   return kept;
 }
 
-/// A chain that left its kind would stay there, and tell nothing of where it came from: of the
-/// second kind there are several, each as long as it is sure to stay.
-OutlineDraws draws_where_one_is_left(const ChainStarts& starts, int each, std::uint64_t seed) {
-  std::vector<Draws> of_chain(1 + kOfKind);
-  for_ranges(1 + kOfKind, 1, [&](int first, int last) {
+/// A chain that has left its kind stays there, and tells nothing of where it came from: of several
+/// that begin there, each as long as it is sure to stay.
+Draws draws_that_stay(const OutlineStart& start, double least_area_m2, int count,
+                      std::uint64_t seed) {
+  std::vector<Draws> of_chain(kThatStay);
+  for_ranges(kThatStay, 1, [&](int first, int last) {
     for (int chain = first; chain < last; ++chain) {
-      const bool is_first = chain == 0;
-      OutlineWalk walk = walk_from(is_first ? starts.of.front() : starts.of.back(),
-                                   (1 + kOfKind) * seed + static_cast<std::uint64_t>(chain));
-      const int settling = is_first ? kSettling : kSettlingOfKind;
-      walk.settle(settling, settling / 2);
-      of_chain[chain] =
-          is_first ? walk.draws(kSweeps, each) : walk.draws(kSweepsOfKind, kSweepsOfKind);
+      OutlineWalk walk = walk_from(start, kThatStay * seed + static_cast<std::uint64_t>(chain));
+      walk.settle(kSettlingToStay, kSettlingToStay / 2);
+      of_chain[chain] = walk.draws(kSweepsToStay, kSweepsToStay);
     }
   });
-  Draws of_second;
-  for (int chain = 1; chain <= kOfKind; ++chain)
-    std::ranges::move(of_chain[chain], std::back_inserter(of_second));
-  OutlineDraws result{.draws = std::move(of_chain.front())};
-  std::ranges::move(of_kind(of_second, starts.least_area_m2, each),
-                    std::back_inserter(result.draws));
-  return result;
+  Draws all;
+  for (Draws& some : of_chain) std::ranges::move(some, std::back_inserter(all));
+  return of_kind(all, least_area_m2, count);
 }
 
-/// Each as long as it takes to come to the other's kind, where that is as probable: then it has no
-/// core, whatever it is drawn with.
+/// Those that enclose less have none; none has where few enclose as much.
+void tell_no_core_of_less(double least_area_m2, Draws& draws) {
+  const auto is_of_kind = [&](const OutlineDraw& draw) { return encloses(draw, least_area_m2); };
+  const auto all = static_cast<double>(draws.size()),
+             of_kind = static_cast<double>(std::ranges::count_if(draws, is_of_kind));
+  for (OutlineDraw& draw : draws) {
+    if (of_kind < kFew * all || !is_of_kind(draw)) draw.profile.core.reset();
+  }
+}
+
 OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64_t seed) {
-  std::vector<Draws> of_chain(kChains);
+  std::array<Draws, kChains> of_chain;
   for_ranges(kChains, 1, [&](int first, int last) {
     for (int chain = first; chain < last; ++chain) {
       OutlineWalk walk =
@@ -90,17 +91,13 @@ OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64
       of_chain[chain] = walk.draws(kSweeps, each);
     }
   });
-  const auto is_of_second = [&](const OutlineDraw& draw) {
-    return encloses(draw, starts.least_area_m2);
-  };
-  Draws& of_second = of_chain.back();
-  const auto count = static_cast<double>(std::ranges::count_if(of_second, is_of_second));
-  const bool are_few = count < kFew * kChains * each;
-  for (OutlineDraw& draw : of_second) {
-    if (are_few || !is_of_second(draw)) draw.profile.core.reset();
-  }
-  OutlineDraws result{.draws = std::move(of_chain.front())};
-  std::ranges::move(of_second, std::back_inserter(result.draws));
+  auto& [plain, cored] = of_chain;
+  if (2 * std::ranges::count_if(plain, &OutlineDraw::has_plateau) < each)
+    cored = draws_that_stay(starts.of.back(), starts.least_area_m2, each, seed);
+  else
+    tell_no_core_of_less(starts.least_area_m2, cored);
+  OutlineDraws result{.draws = std::move(plain)};
+  std::ranges::move(cored, std::back_inserter(result.draws));
   return result;
 }
 
@@ -108,9 +105,7 @@ OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64
 
 OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed) {
   const int each = count / kChains;
-  if (!starts.are_alike())
-    return starts.is_left ? draws_where_one_is_left(starts, each, seed)
-                          : draws_of_two_kinds(starts, each, seed);
+  if (!starts.are_alike()) return draws_of_two_kinds(starts, each, seed);
   std::vector<OutlineWalk> walks;
   for (int chain = 0; chain < kChains; ++chain)
     walks.push_back(

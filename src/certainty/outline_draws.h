@@ -18,8 +18,6 @@ struct ChainStarts {
   /// Within an outline of the second chain, where the two are of two kinds: what encloses less is
   /// of the first one's, whatever it has besides.
   double least_area_m2 = 0.0;
-  /// A chain of the second kind comes to be of the first one's though readings tell neither.
-  bool is_left = false;
 
   bool are_alike() const {
     return of.front().profile.core.has_value() == of.back().profile.core.has_value();
@@ -34,8 +32,10 @@ struct OutlineDraws {
 };
 
 /// So many, of chains that go on for longer where they do not agree: those of two kinds, with a
-/// core and without, are not asked to. Of these the second, where its kind is left, begins anew
-/// several times, and only what is of its kind is taken; else what is not is told to have no core.
+/// core and without, are not asked to. Of these the second may come to be of the first one's: what
+/// has is told to have no core. Where that tells nothing, because without a core tissue rises up to
+/// its middle, and bends follow two heights, it begins anew several times instead, and only what is
+/// of its kind is taken.
 OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed);
 
 }  // namespace palpation

@@ -214,7 +214,7 @@ OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const
   const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
   OutlineDraws drawn = draws_from(starts, options.draws, options.seed);
   if (!starts.of.front().profile.core || drawn.do_agree()) return drawn;
-  return draws_from({{plain, starts.of.front()}, starts.least_area_m2, true}, options.draws,
+  return draws_from({{plain, starts.of.front()}, starts.least_area_m2}, options.draws,
                     options.seed);
 }
 
