@@ -16,7 +16,7 @@ namespace {
 constexpr double kFalseAlarms = 0.02;
 constexpr double kLevel = 0.9;  ///< of the way up: it levels off
 constexpr double kSeldom = 0.05;
-constexpr int kWeighed = 50;  ///< sweeps
+constexpr int kSettling = 150, kWeighed = 50;  ///< sweeps
 
 const double kChance = -std::log(kFalseAlarms);
 const double kRuledOut = std::log(1000.0);  ///< by odds of a thousand to one
@@ -116,9 +116,9 @@ double most_gained(const SettledOutline& of_two) {
 
 }  // namespace
 
-SettledOutline settled(const OutlineStart& start, std::uint64_t seed, int sweeps) {
+SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
-  walk.settle(sweeps, sweeps / 2);
+  walk.settle(kSettling, kSettling / 2);
   SettledOutline sum;
   sum.readings.resize(start.readings.places.size());
   Room<5> cores;

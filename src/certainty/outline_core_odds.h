@@ -31,8 +31,7 @@ struct SettledOutline {
   /// There is no second height.
   bool is_level() const { return level > 0.5; }
 };
-/// In fifty sweeps after so many.
-SettledOutline settled(const OutlineStart& start, std::uint64_t seed, int sweeps);
+SettledOutline settled(const OutlineStart& start, std::uint64_t seed);
 
 /// How improbable it is that readings beside the core read alike by chance, nats: of those that are
 /// on no plateau of an outline of one height, whose edge could have followed any others.

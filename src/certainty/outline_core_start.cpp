@@ -19,8 +19,6 @@ namespace {
 /// Contrasts beside a core that are tried, of its own.
 constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
 
-constexpr int kSettling = 150;  ///< sweeps
-
 /// Of one part.
 OutlineNodes part_of(const OutlineNodes& outline, int part) {
   OutlineNodes alone;
@@ -123,7 +121,7 @@ SettledOutlines settled_outlines(const OutlineStart& plain, const Surface& surfa
   for_ranges(static_cast<int>(starts.size()), 1, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       if (i > 0) starts[i] = pruned(std::move(starts[i]), seed);
-      walks[i] = settled(starts[i], seed, kSettling);
+      walks[i] = settled(starts[i], seed);
     }
   });
   SettledOutlines all{.plain = walks.front()};
@@ -144,6 +142,7 @@ SettledOutlines settled_outlines(const OutlineStart& plain, const Surface& surfa
 ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface, const Field& mean,
                               std::uint64_t seed) {
   const SettledOutlines all = settled_outlines(plain, surface, mean, seed);
+  // What surely is of two is taken before what may be, which may begin elsewhere.
   for (const Cored& one : all.cored) {
     if (heights_by(all.plain, one.walk) == Heights::Two)
       return {.of = {one.start, one.start}, .least_area_m2 = area_between(all.plain, one.walk)};
