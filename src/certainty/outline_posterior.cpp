@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kVerticesAtOnce = 256;
 constexpr double kLeastSpread_m = 1e-6;
+constexpr double kNormalFourth = 3.0;  ///< moment, over the variance's square
 constexpr int kFewestDraws = 20;
 /// Of what is felt where it is deepest: what reaches so much of that half way there levels off.
 constexpr double kLevel = 0.9;
@@ -141,16 +142,31 @@ double mean_edge_m(const Surface& surface) {
   return std::sqrt(2.0 * surface.area() / surface.face_count());
 }
 
-/// Standard deviation of the depths at each vertex.
-Field spread_of(const Eigen::MatrixXf& depths) {
-  Field spread(depths.cols());
+/// Over each vertex and its neighbours: of faces' means the mean.
+Field mean_around(const Surface& surface, const Field& values) {
+  Field sum = Field::Zero(values.size());
+  Field faces = Field::Zero(values.size());
+  for (int face = 0; face < surface.face_count(); ++face) {
+    const Eigen::Vector3i corners = surface.triangle(face);
+    sum(corners).array() += values(corners).mean();
+    faces(corners).array() += 1.0;
+  }
+  return sum.cwiseQuotient(faces);
+}
+
+/// Of the depths at each vertex, by their fourth moment: a standard deviation where they are
+/// normal, more where some lie far off, which is what a band of the whole outline has to hold. It
+/// changes slowly from vertex to vertex: the score is linear between them, and where one was
+/// divided by twice as much as the next, it would be zero beside the boundary.
+Field spread_of(const Surface& surface, const Eigen::MatrixXf& depths) {
+  Field fourth(depths.cols());
   for_ranges(static_cast<int>(depths.cols()), kVerticesAtOnce, [&](int first, int last) {
     for (int vertex = first; vertex < last; ++vertex) {
       const Eigen::ArrayXd here = depths.col(vertex).cast<double>();
-      spread[vertex] = std::max(kLeastSpread_m, std::sqrt((here - here.mean()).square().mean()));
+      fourth[vertex] = (here - here.mean()).pow(4).mean();
     }
   });
-  return spread;
+  return (mean_around(surface, fourth).array() / kNormalFourth).pow(0.25).max(kLeastSpread_m);
 }
 
 /// What of the region and of the draws does not overlap, and the draws' areas.
@@ -244,7 +260,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
       drawn_from(pruned(*std::move(first), options.seed), surface, mean, options);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
-                             .spread = spread_of(depths),
+                             .spread = spread_of(surface, depths),
                              .farthest = {},
                              .expected = {},
                              .area_m2 = {},

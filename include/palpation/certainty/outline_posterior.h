@@ -66,7 +66,8 @@ struct DrawnCore {
 struct OutlinePosterior {
   Field depth;   ///< at the vertices, metres, positive inside: the median of the draws', so that it
                  ///< is positive where a place is inside in more than half of them
-  Field spread;  ///< standard deviation of the draws' depths at the vertices, metres
+  Field spread;  ///< of the draws' depths at the vertices and beside them, metres: by the fourth
+                 ///< moment, over a normal law's, so that it is a standard deviation of that
   std::vector<double> farthest;  ///< of each draw, rising: how many `spread` its outline reaches
                                  ///< from the other chain's boundary where it is farthest from it
   ExpectedError expected;        ///< of the region { depth >= 0 }: the mean over the draws
