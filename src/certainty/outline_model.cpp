@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kWildReach = 6.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
 constexpr double kTurnLogSd = 1.0;  ///< of the turns' half width
+constexpr double kBendLogSd = 1.0;
 constexpr double kPlateau = 2.0 / 3.0;  ///< part of the tumours that are as equation 4 has them
 constexpr double kUnbentLogSd = 0.25;   ///< of shoulder and skirt there
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
@@ -117,13 +118,11 @@ double log_turns_density(const OutlineNodes& outline, int first, int count,
   const bool is_whole = count == outline.loops[outline.loop_of[first]].count;
   double here = turn_off_even(outline, first), sum = 0.0;
   if (!is_whole)
-    sum +=
-        log_bend_density(here - turn_off_even(outline, outline.before(first)), profile.turns.kind);
+    sum += log_bend_density(here - turn_off_even(outline, outline.before(first)), profile.turns);
   for (int i = 0, node = first; i < count; ++i) {
     node = outline.next(node);
     const double after = turn_off_even(outline, node);
-    sum +=
-        log_turn_density(here, profile.turns) + log_bend_density(after - here, profile.turns.kind);
+    sum += log_turn_density(here, profile.turns) + log_bend_density(after - here, profile.turns);
     here = after;
   }
   return sum;
@@ -160,7 +159,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
       half_square((profile.low - median.low) / prior.plateau_sd) +
       half_square((profile.high - median.high) / prior.plateau_sd) +
       half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
-      half_square((profile.turns.log_half_width - median.turns.log_half_width) / kTurnLogSd);
+      half_square((profile.turns.log_half_width - median.turns.log_half_width) / kTurnLogSd) +
+      half_square((profile.turns.log_bend - median.turns.log_bend) / kBendLogSd);
   if (profile.lean)
     sum += half_square(profile.lean->norm() / kLean) +
            std::log(2.0 * std::numbers::pi * kLean * kLean);

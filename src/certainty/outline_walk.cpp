@@ -215,10 +215,11 @@ void OutlineWalk::move_profile() {
                                         lean != nullptr ? &lean->y() : nullptr,
                                         &profile.log_shoulder,
                                         &profile.log_skirt,
-                                        &profile.turns.log_half_width};
+                                        &profile.turns.log_half_width,
+                                        &profile.turns.log_bend};
     if (number[i] == nullptr) continue;
     *number[i] += lengths_.of_profile[i] * random_.normal();
-    const bool is_turn = i == kOfProfile - 1;
+    const bool is_turn = i >= kOfProfile - kOfTurns;
     tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);
   }
   for (std::size_t part = 1; part < lengths_.of_contrasts.size(); ++part) {

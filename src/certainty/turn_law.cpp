@@ -5,24 +5,32 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "base/normal.h"
 
 namespace palpation {
 namespace {
 
-/// Of the turn of a piece of a millimetre on a circle of 4 mm, the least radius of small tumours.
-constexpr double kBend = 0.25;
-constexpr double kCornersOfSmooth = 0.1;  ///< of B, where a turn stays
-constexpr double kCornersOfAngular = 0.4;
+/// As often as bends that are none, over how wide these are, where a turn stays.
+constexpr double kCornersOfSmooth = 0.45, kCornersOfAngular = 2.7;
 constexpr double kCornerBend = 2.5;  ///< half width of Cauchy's law of theirs
 
 constexpr int kTurns = 96;
 constexpr int kTogether = 12;  ///< turns whose sum tells their variance
 constexpr double kLeastCosine = 1e-3;
-constexpr double kLeast = -7.0, kStep = 0.25;  ///< of log half widths that are tabulated
-constexpr int kTabulated = 41;
+
+/// Of logarithms that are tabulated; what lies beyond is taken for the first and the last.
+struct Places {
+  double least, step;
+  int count;
+
+  double operator[](int place) const { return least + step * place; }
+  double last() const { return (*this)[count - 1]; }
+};
+constexpr Places kOfHalfWidths = {-7.0, 0.25, 41}, kOfBends = {-4.0, 0.25, 21};
 
 /// By turns as dense as their asinh in half widths is even; a chain of turns whose kernel is K has
 /// the square of K's first eigenvector for its law, and K over its eigenvalue steps from one turn
@@ -40,8 +48,8 @@ TurnLaw calculated(const Turns& of) {
   Eigen::MatrixXd kernel(kTurns, kTurns);
   for (int i = 0; i < kTurns; ++i) {
     for (int j = 0; j < kTurns; ++j)
-      kernel(i, j) = std::sqrt(weight[i] * weight[j]) *
-                     std::exp(log_bend_density(turns[i] - turns[j], of.kind));
+      kernel(i, j) =
+          std::sqrt(weight[i] * weight[j]) * std::exp(log_bend_density(turns[i] - turns[j], of));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(kernel);
   const double largest = eigen.eigenvalues()[kTurns - 1];
@@ -55,17 +63,43 @@ TurnLaw calculated(const Turns& of) {
   return {std::log(largest), -2.0 * std::log(cosine) / kTogether};
 }
 
-using Table = std::array<TurnLaw, kTabulated>;
+/// Of one kind, each calculated when it is asked for first.
+class TurnTable {
+ public:
+  explicit TurnTable(LineKind kind) : kind_(kind) {}
 
-Table table_of(LineKind kind) {
-  Table all;
-  for (int i = 0; i < kTabulated; ++i) all[i] = calculated({kLeast + kStep * i, kind});
-  return all;
+  const TurnLaw& at(int half_width, int bend) {
+    Cell& cell = cells_[static_cast<std::size_t>(half_width * kOfBends.count + bend)];
+    std::call_once(cell.is_known, [&] {
+      cell.law = calculated({kOfHalfWidths[half_width], kind_, kOfBends[bend]});
+    });
+    return cell.law;
+  }
+
+ private:
+  struct Cell {
+    std::once_flag is_known;
+    TurnLaw law;
+  };
+  LineKind kind_;
+  std::array<Cell, static_cast<std::size_t>(kOfHalfWidths.count* kOfBends.count)> cells_;
+};
+
+TurnTable& table(LineKind kind) {
+  static TurnTable smooth(LineKind::Smooth), angular(LineKind::Angular);
+  return kind == LineKind::Smooth ? smooth : angular;
 }
 
-const Table& table(LineKind kind) {
-  static const Table smooth = table_of(LineKind::Smooth), angular = table_of(LineKind::Angular);
-  return kind == LineKind::Smooth ? smooth : angular;
+/// Between which two it lies, and how far from the first.
+std::pair<int, double> place_among(const Places& places, double number) {
+  const double place = std::clamp((number - places.least) / places.step, 0.0, places.count - 1.001);
+  const int below = static_cast<int>(place);
+  return {below, place - below};
+}
+
+TurnLaw between(const TurnLaw& some, const TurnLaw& others, double part) {
+  return {std::lerp(some.log_share, others.log_share, part),
+          std::exp(std::lerp(std::log(some.variance), std::log(others.variance), part))};
 }
 
 }  // namespace
@@ -75,20 +109,20 @@ double log_turn_density(double off, const Turns& turns) {
   return -std::log1p(half_widths * half_widths) - turns.log_half_width;
 }
 
-double log_bend_density(double differ, LineKind kind) {
-  const double corners = kind == LineKind::Smooth ? kCornersOfSmooth : kCornersOfAngular,
-               corner = differ / kCornerBend;
-  return std::log((1.0 - corners) * std::exp(-half_square(differ / kBend)) +
-                  corners / (1.0 + corner * corner));
+double log_bend_density(double differ, const Turns& turns) {
+  const double bend = std::exp(std::clamp(turns.log_bend, kOfBends.least, kOfBends.last())),
+               corner = differ / kCornerBend,
+               corners = turns.kind == LineKind::Smooth ? kCornersOfSmooth : kCornersOfAngular;
+  return std::log(std::exp(-half_square(differ / bend)) + corners * bend / (1.0 + corner * corner));
 }
 
 TurnLaw turn_law(const Turns& turns) {
-  const double place = std::clamp((turns.log_half_width - kLeast) / kStep, 0.0, kTabulated - 1.001);
-  const int below = static_cast<int>(place);
-  const double part = place - below;
-  const TurnLaw &some = table(turns.kind)[below], &others = table(turns.kind)[below + 1];
-  return {std::lerp(some.log_share, others.log_share, part),
-          std::exp(std::lerp(std::log(some.variance), std::log(others.variance), part))};
+  const auto [width, of_width] = place_among(kOfHalfWidths, turns.log_half_width);
+  const auto [bend, of_bend] = place_among(kOfBends, turns.log_bend);
+  TurnTable& laws = table(turns.kind);
+  return between(between(laws.at(width, bend), laws.at(width + 1, bend), of_width),
+                 between(laws.at(width, bend + 1), laws.at(width + 1, bend + 1), of_width),
+                 of_bend);
 }
 
 }  // namespace palpation

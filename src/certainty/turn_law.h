@@ -6,13 +6,15 @@
 ///
 /// C Cauchy's law of some half width, up to half a turn: corners and horns are as likely as its
 /// tails make them; B of how unlike the turn is from one node to the next, over how it is where it
-/// stays: normal, as little as where a line begins or ends to curve with a least radius, and far
-/// wider, as where a corner begins or ends, at a tenth of that height in a smooth line, at two
-/// thirds in an angular one. Without B lines between readings would wander as the corners elsewhere
-/// have them turn. Z is the trace of K^n, K(t, t') = (C(t) C(t'))^(1/2) B(t - t'), of a dozen nodes
-/// and more its largest eigenvalue to the n. That half a turn is the most of an even turn and t_i
+/// stays, but for a factor: normal, by as much as the line begins or ends to curve, which is
+/// learned, and far wider, as where a corner begins or ends, six times as often in an angular line
+/// as in a smooth one. Without B lines between readings would wander as the corners elsewhere have
+/// them turn. Z is the trace of K^n, K(t, t') = (C(t) C(t'))^(1/2) B(t - t'), of a dozen nodes and
+/// more its largest eigenvalue to the n. That half a turn is the most of an even turn and t_i
 /// together is neglected.
 #pragma once
+
+#include <cmath>
 
 namespace palpation {
 
@@ -20,13 +22,14 @@ enum class LineKind { Smooth, Angular };
 struct Turns {
   double log_half_width = 0.0;  ///< of C, radians
   LineKind kind = LineKind::Angular;
+  double log_bend = std::log(0.1);  ///< of B's normal part, radians
 };
 
 /// Log of C at a turn that is off so much, radians, but for a constant.
 double log_turn_density(double off, const Turns& turns);
 
-/// Log of B, where two turns in a row differ by so much.
-double log_bend_density(double differ, LineKind kind);
+/// Log of B, where two turns in a row differ by so much, but for a constant.
+double log_bend_density(double differ, const Turns& turns);
 
 /// Of lines of such turns.
 struct TurnLaw {

@@ -7,6 +7,7 @@
 #include "certainty/outline_model.h"
 #include "certainty/outline_walk.h"
 #include "certainty/turn_law.h"
+#include "drawn_turns.h"
 
 namespace palpation {
 namespace {
@@ -51,13 +52,10 @@ double within_half_a_turn(double angle) { return std::remainder(angle, 2.0 * std
 /// turns at its ends and all bends are.
 double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& random) {
   constexpr int kLines = 200'000;
-  const double even = 2.0 * std::numbers::pi / nodes, turn = std::exp(turns.log_half_width);
-  const auto density = [&](double off) {
-    return 1.0 / (std::numbers::pi * turn * (1.0 + off * off / (turn * turn)));
-  };
+  const double even = 2.0 * std::numbers::pi / nodes;
   double sum = 0.0;
   for (int line = 0; line < kLines; ++line) {
-    double direction = 0.0;
+    double direction = 0.0, log_weight = 0.0;
     Vec2 end = Vec2::Zero();
     bool is_within = true;
     std::vector<double> off;
@@ -65,7 +63,10 @@ double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& rand
       const double length = std::exp(kPieceLogSd * random.normal());
       end += length * Vec2(std::cos(direction), std::sin(direction));
       if (piece + 2 == nodes) break;
-      off.push_back(turn * std::tan(std::numbers::pi * (random.uniform() - 0.5)));
+      const DrawnTurn turn =
+          off.empty() ? first_turn(turns, random) : next_turn(off.back(), turns, random);
+      off.push_back(turn.off);
+      log_weight += turn.log_weight;
       is_within = is_within && std::abs(even + off.back()) < std::numbers::pi;
       direction += even + off.back();
     }
@@ -75,11 +76,10 @@ double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& rand
     if (!is_within || std::abs(direction + turned + last - 2.0 * std::numbers::pi) > 1e-6) continue;
     off.push_back(turned - even);
     off.push_back(last - even);
-    double log_bends = 0.0;
-    for (int i = 0; i < nodes; ++i)
-      log_bends += log_bend_density(off[(i + 1) % nodes] - off[i], turns.kind);
-    sum += density(off[nodes - 2]) * density(off[nodes - 1]) * std::exp(log_bends) *
-           std::exp(-0.5 * z * z) /
+    for (int i : {nodes - 2, nodes - 1})
+      log_weight += log_cauchy(off[i], turns) + log_bend_density(off[i] - off[i - 1], turns);
+    log_weight += log_bend_density(off.front() - off.back(), turns);
+    sum += std::exp(log_weight - 0.5 * z * z) /
            (kPieceLogSd * std::sqrt(2.0 * std::numbers::pi) * length * length);
   }
   return sum / kLines;
@@ -108,7 +108,7 @@ TEST(OutlineShape, LinesOfPiecesTwiceAsLongCloseAQuarterAsDensely) {
 // With neither readings nor a price of closing, seven loops would be circles: their turns' half
 // width would lie seven standard deviations below its median.
 TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
-  const auto log_turn = [](int loops) {
+  for (const int loops : {1, 7}) {
     OutlineNodes outline;
     for (int i = 0; i < loops; ++i) {
       std::vector<Vec2> line = polygon(24).place;
@@ -122,13 +122,14 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
     const OutlineReadings nothing;
     OutlineWalk walk(nothing, prior, outline, prior.median, 42);
     walk.settle(300);
-    double mean = 0.0;
-    for (const OutlineDraw& draw : walk.draws(2000, 500))
-      mean += draw.profile.turns.log_half_width / 500.0;
-    return mean - prior.median.turns.log_half_width;
-  };
-  EXPECT_NEAR(log_turn(1), 0.0, 1.0);
-  EXPECT_NEAR(log_turn(7), 0.0, 1.0);
+    double log_turn = 0.0, log_bend = 0.0;
+    for (const OutlineDraw& draw : walk.draws(2000, 500)) {
+      log_turn += draw.profile.turns.log_half_width / 500.0;
+      log_bend += draw.profile.turns.log_bend / 500.0;
+    }
+    EXPECT_NEAR(log_turn, prior.median.turns.log_half_width, 1.0) << loops;
+    EXPECT_NEAR(log_bend, prior.median.turns.log_bend, 1.5) << loops;
+  }
 }
 
 // With no readings, every second outline leans and every second is smooth, as they are beforehand.

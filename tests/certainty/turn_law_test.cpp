@@ -1,12 +1,14 @@
-// The law of a closed line's turns, against turns that are drawn independently and weighed.
+// The law of a closed line's turns, against turns that are drawn and weighed.
 #include "certainty/turn_law.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "drawn_turns.h"
 #include "palpation/base/random.h"
 
 namespace palpation {
@@ -20,48 +22,56 @@ struct Drawn {
   double all_around = 0.0;  ///< mean cosine of the sum of all turns, so weighed
 };
 Drawn drawn_lines(const Turns& of, Random& random) {
-  const double half_width = std::exp(of.log_half_width);
   constexpr int kLines = 200'000;
-  const double most = std::atan(std::numbers::pi / half_width);
   Drawn drawn;
   for (int line = 0; line < kLines; ++line) {
-    std::array<double, kNodes> turns{};
-    double sum = 0.0, log_weight = 0.0;
-    for (double& turn : turns) {
-      turn = half_width * std::tan(most * (2.0 * random.uniform() - 1.0));
-      sum += turn;
+    DrawnTurn turn = first_turn(of, random);
+    const double first = turn.off;
+    double sum = first, log_weight = 0.0;
+    bool is_within = std::abs(first) < std::numbers::pi;
+    for (int i = 1; i < kNodes; ++i) {
+      turn = next_turn(turn.off, of, random);
+      sum += turn.off;
+      log_weight += turn.log_weight;
+      is_within = is_within && std::abs(turn.off) < std::numbers::pi;
     }
-    for (int i = 0; i < kNodes; ++i)
-      log_weight += log_bend_density(turns[(i + 1) % kNodes] - turns[i], of.kind);
+    if (!is_within) continue;
+    log_weight += log_bend_density(first - turn.off, of);
     drawn.weight += std::exp(log_weight) / kLines;
     drawn.all_around += std::exp(log_weight) * std::cos(sum) / kLines;
   }
-  // Cauchy's law up to half a turn.
-  drawn.weight *= std::pow(most / (0.5 * std::numbers::pi), kNodes);
-  drawn.all_around *= std::pow(most / (0.5 * std::numbers::pi), kNodes);
   return drawn;
+}
+
+std::vector<Turns> kinds_of_turns(const std::vector<double>& log_half_widths) {
+  std::vector<Turns> all;
+  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
+    for (const double bend : {0.1, 0.25}) {
+      for (const double log_half_width : log_half_widths)
+        all.push_back({log_half_width, kind, std::log(bend)});
+    }
+  }
+  return all;
+}
+
+std::string text_of(const Turns& turns) {
+  return std::to_string(turns.log_half_width) + ", " + std::to_string(turns.log_bend);
 }
 
 TEST(TurnLaw, IsDividedByWhatAllLinesHave) {
   Random random(51);
-  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
-    for (const double log_half_width : {-4.0, -2.3, -1.1, 0.0}) {
-      const double drawn = drawn_lines({log_half_width, kind}, random).weight;
-      EXPECT_NEAR(kNodes * turn_law({log_half_width, kind}).log_share / std::log(drawn), 1.0, 0.03)
-          << log_half_width;
-    }
+  for (const Turns& turns : kinds_of_turns({-4.0, -2.3, -1.1, 0.0})) {
+    const double drawn = drawn_lines(turns, random).weight;
+    EXPECT_NEAR(kNodes * turn_law(turns).log_share / std::log(drawn), 1.0, 0.03) << text_of(turns);
   }
 }
 
 TEST(TurnLaw, LinesPointApartAsDrawnOnesDo) {
   Random random(52);
-  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
-    for (const double log_half_width : {-4.0, -2.3, -1.1}) {
-      const Drawn drawn = drawn_lines({log_half_width, kind}, random);
-      const double variance = -2.0 * std::log(drawn.all_around / drawn.weight) / kNodes;
-      EXPECT_NEAR(std::log(turn_law({log_half_width, kind}).variance / variance), 0.0, 0.15)
-          << log_half_width;
-    }
+  for (const Turns& turns : kinds_of_turns({-4.0, -2.3, -1.1})) {
+    const Drawn drawn = drawn_lines(turns, random);
+    const double variance = -2.0 * std::log(drawn.all_around / drawn.weight) / kNodes;
+    EXPECT_NEAR(std::log(turn_law(turns).variance / variance), 0.0, 0.2) << text_of(turns);
   }
 }
 
@@ -79,11 +89,27 @@ TEST(TurnLaw, IsKnownHoweverWideItIs) {
   }
 }
 
-// By hand: 0.9 exp(-2) + 0.1 / (1 + 0.04), and with 0.6 and 0.4.
+// The more a line bends, the more lines there are, and the wider do they turn; beyond what is
+// tabulated no more, or the density would grow without end.
+TEST(TurnLaw, IsKnownHoweverMuchLinesBend) {
+  for (const LineKind kind : {LineKind::Smooth, LineKind::Angular}) {
+    TurnLaw before = turn_law({-2.0, kind, -9.0});
+    for (double log_bend = -3.9; log_bend < 1.0; log_bend += 0.1) {
+      const TurnLaw law = turn_law({-2.0, kind, log_bend});
+      EXPECT_GE(law.variance, before.variance) << log_bend;
+      EXPECT_GT(law.log_share, before.log_share) << log_bend;
+      before = law;
+    }
+    EXPECT_EQ(turn_law({-2.0, kind, 1.0}).log_share, turn_law({-2.0, kind, 40.0}).log_share);
+    EXPECT_EQ(log_bend_density(1.0, {-2.0, kind, 1.0}), log_bend_density(1.0, {-2.0, kind, 40.0}));
+  }
+}
+
+// By hand: exp(-2) + 0.45 * 0.25 / (1 + 0.04), and with 2.7.
 TEST(TurnLaw, BendsAreAsLikelyAsByHand) {
-  EXPECT_NEAR(log_bend_density(0.5, LineKind::Smooth), std::log(0.2179556), 1e-6);
-  EXPECT_NEAR(log_bend_density(0.5, LineKind::Angular), std::log(0.4658166), 1e-6);
-  EXPECT_EQ(log_bend_density(0.0, LineKind::Smooth), 0.0);
+  const double log_bend = std::log(0.25);
+  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Smooth, log_bend}), std::log(0.2435083), 1e-6);
+  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Angular, log_bend}), std::log(0.7843737), 1e-6);
 }
 
 }  // namespace

@@ -1,0 +1,40 @@
+// Turns of a line, drawn one after the other and weighed: the law's slow twin.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "certainty/turn_law.h"
+#include "palpation/base/random.h"
+
+namespace palpation {
+
+struct DrawnTurn {
+  double off = 0.0;
+  double log_weight = 0.0;  ///< Of C at it and, but for the first, B since the last, over what it
+                            ///< was drawn by.
+};
+
+inline double log_cauchy(double off, const Turns& turns) {
+  return log_turn_density(off, turns) - std::log(std::numbers::pi);
+}
+
+inline DrawnTurn first_turn(const Turns& turns, Random& random) {
+  return {std::exp(turns.log_half_width) * std::tan(std::numbers::pi * (random.uniform() - 0.5))};
+}
+
+// Near the last one where lines bend by less than they turn, else as C has it; either now and then.
+inline DrawnTurn next_turn(double last, const Turns& turns, Random& random) {
+  const double bend = std::exp(turns.log_bend), half_width = std::exp(turns.log_half_width),
+               near_it = std::clamp(half_width / (half_width + bend), 0.1, 0.9);
+  const double off =
+      random.uniform() < near_it ? last + bend * random.normal() : first_turn(turns, random).off;
+  const double z = (off - last) / bend,
+               near = std::exp(-0.5 * z * z) / (bend * std::sqrt(2.0 * std::numbers::pi)),
+               anywhere = std::exp(log_cauchy(off, turns));
+  return {off, log_cauchy(off, turns) + log_bend_density(off - last, turns) -
+                   std::log(std::lerp(anywhere, near, near_it))};
+}
+
+}  // namespace palpation
