@@ -165,14 +165,18 @@ double area_between(const SettledOutline& of_one, const SettledOutline& of_two) 
 /// An outline of one height follows such readings as lie on a plateau beside the core by fingers,
 /// and could have followed any: that they read alike speaks for the core. Where that is not surely
 /// so, tissue may as well rise all the way up to its middle: then readings that make a core more
-/// probable tell neither. Nor do those that do not, where the two end elsewhere, unless they make
-/// one height surely more probable. That one height takes fewer numbers speaks for it where it has
-/// a plateau, as equation 4 has it: bends follow any heights.
+/// probable tell neither, unless one height has a plateau all the same, and is ruled out twice
+/// over. Nor do those that do not, where the two end elsewhere, unless they rule a second height
+/// out. That one height takes fewer numbers speaks for it where it has a plateau, as equation 4 has
+/// it: bends follow any heights.
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two) {
   const double by_alike = alike(of_one, of_two),
                gained = std::min(of_two.log_odds + by_alike - of_one.log_odds, most_gained(of_two));
-  if (of_two.level < kSeldom && by_alike > kChance && gained > kChance) return Heights::Two;
-  const double at_most = of_one.has_plateau > 0.5 ? gained : gained - of_two.log_room;
+  const bool has_plateau = of_one.has_plateau > 0.5,
+             rules_one_out =
+                 by_alike > kChance ? gained > kRuledOut : has_plateau && gained > 2.0 * kRuledOut;
+  if (of_two.level < kSeldom && rules_one_out) return Heights::Two;
+  const double at_most = has_plateau ? gained : gained - of_two.log_room;
   const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kRuledOut);
   return is_open ? Heights::OneOrTwo : Heights::One;
 }

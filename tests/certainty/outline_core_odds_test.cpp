@@ -32,7 +32,7 @@ TEST(OutlineCoreOdds, AreThoseOfReadingsAloneWhereOneHeightHasNoPlateau) {
 }
 
 TEST(OutlineCoreOdds, ReadingsThatOneHeightHasOnItsPlateauSpeakForNoCore) {
-  SettledOutline one = settled_at(100.0, 80.0), two = settled_at(100.0, 120.0);
+  SettledOutline one = settled_at(100.0, 80.0), two = settled_at(102.0, 120.0);
   one.readings = {{.on_plateau = 1.0}, {.on_plateau = 0.0}, {.on_plateau = 0.5}};
   two.readings = {{.on_plateau = 1.0, .alike = 40.0},
                   {.on_plateau = 1.0, .alike = 3.0},
@@ -43,6 +43,14 @@ TEST(OutlineCoreOdds, ReadingsThatOneHeightHasOnItsPlateauSpeakForNoCore) {
   EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
   one.readings[1].on_plateau = 1.0;
   EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
+}
+
+// A thousand to one, twice over, are 13.8 nats.
+TEST(OutlineCoreOdds, OfAMillionToOneAreForACoreWhateverReadsAlikeWhereOneHeightHasAPlateau) {
+  const SettledOutline one = settled_at(100.0, 80.0);
+  EXPECT_EQ(heights_by(one, settled_at(113.0, 120.0)), Heights::OneOrTwo);
+  EXPECT_EQ(heights_by(one, settled_at(115.0, 120.0)), Heights::Two);
+  EXPECT_EQ(heights_by(settled_at(100.0, 80.0, 0.1), settled_at(115.0, 120.0)), Heights::OneOrTwo);
 }
 
 // Half of the time where a sixth was probable beforehand: one height is three times as probable.
