@@ -163,7 +163,7 @@ Field spread_of(const Surface& surface, const Eigen::MatrixXf& depths) {
   for_ranges(static_cast<int>(depths.cols()), kVerticesAtOnce, [&](int first, int last) {
     for (int vertex = first; vertex < last; ++vertex) {
       const Eigen::ArrayXd here = depths.col(vertex).cast<double>();
-      fourth[vertex] = (here - here.mean()).pow(4).mean();
+      fourth[vertex] = (here - here.mean()).square().square().mean();
     }
   });
   return (mean_around(surface, fourth).array() / kNormalFourth).pow(0.25).max(kLeastSpread_m);

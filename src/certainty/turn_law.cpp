@@ -14,8 +14,9 @@
 namespace palpation {
 namespace {
 
-/// As often as bends that are none, over how wide these are, where a turn stays.
-constexpr double kCornersOfSmooth = 0.45, kCornersOfAngular = 2.7;
+/// Bends of corners where a turn stays, over how wide those are that are none: at their median a
+/// ninth as high as these, and two thirds.
+constexpr double kCornersOfSmooth = 1.1, kCornersOfAngular = 6.7;
 constexpr double kCornerBend = 2.5;  ///< half width of Cauchy's law of theirs
 
 constexpr int kTurns = 96;

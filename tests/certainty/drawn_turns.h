@@ -1,7 +1,6 @@
 // Turns of a line, drawn one after the other and weighed: the law's slow twin.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,10 +23,13 @@ inline DrawnTurn first_turn(const Turns& turns, Random& random) {
   return {std::exp(turns.log_half_width) * std::tan(std::numbers::pi * (random.uniform() - 0.5))};
 }
 
-// Near the last one where lines bend by less than they turn, else as C has it; either now and then.
+// Near the last one as often as bends that are no corner's lead there, unless C is narrower than
+// these; else as C has it.
 inline DrawnTurn next_turn(double last, const Turns& turns, Random& random) {
   const double bend = std::exp(turns.log_bend), half_width = std::exp(turns.log_half_width),
-               near_it = std::clamp(half_width / (half_width + bend), 0.1, 0.9);
+               no_corner = bend * std::sqrt(2.0 * std::numbers::pi) *
+                           std::exp(log_cauchy(last, turns)) * half_width / (half_width + bend),
+               near_it = no_corner / (no_corner + std::exp(log_bend_density(1.0, turns)));
   const double off =
       random.uniform() < near_it ? last + bend * random.normal() : first_turn(turns, random).off;
   const double z = (off - last) / bend,

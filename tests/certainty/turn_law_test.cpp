@@ -62,7 +62,7 @@ TEST(TurnLaw, IsDividedByWhatAllLinesHave) {
   Random random(51);
   for (const Turns& turns : kinds_of_turns({-4.0, -2.3, -1.1, 0.0})) {
     const double drawn = drawn_lines(turns, random).weight;
-    EXPECT_NEAR(kNodes * turn_law(turns).log_share / std::log(drawn), 1.0, 0.03) << text_of(turns);
+    EXPECT_NEAR(kNodes * turn_law(turns).log_share, std::log(drawn), 0.3) << text_of(turns);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(TurnLaw, LinesPointApartAsDrawnOnesDo) {
   for (const Turns& turns : kinds_of_turns({-4.0, -2.3, -1.1})) {
     const Drawn drawn = drawn_lines(turns, random);
     const double variance = -2.0 * std::log(drawn.all_around / drawn.weight) / kNodes;
-    EXPECT_NEAR(std::log(turn_law(turns).variance / variance), 0.0, 0.2) << text_of(turns);
+    EXPECT_NEAR(std::log(turn_law(turns).variance / variance), 0.0, 0.15) << text_of(turns);
   }
 }
 
@@ -105,11 +105,11 @@ TEST(TurnLaw, IsKnownHoweverMuchLinesBend) {
   }
 }
 
-// By hand: exp(-2) + 0.45 * 0.25 / (1 + 0.04), and with 2.7.
+// By hand: exp(-2) + 1.1 * 0.25 / (1 + 0.04), and with 6.7.
 TEST(TurnLaw, BendsAreAsLikelyAsByHand) {
   const double log_bend = std::log(0.25);
-  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Smooth, log_bend}), std::log(0.2435083), 1e-6);
-  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Angular, log_bend}), std::log(0.7843737), 1e-6);
+  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Smooth, log_bend}), std::log(0.3997584), 1e-6);
+  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Angular, log_bend}), std::log(1.7459121), 1e-6);
 }
 
 }  // namespace
