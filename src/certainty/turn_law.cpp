@@ -24,14 +24,14 @@ constexpr int kTogether = 12;  ///< turns whose sum tells their variance
 constexpr double kLeastCosine = 1e-3;
 
 /// Of logarithms that are tabulated; what lies beyond is taken for the first and the last.
-struct Places {
+struct Grid {
   double least, step;
   int count;
 
   double operator[](int place) const { return least + step * place; }
   double last() const { return (*this)[count - 1]; }
 };
-constexpr Places kOfHalfWidths = {-7.0, 0.25, 41}, kOfBends = {-4.0, 0.25, 21};
+constexpr Grid kOfHalfWidths = {-7.0, 0.25, 41}, kOfBends = {-4.0, 0.25, 21};
 
 /// By turns as dense as their asinh in half widths is even; a chain of turns whose kernel is K has
 /// the square of K's first eigenvector for its law, and K over its eigenvalue steps from one turn
@@ -92,8 +92,8 @@ TurnTable& table(LineKind kind) {
 }
 
 /// Between which two it lies, and how far from the first.
-std::pair<int, double> place_among(const Places& places, double number) {
-  const double place = std::clamp((number - places.least) / places.step, 0.0, places.count - 1.001);
+std::pair<int, double> place_among(const Grid& grid, double number) {
+  const double place = std::clamp((number - grid.least) / grid.step, 0.0, grid.count - 1.001);
   const int below = static_cast<int>(place);
   return {below, place - below};
 }
