@@ -20,7 +20,12 @@ constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 
-double bent(double t, double power) { return std::sinh(power * std::asinh(t)) / power; }
+/// sinh(power asinh t) / power
+double bent(double t, double power) {
+  const double away = std::abs(t),
+               grown = std::exp(power * std::log(away + std::sqrt(away * away + 1.0)));
+  return std::copysign((grown - 1.0 / grown) / (2.0 * power), t);
+}
 
 double logit(double share) { return std::log(share / (1.0 - share)); }
 
@@ -80,6 +85,7 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
 }
 
 double steepness_at(const ReadingLaw& law, const Vec2& place) {
+  if (law.lean.isZero(0.0)) return 1.0;
   const Vec2 off = place - law.middle;
   return std::exp(law.lean.dot(off) / std::sqrt(off.squaredNorm() + law.radius_m * law.radius_m));
 }
@@ -115,14 +121,15 @@ double turn_off_even(const OutlineNodes& outline, int node) {
 
 double log_turns_density(const OutlineNodes& outline, int first, int count,
                          const OutlineProfile& profile) {
+  const TurnDensity density(profile.turns);
   const bool is_whole = count == outline.loops[outline.loop_of[first]].count;
   double here = turn_off_even(outline, first), sum = 0.0;
   if (!is_whole)
-    sum += log_bend_density(here - turn_off_even(outline, outline.before(first)), profile.turns);
+    sum += std::log(density.of_bend(here - turn_off_even(outline, outline.before(first))));
   for (int i = 0, node = first; i < count; ++i) {
     node = outline.next(node);
     const double after = turn_off_even(outline, node);
-    sum += log_turn_density(here, profile.turns) + log_bend_density(after - here, profile.turns);
+    sum += std::log(density.at(here) * density.of_bend(after - here));
     here = after;
   }
   return sum;

@@ -9,8 +9,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/normal.h"
-
 namespace palpation {
 namespace {
 
@@ -38,6 +36,7 @@ constexpr Grid kOfHalfWidths = {-7.0, 0.25, 41}, kOfBends = {-4.0, 0.25, 21};
 /// to the next. Of a few turns the mean cosine of the sum tells its variance, as far as that
 /// matters to where a line ends: tails that go on beyond a radian do not.
 TurnLaw calculated(const Turns& of) {
+  const TurnDensity density(of);
   const double half_width = std::exp(of.log_half_width),
                most = std::asinh(std::numbers::pi / half_width), step = 2.0 * most / kTurns;
   Eigen::VectorXd turns(kTurns), weight(kTurns);
@@ -49,8 +48,7 @@ TurnLaw calculated(const Turns& of) {
   Eigen::MatrixXd kernel(kTurns, kTurns);
   for (int i = 0; i < kTurns; ++i) {
     for (int j = 0; j < kTurns; ++j)
-      kernel(i, j) =
-          std::sqrt(weight[i] * weight[j]) * std::exp(log_bend_density(turns[i] - turns[j], of));
+      kernel(i, j) = std::sqrt(weight[i] * weight[j]) * density.of_bend(turns[i] - turns[j]);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(kernel);
   const double largest = eigen.eigenvalues()[kTurns - 1];
@@ -105,16 +103,11 @@ TurnLaw between(const TurnLaw& some, const TurnLaw& others, double part) {
 
 }  // namespace
 
-double log_turn_density(double off, const Turns& turns) {
-  const double half_widths = off * std::exp(-turns.log_half_width);
-  return -std::log1p(half_widths * half_widths) - turns.log_half_width;
-}
-
-double log_bend_density(double differ, const Turns& turns) {
-  const double bend = std::exp(std::clamp(turns.log_bend, kOfBends.least, kOfBends.last())),
-               corner = differ / kCornerBend,
-               corners = turns.kind == LineKind::Smooth ? kCornersOfSmooth : kCornersOfAngular;
-  return std::log(std::exp(-half_square(differ / bend)) + corners * bend / (1.0 + corner * corner));
+TurnDensity::TurnDensity(const Turns& turns)
+    : half_width_(std::exp(turns.log_half_width)), of_corners_(1.0 / (kCornerBend * kCornerBend)) {
+  const double bend = std::exp(std::clamp(turns.log_bend, kOfBends.least, kOfBends.last()));
+  of_bends_ = -0.5 / (bend * bend);
+  corners_ = bend * (turns.kind == LineKind::Smooth ? kCornersOfSmooth : kCornersOfAngular);
 }
 
 TurnLaw turn_law(const Turns& turns) {

@@ -25,11 +25,23 @@ struct Turns {
   double log_bend = std::log(0.1);  ///< of B's normal part, radians
 };
 
-/// Log of C at a turn that is off so much, radians, but for a constant.
-double log_turn_density(double off, const Turns& turns);
+/// C and B of such turns, but for a constant each; what they have in common is calculated once.
+class TurnDensity {
+ public:
+  explicit TurnDensity(const Turns& turns);
 
-/// Log of B, where two turns in a row differ by so much, but for a constant.
-double log_bend_density(double differ, const Turns& turns);
+  /// C at a turn that is off so much, radians.
+  double at(double off) const { return 1.0 / (half_width_ + off * off / half_width_); }
+  /// B where two turns in a row differ by so much.
+  double of_bend(double differ) const {
+    const double square = differ * differ;
+    return std::exp(square * of_bends_) + corners_ / (1.0 + square * of_corners_);
+  }
+
+ private:
+  double half_width_, of_bends_, of_corners_;
+  double corners_;  ///< as high as these stand over bends
+};
 
 /// Of lines of such turns.
 struct TurnLaw {

@@ -16,7 +16,7 @@ struct DrawnTurn {
 };
 
 inline double log_cauchy(double off, const Turns& turns) {
-  return log_turn_density(off, turns) - std::log(std::numbers::pi);
+  return std::log(TurnDensity(turns).at(off) / std::numbers::pi);
 }
 
 inline DrawnTurn first_turn(const Turns& turns, Random& random) {
@@ -29,13 +29,13 @@ inline DrawnTurn next_turn(double last, const Turns& turns, Random& random) {
   const double bend = std::exp(turns.log_bend), half_width = std::exp(turns.log_half_width),
                no_corner = bend * std::sqrt(2.0 * std::numbers::pi) *
                            std::exp(log_cauchy(last, turns)) * half_width / (half_width + bend),
-               near_it = no_corner / (no_corner + std::exp(log_bend_density(1.0, turns)));
+               near_it = no_corner / (no_corner + TurnDensity(turns).of_bend(1.0));
   const double off =
       random.uniform() < near_it ? last + bend * random.normal() : first_turn(turns, random).off;
   const double z = (off - last) / bend,
                near = std::exp(-0.5 * z * z) / (bend * std::sqrt(2.0 * std::numbers::pi)),
                anywhere = std::exp(log_cauchy(off, turns));
-  return {off, log_cauchy(off, turns) + log_bend_density(off - last, turns) -
+  return {off, log_cauchy(off, turns) + std::log(TurnDensity(turns).of_bend(off - last)) -
                    std::log(std::lerp(anywhere, near, near_it))};
 }
 

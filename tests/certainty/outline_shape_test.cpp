@@ -52,6 +52,7 @@ double within_half_a_turn(double angle) { return std::remainder(angle, 2.0 * std
 /// turns at its ends and all bends are.
 double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& random) {
   constexpr int kLines = 200'000;
+  const TurnDensity density(turns);
   const double even = 2.0 * std::numbers::pi / nodes;
   double sum = 0.0;
   for (int line = 0; line < kLines; ++line) {
@@ -77,8 +78,8 @@ double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& rand
     off.push_back(turned - even);
     off.push_back(last - even);
     for (int i : {nodes - 2, nodes - 1})
-      log_weight += log_cauchy(off[i], turns) + log_bend_density(off[i] - off[i - 1], turns);
-    log_weight += log_bend_density(off.front() - off.back(), turns);
+      log_weight += log_cauchy(off[i], turns) + std::log(density.of_bend(off[i] - off[i - 1]));
+    log_weight += std::log(density.of_bend(off.front() - off.back()));
     sum += std::exp(log_weight - 0.5 * z * z) /
            (kPieceLogSd * std::sqrt(2.0 * std::numbers::pi) * length * length);
   }

@@ -36,7 +36,7 @@ Drawn drawn_lines(const Turns& of, Random& random) {
       is_within = is_within && std::abs(turn.off) < std::numbers::pi;
     }
     if (!is_within) continue;
-    log_weight += log_bend_density(first - turn.off, of);
+    log_weight += std::log(TurnDensity(of).of_bend(first - turn.off));
     drawn.weight += std::exp(log_weight) / kLines;
     drawn.all_around += std::exp(log_weight) * std::cos(sum) / kLines;
   }
@@ -101,15 +101,16 @@ TEST(TurnLaw, IsKnownHoweverMuchLinesBend) {
       before = law;
     }
     EXPECT_EQ(turn_law({-2.0, kind, 1.0}).log_share, turn_law({-2.0, kind, 40.0}).log_share);
-    EXPECT_EQ(log_bend_density(1.0, {-2.0, kind, 1.0}), log_bend_density(1.0, {-2.0, kind, 40.0}));
+    EXPECT_EQ(TurnDensity({-2.0, kind, 1.0}).of_bend(1.0),
+              TurnDensity({-2.0, kind, 40.0}).of_bend(1.0));
   }
 }
 
 // By hand: exp(-2) + 1.1 * 0.25 / (1 + 0.04), and with 6.7.
 TEST(TurnLaw, BendsAreAsLikelyAsByHand) {
   const double log_bend = std::log(0.25);
-  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Smooth, log_bend}), std::log(0.3997584), 1e-6);
-  EXPECT_NEAR(log_bend_density(0.5, {0.0, LineKind::Angular, log_bend}), std::log(1.7459121), 1e-6);
+  EXPECT_NEAR(TurnDensity({0.0, LineKind::Smooth, log_bend}).of_bend(0.5), 0.3997584, 1e-6);
+  EXPECT_NEAR(TurnDensity({0.0, LineKind::Angular, log_bend}).of_bend(0.5), 1.7459121, 1e-6);
 }
 
 }  // namespace
