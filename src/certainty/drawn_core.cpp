@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -29,6 +30,11 @@ int middle_of(const Surface& surface, const std::vector<int>& times) {
   return nearest;
 }
 
+double mean_or_zero(const std::vector<double>& numbers) {
+  const auto count = static_cast<double>(numbers.size());
+  return numbers.empty() ? 0.0 : std::accumulate(numbers.begin(), numbers.end(), 0.0) / count;
+}
+
 }  // namespace
 
 DrawnNumber summed_up(std::vector<double> numbers) {
@@ -41,17 +47,18 @@ DrawnNumber summed_up(std::vector<double> numbers) {
 
 std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<OutlineDraw>& draws,
                                  const Eigen::MatrixXf& depths) {
-  std::vector<double> areas, beside;
+  std::vector<double> areas, beside, with, without;
   std::vector<int> times(static_cast<std::size_t>(surface.vertex_count()), 0);
   for (std::size_t draw = 0; draw < draws.size(); ++draw) {
+    const auto depth = depths.row(static_cast<Eigen::Index>(draw)).transpose().array();
+    (draws[draw].profile.core ? with : without)
+        .push_back((depth >= 0.0F).select(surface.vertex_areas().array(), 0.0).sum());
     if (!draws[draw].profile.core) continue;
     const ReadingLaw& law = draws[draw].law;
     double area = 0.0;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
       const Vec2 place = surface.chart().uv.row(vertex).transpose();
-      if (depths(static_cast<Eigen::Index>(draw), vertex) < 0.0F ||
-          law.in_core.depth_at(place) < 0.0)
-        continue;
+      if (depth[vertex] < 0.0F || law.in_core.depth_at(place) < 0.0) continue;
       area += surface.vertex_areas()[vertex];
       ++times[vertex];
     }
@@ -63,6 +70,8 @@ std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<Outli
   return DrawnCore{.where = surface.at_vertex(middle_of(surface, times)),
                    .area_m2 = summed_up(std::move(areas)),
                    .beside = summed_up(std::move(beside)),
+                   .with_m2 = mean_or_zero(with),
+                   .without_m2 = mean_or_zero(without),
                    .probability = probability};
 }
 

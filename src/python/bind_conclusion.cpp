@@ -96,7 +96,8 @@ py::object core_of(const Conclusion& all) {
   return py::dict("position_m"_a = py::make_tuple(at.x(), at.y(), at.z()),
                   "probability"_a = core.probability, "area_m2"_a = core.area_m2.mean,
                   "beside"_a = core.beside.mean,
-                  "beside_interval"_a = py::make_tuple(core.beside.least, core.beside.most));
+                  "beside_interval"_a = py::make_tuple(core.beside.least, core.beside.most),
+                  "with_m2"_a = core.with_m2, "without_m2"_a = core.without_m2);
 }
 
 py::dict summary(const Concluded& here) {

@@ -64,7 +64,9 @@ json core_json(const std::optional<DrawnCore>& core, const Surface& surface) {
           {"probability", core->probability},
           {"area_mm2", core->area_m2.mean * kMm2},
           {"beside", core->beside.mean},
-          {"beside_interval", {core->beside.least, core->beside.most}}};
+          {"beside_interval", {core->beside.least, core->beside.most}},
+          {"with_mm2", core->with_m2 * kMm2},
+          {"without_mm2", core->without_m2 * kMm2}};
 }
 
 /// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is
