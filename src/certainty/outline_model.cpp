@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kWildReach = 6.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
 constexpr double kTurnLogSd = 1.0;  ///< of the turns' half width
+constexpr double kOfSides = 0.25;   ///< that of a polygon's sides, over that of what curves
 constexpr double kBendLogSd = 1.0;
+constexpr double kSmooth = 0.5;         ///< part of the outlines; the rest are of the other kinds
 constexpr double kPlateau = 2.0 / 3.0;  ///< part of the tumours that are as equation 4 has them
 constexpr double kUnbentLogSd = 0.25;   ///< of shoulder and skirt there
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
@@ -30,17 +32,17 @@ double bent(double t, double power) {
 double logit(double share) { return std::log(share / (1.0 - share)); }
 
 /// Of lines of so many nodes, how densely they end where they began, in direction and place, but
-/// for a factor. Turns' sums are taken for normal, of so much variance each, and so is where the
-/// line ends. Given that turns sum to whole ones, the directions of two pieces differ from an even
-/// loop's by an angle whose variance is that times the nodes between them on either side, over all
-/// nodes. Right to a factor of two, where the density falls by thousands
-/// (outline_shape_test.cpp).
-double log_density_of_closing(int nodes, double variance, double log_spacing) {
+/// for a factor. Turns' sums are taken for normal, and so is where the line ends. Given that turns
+/// sum to whole ones, the directions of two pieces differ from an even loop's by an angle whose
+/// variance is that times the nodes between them on either side, over all nodes. Right to a factor
+/// of two, where the density falls by thousands (outline_shape_test.cpp).
+double log_density_of_closing(int nodes, const TurnLaw& law, double log_spacing) {
   double square = std::exp(kPieceLogSd * kPieceLogSd);  // of the end's place, over pieces and nodes
   for (int apart = 1; apart < nodes; ++apart)
-    square += std::exp(-0.5 * variance * apart * (nodes - apart) / nodes) *
+    square += std::exp(-0.5 * law.variance * apart * (nodes - apart) / nodes) *
               std::cos(2.0 * std::numbers::pi * apart / nodes);
-  return -0.5 * std::log(variance) - 2.0 * log_spacing - std::log(square);
+  return -half_square(law.off_closed) / (nodes * law.variance) - 0.5 * std::log(law.variance) -
+         2.0 * log_spacing - std::log(square);
 }
 
 /// Of shoulder and skirt, where they spread so.
@@ -48,6 +50,11 @@ double bend_density(const OutlineProfile& profile, double log_sd) {
   return std::exp(-half_square(profile.log_shoulder / log_sd) -
                   half_square(profile.log_skirt / log_sd)) /
          (2.0 * std::numbers::pi * log_sd * log_sd);
+}
+
+double median_log_turn(const OutlineProfile& profile, const OutlinePrior& prior) {
+  return prior.median.turns.log_half_width +
+         (profile.turns.kind == LineKind::Polygonal ? std::log(kOfSides) : 0.0);
 }
 
 /// Of a tumour with such bends and a plateau, and of one without.
@@ -112,24 +119,24 @@ ResidualPrior residual_prior(const OutlinePrior& prior) {
           .least_log_noise = prior.least_log_noise};
 }
 
-double turn_off_even(const OutlineNodes& outline, int node) {
-  const NodeLoop& loop = outline.loops[outline.loop_of[node]];
+double turn_at(const OutlineNodes& outline, int node) {
   const Vec2 &here = outline.place[node], in = here - outline.place[outline.before(node)],
              out = outline.place[outline.next(node)] - here;
-  return std::atan2(cross(in, out), in.dot(out)) - loop.turns * 2.0 * std::numbers::pi / loop.count;
+  return std::atan2(cross(in, out), in.dot(out));
 }
 
 double log_turns_density(const OutlineNodes& outline, int first, int count,
                          const OutlineProfile& profile) {
   const TurnDensity density(profile.turns);
-  const bool is_whole = count == outline.loops[outline.loop_of[first]].count;
-  double here = turn_off_even(outline, first), sum = 0.0;
-  if (!is_whole)
-    sum += std::log(density.of_bend(here - turn_off_even(outline, outline.before(first))));
+  const NodeLoop& loop = outline.loops[outline.loop_of[first]];
+  const double even = loop.turns * 2.0 * std::numbers::pi / loop.count;
+  double here = turn_at(outline, first), sum = 0.0;
+  if (count != loop.count)
+    sum += std::log(density.of_bend(here - turn_at(outline, outline.before(first))));
   for (int i = 0, node = first; i < count; ++i) {
     node = outline.next(node);
-    const double after = turn_off_even(outline, node);
-    sum += std::log(density.at(here) * density.of_bend(after - here));
+    const double after = turn_at(outline, node);
+    sum += std::log(density.at(here, even) * density.of_bend(after - here));
     here = after;
   }
   return sum;
@@ -147,12 +154,17 @@ double log_shape_density(const OutlineNodes& outline, const OutlineProfile& prof
   for (std::size_t i = 0; i < outline.loops.size(); ++i) {
     const auto [first, count, part, turns] = outline.loops[i];
     sum += log_turns_density(outline, first, count, profile) - count * law.log_share -
-           log_density_of_closing(count, law.variance, profile.log_spacing[i]);
+           log_density_of_closing(count, law, profile.log_spacing[i]);
     for (int node = first; node < first + count; ++node)
       sum += log_length_density(outline.place[node], outline.place[outline.next(node)],
                                 profile.log_spacing[i]);
   }
   return sum;
+}
+
+LineKind draw_line_kind(Random& random) {
+  if (random.uniform() < kSmooth) return LineKind::Smooth;
+  return random.uniform() < 0.5 ? LineKind::Angular : LineKind::Polygonal;
 }
 
 Vec2 draw_lean(Random& random) {
@@ -166,7 +178,7 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
       half_square((profile.low - median.low) / prior.plateau_sd) +
       half_square((profile.high - median.high) / prior.plateau_sd) +
       half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
-      half_square((profile.turns.log_half_width - median.turns.log_half_width) / kTurnLogSd) +
+      half_square((profile.turns.log_half_width - median_log_turn(profile, prior)) / kTurnLogSd) +
       half_square((profile.turns.log_bend - median.turns.log_bend) / kBendLogSd);
   if (profile.lean)
     sum += half_square(profile.lean->norm() / kLean) +

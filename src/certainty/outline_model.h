@@ -1,8 +1,9 @@
 /// What outlines are taken for, and what readings say of one: the density that is sampled.
 ///
 /// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns at a node
-/// as at the one before, but for corners, horns and necks (turn_law.h); how wide the law of its
-/// turns is, and whether corners are the rule, is learned with the outline. Pieces are about as
+/// as at the one before, but for corners, horns and necks, or is that of straight sides between
+/// corners (turn_law.h); how wide the law of its turns is, and of which kind, is learned with the
+/// outline. Pieces are about as
 /// long as each other. An outline is one of the lines that end where they began, whose density is
 /// divided by how densely lines of such turns do: else outlines would be the smoother beforehand
 /// the more loops there are. It is of what was felt: each loop holds a reading, else it could leave
@@ -106,8 +107,8 @@ double depth_where(const ReadingLaw& law, double share, double steepness = 1.0);
 /// Of what a reading is off by that.
 ResidualPrior residual_prior(const OutlinePrior& prior);
 
-/// Of the turn at a node, radians, how far it is off an even loop's.
-double turn_off_even(const OutlineNodes& outline, int node);
+/// By how much the direction turns at a node, radians.
+double turn_at(const OutlineNodes& outline, int node);
 /// Of all turns at consecutive nodes of a loop, and of how unlike they are and those next to them
 /// (turn_law.h).
 double log_turns_density(const OutlineNodes& outline, int first, int count,
@@ -116,10 +117,13 @@ double log_turns_density(const OutlineNodes& outline, int first, int count,
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
 /// Of all nodes, given that loops close.
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile);
+/// Of which kind an outline is, beforehand.
+LineKind draw_line_kind(Random& random);
 /// How a tumour's slope leans, of those that lean, beforehand.
 Vec2 draw_lean(Random& random);
 
-/// Of the profile itself. Every second tumour is as steep on all sides, and every second smooth.
+/// Of the profile itself. Every second tumour is as steep on all sides; of which kind its lines
+/// are counts nothing here, since kinds are proposed as often as they are so.
 /// Two in three are as equation 4 has them, with a plateau; the others are bent, and no law tells
 /// how high they would be if they were wider.
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);

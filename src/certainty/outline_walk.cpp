@@ -130,6 +130,7 @@ void OutlineWalk::sweep() {
   for (int width = 1; width < kWidths; ++width) {
     for (int i = 0; i < std::max(4, count / 2); ++i) move_stretch(random_.below(count), width);
   }
+  if (chain_.profile().turns.kind == LineKind::Polygonal) move_sides();
   for (std::size_t loop = 0; loop < chain_.outline().loops.size(); ++loop) {
     // Two of them: each costs as much as many a stretch.
     for (int i = 0; i < 2; ++i) move_loop(static_cast<int>(loop), random_.below(kWhole));
@@ -236,8 +237,9 @@ void OutlineWalk::move_profile() {
 }
 
 void OutlineWalk::switch_line_kind() {
+  if (keeps_telling_) return;
   OutlineProfile profile = chain_.profile();
-  profile.turns.kind = random_.uniform() < 0.5 ? LineKind::Smooth : LineKind::Angular;
+  profile.turns.kind = draw_line_kind(random_);
   chain_.move_profile(profile, true, random_);
 }
 

@@ -1,7 +1,8 @@
 /// One chain through the outlines' posterior: what is proposed, and how far.
 ///
-/// A sweep tries each node, stretches of nodes of several widths, and each loop as a whole (moved,
-/// grown, turned, bent), all of them with the slope whatever the plateaus, the profile, and cuts.
+/// A sweep tries each node, stretches of nodes of several widths, a polygon's sides and corners,
+/// and each loop as a whole (moved, grown, turned, bent), all of them with the slope whatever the
+/// plateaus, the profile, and cuts.
 /// Steps find their own lengths while the walk settles, and keep them from then on, so that what is
 /// kept is of the posterior.
 #pragma once
@@ -35,10 +36,11 @@ class OutlineWalk {
   OutlineWalk(const OutlineReadings& readings, const OutlinePrior& prior, OutlineNodes start,
               OutlineProfile profile, std::uint64_t seed);
 
-  /// Sweeps while the steps' lengths are found. In the first of them, `telling` so many, which
-  /// readings tell stays as it is: noise falls faster than an outline follows sharp readings to a
-  /// corner, and those there would be told as nothing before it came. Not where loops are weighed:
-  /// one that is noise would settle about the reading that it is of.
+  /// Sweeps while the steps' lengths are found. In the first of them, `telling` so many, lines stay
+  /// of the kind that they begin as, and so does which readings tell: noise falls faster than an
+  /// outline follows sharp readings to a corner, and those there would be told as nothing before it
+  /// came. Not where loops are weighed: one that is noise would settle about the reading that it is
+  /// of.
   void settle(int sweeps, int telling = 0);
   /// Further sweeps, of which so many outlines are kept, evenly.
   std::vector<OutlineDraw> draws(int sweeps, int count);
@@ -66,6 +68,10 @@ class OutlineWalk {
   OutlineDraw drawn();
   void move_stretch(int middle, int width);
   void move_loop(int loop, int kind);
+  void move_sides();
+  void move_corner(int node);
+  void pass_corner(int node);
+  void cut_or_point(int node);
   void move_size();
   void move_profile();
   void switch_line_kind();
@@ -82,7 +88,7 @@ class OutlineWalk {
   std::vector<std::vector<double>> felt_since_;  // by change and node, a share
   Eigen::VectorXd steps_;                        // of the zero, as last drawn
   bool settling_ = false;
-  bool keeps_telling_ = false;  // readings that tell
+  bool keeps_telling_ = false;  // readings that tell, and the kind of lines
   int swept_ = 0;
 };
 

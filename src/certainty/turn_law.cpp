@@ -17,6 +17,9 @@ namespace {
 constexpr double kCornersOfSmooth = 1.1, kCornersOfAngular = 6.7;
 constexpr double kCornerBend = 2.5;  ///< half width of Cauchy's law of theirs
 
+/// Of a polygon's nodes, those that are corners; and the half width of their turns.
+constexpr double kCorners = 0.1, kOfCorner = 1.0;
+
 constexpr int kTurns = 96;
 constexpr int kTogether = 12;  ///< turns whose sum tells their variance
 constexpr double kLeastCosine = 1e-3;
@@ -30,6 +33,21 @@ struct Grid {
   double last() const { return (*this)[count - 1]; }
 };
 constexpr Grid kOfHalfWidths = {-7.0, 0.25, 41}, kOfBends = {-4.0, 0.25, 21};
+
+/// By a turn's cosine, times pi, as C is; of turns whose mean cosine is e to less the half width.
+double wrapped_cauchy(double cosine, double mean) {
+  return 0.5 * (1.0 - mean * mean) / (1.0 + mean * mean - 2.0 * mean * cosine);
+}
+
+const double kCornerCosine = std::exp(-kOfCorner);
+
+double side_cosine(const Turns& turns) { return std::exp(-std::exp(turns.log_half_width)); }
+
+/// Turns do not depend on each other: of sums cosines multiply.
+TurnLaw of_polygons(const Turns& turns) {
+  const double cosine = std::lerp(side_cosine(turns), kCornerCosine, kCorners);
+  return {.variance = -2.0 * std::log(cosine), .off_closed = 2.0 * std::numbers::pi};
+}
 
 /// By turns as dense as their asinh in half widths is even; a chain of turns whose kernel is K has
 /// the square of K's first eigenvector for its law, and K over its eigenvalue steps from one turn
@@ -59,7 +77,7 @@ TurnLaw calculated(const Turns& of) {
   for (int i = 1; i < kTogether; ++i)
     turned = phases.cwiseProduct(kernel * turned / largest).eval();
   const double cosine = std::max((law.transpose() * turned).value().real(), kLeastCosine);
-  return {std::log(largest), -2.0 * std::log(cosine) / kTogether};
+  return {.log_share = std::log(largest), .variance = -2.0 * std::log(cosine) / kTogether};
 }
 
 /// Of one kind, each calculated when it is asked for first.
@@ -97,20 +115,42 @@ std::pair<int, double> place_among(const Grid& grid, double number) {
 }
 
 TurnLaw between(const TurnLaw& some, const TurnLaw& others, double part) {
-  return {std::lerp(some.log_share, others.log_share, part),
-          std::exp(std::lerp(std::log(some.variance), std::log(others.variance), part))};
+  return {
+      .log_share = std::lerp(some.log_share, others.log_share, part),
+      .variance = std::exp(std::lerp(std::log(some.variance), std::log(others.variance), part))};
 }
 
 }  // namespace
 
 TurnDensity::TurnDensity(const Turns& turns)
-    : half_width_(std::exp(turns.log_half_width)), of_corners_(1.0 / (kCornerBend * kCornerBend)) {
+    : kind_(turns.kind), half_width_(std::exp(turns.log_half_width)) {
+  if (kind_ == LineKind::Polygonal) {
+    side_cosine_ = side_cosine(turns);
+    return;
+  }
   const double bend = std::exp(std::clamp(turns.log_bend, kOfBends.least, kOfBends.last()));
   of_bends_ = -0.5 / (bend * bend);
-  corners_ = bend * (turns.kind == LineKind::Smooth ? kCornersOfSmooth : kCornersOfAngular);
+  corners_ = bend * (kind_ == LineKind::Smooth ? kCornersOfSmooth : kCornersOfAngular);
+}
+
+double TurnDensity::at(double turn, double even) const {
+  if (kind_ == LineKind::Polygonal) {
+    const double cosine = std::cos(turn);
+    return std::lerp(wrapped_cauchy(cosine, side_cosine_), wrapped_cauchy(cosine, kCornerCosine),
+                     kCorners);
+  }
+  const double off = turn - even;
+  return 1.0 / (half_width_ + off * off / half_width_);
+}
+
+double TurnDensity::of_bend(double differ) const {
+  if (kind_ == LineKind::Polygonal) return 1.0;
+  const double square = differ * differ;
+  return std::exp(square * of_bends_) + corners_ / (1.0 + square / (kCornerBend * kCornerBend));
 }
 
 TurnLaw turn_law(const Turns& turns) {
+  if (turns.kind == LineKind::Polygonal) return of_polygons(turns);
   const auto [width, of_width] = place_among(kOfHalfWidths, turns.log_half_width);
   const auto [bend, of_bend] = place_among(kOfBends, turns.log_bend);
   TurnTable& laws = table(turns.kind);

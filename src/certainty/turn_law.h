@@ -1,6 +1,6 @@
 /// How a closed line's direction turns from piece to piece.
 ///
-/// Turns are off an even one by t_i, and
+/// A line that curves has turns that are off an even one by t_i, and
 ///
 ///     p(t_1 ... t_n) = 1 / Z  prod_i C(t_i) B(t_i+1 - t_i),
 ///
@@ -12,41 +12,51 @@
 /// them turn. Z is the trace of K^n, K(t, t') = (C(t) C(t'))^(1/2) B(t - t'), of a dozen nodes and
 /// more its largest eigenvalue to the n. That half a turn is the most of an even turn and t_i
 /// together is neglected.
+///
+/// A polygon curves nowhere: each of its turns is drawn anew,
+///
+///     p(t) = (1 - c) W(t; side) + c W(t; corner),
+///
+/// W the wrapped Cauchy law of some half width (Mardia and Jupp 2000, section 3.5.7), a corner's a
+/// radian. What curves is as straight as a side nowhere, and turns by and by where a polygon has a
+/// corner: of a corner that nobody touched it would be sure that it is round.
 #pragma once
 
 #include <cmath>
 
 namespace palpation {
 
-enum class LineKind { Smooth, Angular };
+enum class LineKind { Smooth, Angular, Polygonal };
 struct Turns {
-  double log_half_width = 0.0;  ///< of C, radians
-  LineKind kind = LineKind::Angular;
+  double log_half_width = 0.0;  ///< of C, or of W in a side, radians
+  LineKind kind = LineKind::Polygonal;
   double log_bend = std::log(0.1);  ///< of B's normal part, radians
 };
 
-/// C and B of such turns, but for a constant each; what they have in common is calculated once.
+/// What a turn's density is made of, but for constants that all kinds have; what turns have in
+/// common is calculated once.
 class TurnDensity {
  public:
   explicit TurnDensity(const Turns& turns);
 
-  /// C at a turn that is off so much, radians.
-  double at(double off) const { return 1.0 / (half_width_ + off * off / half_width_); }
-  /// B where two turns in a row differ by so much.
-  double of_bend(double differ) const {
-    const double square = differ * differ;
-    return std::exp(square * of_bends_) + corners_ / (1.0 + square * of_corners_);
-  }
+  /// C, or a polygon's p, at a turn, where an even one is so much, radians.
+  double at(double turn, double even) const;
+  /// B where two turns in a row differ by so much; a polygon's is 1.
+  double of_bend(double differ) const;
 
  private:
-  double half_width_, of_bends_, of_corners_;
-  double corners_;  ///< as high as these stand over bends
+  LineKind kind_;
+  double half_width_;
+  double of_bends_ = 0.0;     ///< in the exponent, over a difference's square
+  double corners_ = 0.0;      ///< as high as these stand over bends
+  double side_cosine_ = 0.0;  ///< mean, of a side's turns
 };
 
 /// Of lines of such turns.
 struct TurnLaw {
-  double log_share = 0.0;  ///< each node's, of log Z
-  double variance = 0.0;   ///< each turn's, of the sum of a dozen and more, which is nearly normal
+  double log_share = 0.0;   ///< each node's, of log Z
+  double variance = 0.0;    ///< each turn's, of the sum of a dozen and more, which is nearly normal
+  double off_closed = 0.0;  ///< the sum's mean, off what a closed line's is
 };
 TurnLaw turn_law(const Turns& turns);
 

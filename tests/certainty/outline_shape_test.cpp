@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "certainty/outline_model.h"
@@ -51,9 +52,9 @@ double within_half_a_turn(double angle) { return std::remainder(angle, 2.0 * std
 /// The mean, over lines whose last piece is missing, of how dense the one that closes them, the
 /// turns at its ends and all bends are.
 double density_of_closing_by_drawing(int nodes, const Turns& turns, Random& random) {
-  constexpr int kLines = 200'000;
+  constexpr int kLines = 400'000;
   const TurnDensity density(turns);
-  const double even = 2.0 * std::numbers::pi / nodes;
+  const double even = turns.kind == LineKind::Polygonal ? 0.0 : 2.0 * std::numbers::pi / nodes;
   double sum = 0.0;
   for (int line = 0; line < kLines; ++line) {
     double direction = 0.0, log_weight = 0.0;
@@ -100,6 +101,24 @@ TEST(OutlineShape, LinesCloseAsDenselyAsDrawnOnesDo) {
   }
 }
 
+// By the factor of lines that curve, or one kind would be more probable than it is; few of those
+// that are drawn close.
+TEST(OutlineShape, PolygonsCloseAsDenselyAsDrawnOnesDo) {
+  Random random(44);
+  for (const int nodes : {24, 40}) {
+    const Turns curved{std::log(0.03), LineKind::Smooth, 1.0};
+    const double first = log_density_of_closing(nodes, curved, kMm) -
+                         std::log(density_of_closing_by_drawing(nodes, curved, random));
+    for (const double turn : {0.03, 0.1}) {
+      const Turns turns{std::log(turn), LineKind::Polygonal};
+      const double drawn = density_of_closing_by_drawing(nodes, turns, random);
+      EXPECT_NEAR(log_density_of_closing(nodes, turns, kMm) - first, std::log(drawn),
+                  std::log(10.0))
+          << nodes << ", " << turn;
+    }
+  }
+}
+
 TEST(OutlineShape, LinesOfPiecesTwiceAsLongCloseAQuarterAsDensely) {
   const Turns turns{std::log(0.1), LineKind::Smooth};
   EXPECT_NEAR(log_density_of_closing(40, turns, 2 * kMm),
@@ -133,24 +152,28 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
   }
 }
 
-// With no readings, every second outline leans and every second is smooth, as they are beforehand.
-TEST(OutlineShape, WhatAnOutlineMayLackIsLackingInHalfOfThem) {
+// With no readings every second outline leans, of those that curve two in three are smooth, and
+// some are polygons, as they are beforehand; walks seldom go from these to those.
+TEST(OutlineShape, KindsAreAsProbableWithoutReadingsAsBeforehand) {
   OutlinePrior prior;
   prior.median = profile_of({std::log(0.12), LineKind::Smooth}, kMm);
   prior.median.log_contrast = {0.0};
   const OutlineReadings nothing;
-  OutlineWalk walk(nothing, prior, polygon(16), prior.median, 43);
+  OutlineWalk walk(nothing, prior, polygon(24), prior.median, 43);
   walk.settle(300);
-  double leaning = 0.0, smooth = 0.0, square = 0.0;
+  double leaning = 0.0, square = 0.0;
+  std::map<LineKind, double> of_kind;
   constexpr int kDraws = 4000;
-  for (const OutlineDraw& draw : walk.draws(2 * kDraws, kDraws)) {
+  for (const OutlineDraw& draw : walk.draws(3 * kDraws, kDraws)) {
     leaning += draw.profile.lean ? 1.0 : 0.0;
     square += draw.profile.lean ? draw.profile.lean->squaredNorm() : 0.0;
-    smooth += draw.profile.turns.kind == LineKind::Smooth ? 1.0 : 0.0;
+    of_kind[draw.profile.turns.kind] += 1.0 / kDraws;
   }
   EXPECT_NEAR(leaning / kDraws, 0.5, 0.05);
   EXPECT_NEAR(square / leaning, 2.0 * 0.3 * 0.3, 0.03);
-  EXPECT_NEAR(smooth / kDraws, 0.5, 0.15);
+  EXPECT_NEAR(of_kind[LineKind::Smooth] / (1.0 - of_kind[LineKind::Polygonal]), 2.0 / 3.0, 0.1);
+  EXPECT_GT(of_kind[LineKind::Polygonal], 0.02);
+  EXPECT_LT(of_kind[LineKind::Polygonal], 0.98);
 }
 
 }  // namespace

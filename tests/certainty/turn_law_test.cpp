@@ -113,5 +113,31 @@ TEST(TurnLaw, BendsAreAsLikelyAsByHand) {
   EXPECT_NEAR(TurnDensity({0.0, LineKind::Angular, log_bend}).of_bend(0.5), 1.7459121, 1e-6);
 }
 
+TEST(TurnLaw, PolygonsTurnAsDrawnOnesDo) {
+  Random random(53);
+  for (const double log_half_width : {-4.0, -2.0, 0.0}) {
+    const Turns turns{log_half_width, LineKind::Polygonal};
+    const TurnDensity density(turns);
+    constexpr int kPlaces = 1'000'000, kDrawn = 200'000;
+    double whole = 0.0, corners = 0.0, drawn_corners = 0.0, all_around = 0.0;
+    for (int i = 0; i < kPlaces; ++i) {
+      const double turn = std::numbers::pi * (2.0 * (i + 0.5) / kPlaces - 1.0),
+                   share = 2.0 * density.at(turn, 0.1) / kPlaces;
+      whole += share;
+      corners += std::abs(turn) > 1.0 ? share : 0.0;
+    }
+    for (int i = 0; i < kDrawn; ++i) {
+      double sum = 0.0;
+      for (int node = 0; node < kNodes; ++node) sum += first_turn(turns, random).off;
+      all_around += std::cos(sum) / kDrawn;
+      drawn_corners += std::abs(first_turn(turns, random).off) > 1.0 ? 1.0 / kDrawn : 0.0;
+    }
+    EXPECT_NEAR(whole, 1.0, 1e-6);
+    EXPECT_NEAR(drawn_corners, corners, 0.003);
+    EXPECT_NEAR(all_around, std::exp(-0.5 * kNodes * turn_law(turns).variance), 0.01);
+    EXPECT_EQ(turn_law(turns).log_share, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace palpation
