@@ -20,7 +20,7 @@ constexpr std::size_t kMostListed = 8;
 constexpr int kMostFacesToFlatten = 200'000;
 constexpr double kMisleading = 0.1;
 
-std::string counted(std::int64_t count, const std::string& one, const std::string& many) {
+std::string numbered(std::int64_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
@@ -91,10 +91,10 @@ std::vector<Part> borders_of(const Surface& surface) {
 std::string topology_words(const Surface& surface) {
   const Topology topology = surface.topology();
   std::string words =
-      "Surface: " + counted(topology.components, "component", "components") + ", " +
-      (topology.is_closed() ? "closed" : counted(topology.borders, "border", "borders")) +
+      "Surface: " + numbered(topology.components, "component", "components") + ", " +
+      (topology.is_closed() ? "closed" : numbered(topology.borders, "border", "borders")) +
       ", Euler number " + std::to_string(topology.euler) + ", " +
-      counted(topology.handles, "handle", "handles") + "\n";
+      numbered(topology.handles, "handle", "handles") + "\n";
   if (topology.components > 1)
     words += "Components, the largest first:\n" +
              list_words(components_of(surface), "triangles", 1e4, "cm2");
@@ -220,7 +220,7 @@ std::string fault_words(const TriangleMesh& mesh, const std::string& reason) {
   const MeshFaults faults = count_faults(mesh);
   const auto say = [&](int count, const std::string& one, const std::string& many,
                        const std::string& meaning) {
-    if (count > 0) words += "  " + counted(count, one, many) + ": " + meaning + "\n";
+    if (count > 0) words += "  " + numbered(count, one, many) + ": " + meaning + "\n";
   };
   say(faults.flat_triangles, "triangle has no area", "triangles have no area",
       "corners on one line or in one place. palpate mesh repair --drop-degenerate (with --weld) "

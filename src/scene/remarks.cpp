@@ -13,9 +13,9 @@
 #include "readings/contact.h"
 #include "readings/readings.h"
 #include "readings/saturation.h"
+#include "scene/area_remarks.h"
 #include "scene/misfit_words.h"
 #include "scene/parts.h"
-#include "scene/reachable.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
@@ -26,12 +26,7 @@ constexpr double kLikely = 0.5;
 constexpr double kMuchUntouched = 0.05;  // of the tissue
 constexpr double kMuchPlane =
     0.5;  // of the readings' variance; a tumour over one half of the tissue gives three quarters
-constexpr double kMuchStiff = 0.5;  // of the tissue
-constexpr int kManySites = 1000;    // would be cheaper by reduced rank, if anything would
-/// Expected wrong area beyond this part of the area found is told: the boundary is then hardly
-/// better than a guess.
-constexpr double kLargeShare = 0.25, kSmallShare = 0.05;
-constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
+constexpr int kManySites = 1000;  // would be cheaper by reduced rank, if anything would
 
 /// How many readings were set aside for a reason, and where the first of them are.
 std::string set_aside_words(const Exploration& exploration, const std::string& reason) {
@@ -240,32 +235,6 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
                       "tumour, or a tumour may lie elsewhere.");
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
-  return remarks;
-}
-
-/// Of how much of what was found may be wrong.
-Remarks area_remarks(const Episode& episode, bool has_parts) {
-  const Surface& surface = episode.exploration.surface();
-  const std::optional<Certainty>& certainty = episode.conclusion().certainty;
-  const double found_m2 = surface_area(surface, episode.estimate);
-  Remarks remarks;
-  if (found_m2 > kMuchStiff * surface.area())
-    remarks.push_back(
-        "More than half of the tissue counts as stiff: where a tumour reads less than healthy "
-        "tissue, change the readings' sign.");
-  if (has_parts && certainty &&
-      certainty->expected.symmetric_difference_m2() > kLargeShare * found_m2)
-    remarks.push_back("The area expected to be wrong is " +
-                      share_words(certainty->expected.symmetric_difference_m2() / found_m2) +
-                      " the area found: more readings are needed.");
-  else if (const std::optional<double> times = over_reachable(episode);
-           times && *times > kMuchOverReachable &&
-           certainty->expected.symmetric_difference_m2() > kSmallShare * found_m2)
-    remarks.push_back("The boundary is expected to be wrong by " +
-                      fixed(certainty->expected.symmetric_difference_m2() * 1e6, 1) + " mm2, " +
-                      fixed(*times, 0) +
-                      " times the least that so many readings with so little noise allow: more "
-                      "of them about it would help.");
   return remarks;
 }
 

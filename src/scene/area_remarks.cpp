@@ -1,0 +1,58 @@
+#include "scene/area_remarks.h"
+
+#include <optional>
+
+#include "palpation/boundary/level_set.h"
+#include "scene/reachable.h"
+#include "scene/words.h"
+
+namespace palpation::tool {
+namespace {
+
+constexpr double kMuchStiff = 0.5;  // of the tissue
+/// Expected wrong area beyond this part of the area found is told: the boundary is then hardly
+/// better than a guess.
+constexpr double kLargeShare = 0.25, kSmallShare = 0.05;
+constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: that is worth a word
+
+/// Where the boundary is the least known: the farthest from it of all places that it may reach, a
+/// standard deviation off at most.
+std::string least_known_words(const Conclusion& conclusion) {
+  if (!conclusion.outlines) return "";
+  const Field& score = conclusion.certainty->score;
+  const Field off = (score.array().abs() <= 1.0).select(conclusion.outlines->depth.cwiseAbs(), 0.0);
+  Eigen::Index vertex = 0;
+  if (off.maxCoeff(&vertex) == 0.0) return "";
+  const Surface& surface = conclusion.belief.prior().surface();
+  return ", above all around " + place_words(surface.vertex(static_cast<int>(vertex)), 1);
+}
+
+}  // namespace
+
+std::vector<std::string> area_remarks(const Episode& episode, bool has_parts) {
+  const Surface& surface = episode.exploration.surface();
+  const Conclusion& conclusion = episode.conclusion();
+  const std::optional<Certainty>& certainty = conclusion.certainty;
+  const double found_m2 = surface_area(surface, episode.estimate);
+  std::vector<std::string> remarks;
+  if (found_m2 > kMuchStiff * surface.area())
+    remarks.push_back(
+        "More than half of the tissue counts as stiff: where a tumour reads less than healthy "
+        "tissue, change the readings' sign.");
+  if (!certainty) return remarks;
+  const double wrong_m2 = certainty->expected.symmetric_difference_m2();
+  if (has_parts && wrong_m2 > kLargeShare * found_m2)
+    remarks.push_back("The area expected to be wrong is " + share_words(wrong_m2 / found_m2) +
+                      " the area found: more readings are needed" + least_known_words(conclusion) +
+                      ".");
+  else if (const std::optional<double> times = over_reachable(episode);
+           times && *times > kMuchOverReachable && wrong_m2 > kSmallShare * found_m2)
+    remarks.push_back("The boundary is expected to be wrong by " + fixed(wrong_m2 * 1e6, 1) +
+                      " mm2, " + fixed(*times, 0) +
+                      " times the least that so many readings with so little noise allow: more "
+                      "of them about it would help" +
+                      least_known_words(conclusion) + ".");
+  return remarks;
+}
+
+}  // namespace palpation::tool
