@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Tumours of straight sides and sharp corners, felt at a few places: how wrong `palpate boundary` is, and whether its band holds the corners.
+
+usage: corners.py PALPATE [FIRST COUNT]        needs Debian's python3-numpy and python3-shapely
+COUNT worlds from number FIRST on (0 48), a line each and a table: triangles, squares, hexagons, Ls, crosses and disks, which have no corner,
+turned at random on 40 x 50 mm; edges that rise over 1 to 4 mm as a sigmoid, an error function or a ramp does; noise of 0.5 to 5 % of the
+contrast; 100 to 200 readings at random places.
+"""
+
+import collections
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+import shapely
+import shapely.affinity
+import shapely.wkt
+from shapely.geometry import LineString, Point, Polygon, box
+
+SIZE_MM = np.array([40.0, 50.0])
+VERTICES = [81, 101]
+SHAPES = ["triangle", "square", "hexagon", "ell", "cross", "disk"]
+NOISES, RISES_MM, READINGS = [0.005, 0.01, 0.02, 0.05], [1.0, 2.0, 4.0], [100, 150, 200]
+
+
+def regular(corners):
+    return Polygon([(math.cos(2 * math.pi * i / corners), math.sin(2 * math.pi * i / corners)) for i in range(corners)])
+
+
+def outline(kind, dice):
+    unit = {"triangle": regular(3), "square": regular(4), "hexagon": regular(6), "disk": Point(0, 0).buffer(1, 64),
+            "ell": box(0, 0, 2, 0.9).union(box(0, 0, 0.9, 1.6)), "cross": box(-1, -0.4, 1, 0.4).union(box(-0.4, -1, 0.4, 1))}[kind]
+    area = dice.uniform(130, 330)
+    grown = shapely.affinity.scale(unit, *[math.sqrt(area / unit.area)] * 2)
+    turned = shapely.affinity.rotate(grown, dice.uniform(0, 360), origin="centroid")
+    middle = SIZE_MM / 2 + dice.uniform(-4, 4, 2)
+    return shapely.affinity.translate(turned, *(middle - np.array(turned.centroid.coords[0])))
+
+
+def depth(truth, at):
+    """Millimetres, positive inside."""
+    points = [Point(place) for place in at]
+    return np.array([truth.boundary.distance(point) * (1 if truth.contains(point) else -1) for point in points])
+
+
+def share(kind, rise_mm, depth_mm):
+    """Of the contrast, from a tenth to nine tenths within the rise."""
+    if kind == "sigmoid":
+        return 1 / (1 + np.exp(-np.clip(2 * math.log(9) / rise_mm * depth_mm, -60, 60)))
+    if kind == "error function":
+        return 0.5 * (1 + np.vectorize(math.erf)(2.563 / rise_mm * depth_mm / math.sqrt(2)))
+    return np.clip(0.5 + 0.8 * depth_mm / rise_mm, 0, 1)
+
+
+def between_vertices(field, at):
+    """A field on the tissue's grid of vertices, rows of x, bilinear."""
+    cells = at / SIZE_MM * (np.array(VERTICES) - 1)
+    low = np.minimum(cells.astype(int), np.array(VERTICES) - 2)
+    (x, y), (i, j) = (cells - low).T, low.T
+    return ((1 - y) * ((1 - x) * field[j, i] + x * field[j, i + 1]) + y * ((1 - x) * field[j + 1, i] + x * field[j + 1, i + 1]))
+
+
+def answered(palpate, folder, number):
+    """Kind, noise, true and wrong area and the expected one, mm2, and how far the truth is off in widths of the band."""
+    dice = np.random.default_rng([number, 12])
+    kind, noise = SHAPES[number % len(SHAPES)], NOISES[number // len(SHAPES) % len(NOISES)]
+    truth = outline(kind, dice)
+    at = dice.uniform(0.3, SIZE_MM - 0.3, (dice.choice(READINGS), 2))
+    rise = dice.choice(["sigmoid", "error function", "ramp"]), dice.choice(RISES_MM)
+    reading = 3 + 2 * (share(*rise, depth(truth, at)) + noise * dice.normal(size=len(at)))
+    (folder / "scene.json").write_text(json.dumps({"surface": {"plane": {"size_mm": list(SIZE_MM), "vertices": VERTICES}}}))
+    rows = [f"{x / 1e3},{y / 1e3},0,{value}\n" for (x, y), value in zip(at, reading)]
+    (folder / "felt.csv").write_text("x,y,z,reading\n" + "".join(rows))
+    run = dict(check=True, capture_output=True)
+    subprocess.run([palpate, "boundary", folder / "scene.json", "--measurements", folder / "felt.csv", "--out", folder / "out", "--overwrite",
+                    "--quiet"], **run)
+    subprocess.run([palpate, "export", folder / "out", "--for", "csv", "--out", folder / "csv", "--overwrite"], **run)
+    summary = json.loads((folder / "out" / "summary.json").read_text())
+    score = np.array([float(row["score"]) for row in csv.DictReader((folder / "csv" / "tissue.csv").open())]).reshape(VERTICES[::-1])
+    found = shapely.affinity.scale(shapely.wkt.loads((folder / "out" / "boundary.wkt").read_text()), 1e3, 1e3, origin=(0, 0))
+    line = LineString(truth.exterior)
+    along = np.array([line.interpolate(t).coords[0] for t in np.arange(0, line.length, 0.1)] + list(truth.exterior.coords))
+    off = np.max(np.abs(between_vertices(score, along))) / summary["band"]["score"]
+    return kind, noise, truth.area, found.symmetric_difference(truth).area, summary["expected_error_mm2"], off
+
+
+def main():
+    if len(sys.argv) not in (2, 4):
+        sys.exit(__doc__)
+    first, count = map(int, sys.argv[2:] or (0, 48))
+    table = collections.defaultdict(list)
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(first, first + count):
+            kind, noise, area, wrong, expected, off = answered(sys.argv[1], pathlib.Path(folder), number)
+            for row in kind, f"noise {noise}", "all":
+                table[row].append((wrong, wrong / expected, off))
+            print(f"{number:4d} {kind:8s} noise {noise:5.3f}  area {area:4.0f}  wrong {wrong:5.1f}  expected {expected:5.1f}  "
+                  f"off {off:4.2f} of the band{'' if off <= 1 else '  outside'}", flush=True)
+    print("\n             worlds  in the band  wrong, mm2, mean  wrong/expected, median and most")
+    for name, rows in table.items():
+        wrong, ratio, off = map(np.array, zip(*rows))
+        print(f"{name:12s} {len(rows):6d} {np.sum(off <= 1):12d} {wrong.mean():17.1f} {np.median(ratio):23.2f} {ratio.max():8.2f}")
+
+
+if __name__ == "__main__":
+    main()
