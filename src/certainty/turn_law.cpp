@@ -36,7 +36,8 @@ constexpr Grid kOfHalfWidths = {-7.0, 0.25, 41}, kOfBends = {-4.0, 0.25, 21};
 
 /// By a turn's cosine, times pi, as C is; of turns whose mean cosine is e to less the half width.
 double wrapped_cauchy(double cosine, double mean) {
-  return 0.5 * (1.0 - mean * mean) / (1.0 + mean * mean - 2.0 * mean * cosine);
+  const double narrow = 1.0 - mean;
+  return 0.5 * narrow * (1.0 + mean) / (narrow * narrow + 2.0 * mean * (1.0 - cosine));
 }
 
 const double kCornerCosine = std::exp(-kOfCorner);
