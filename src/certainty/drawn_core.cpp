@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -28,11 +27,6 @@ int middle_of(const Surface& surface, const std::vector<int>& times) {
       std::tie(nearest, least) = std::pair(vertex, square);
   }
   return nearest;
-}
-
-double mean_or_zero(const std::vector<double>& numbers) {
-  const auto count = static_cast<double>(numbers.size());
-  return numbers.empty() ? 0.0 : std::accumulate(numbers.begin(), numbers.end(), 0.0) / count;
 }
 
 }  // namespace
@@ -70,8 +64,8 @@ std::optional<DrawnCore> core_of(const Surface& surface, const std::vector<Outli
   return DrawnCore{.where = surface.at_vertex(middle_of(surface, times)),
                    .area_m2 = summed_up(std::move(areas)),
                    .beside = summed_up(std::move(beside)),
-                   .with_m2 = mean_or_zero(with),
-                   .without_m2 = mean_or_zero(without),
+                   .with_m2 = summed_up(std::move(with)).mean,
+                   .without_m2 = without.empty() ? 0.0 : summed_up(std::move(without)).mean,
                    .probability = probability};
 }
 

@@ -35,7 +35,8 @@ double logit(double share) { return std::log(share / (1.0 - share)); }
 /// for a factor. Turns' sums are taken for normal, and so is where the line ends. Given that turns
 /// sum to whole ones, the directions of two pieces differ from an even loop's by an angle whose
 /// variance is that times the nodes between them on either side, over all nodes. Right to a factor
-/// of two, where the density falls by thousands (outline_shape_test.cpp).
+/// of two, where the density falls by thousands, and to one of ten for polygons, few of whose turns
+/// make the sum (outline_shape_test.cpp).
 double log_density_of_closing(int nodes, const TurnLaw& law, double log_spacing) {
   double square = std::exp(kPieceLogSd * kPieceLogSd);  // of the end's place, over pieces and nodes
   for (int apart = 1; apart < nodes; ++apart)

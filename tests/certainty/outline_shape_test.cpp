@@ -9,6 +9,7 @@
 #include "certainty/outline_walk.h"
 #include "certainty/turn_law.h"
 #include "drawn_turns.h"
+#include "regular_polygon.h"
 
 namespace palpation {
 namespace {
@@ -16,17 +17,9 @@ namespace {
 constexpr double kMm = 1e-3;
 constexpr double kPieceLogSd = 0.25;
 
-/// A regular polygon with sides of a millimetre.
+/// With sides of a millimetre.
 OutlineNodes polygon(int nodes) {
-  const double radius = 0.5 * kMm / std::sin(std::numbers::pi / nodes);
-  std::vector<Vec2> line;
-  for (int i = 0; i < nodes; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / nodes;
-    line.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  OutlineNodes outline;
-  outline.add(line, 0);
-  return outline;
+  return regular_polygon(nodes, 0.5 * kMm / std::sin(std::numbers::pi / nodes));
 }
 
 OutlineProfile profile_of(const Turns& turns, double spacing_m) {

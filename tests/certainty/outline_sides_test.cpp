@@ -8,24 +8,13 @@
 #include <numbers>
 
 #include "certainty/outline_walk.h"
+#include "regular_polygon.h"
 
 namespace palpation {
 namespace {
 
 constexpr double kMm = 1e-3, kHalf = 7 * kMm, kNoise = 0.01;
 const Vec2 kCorner(kHalf, kHalf);
-
-OutlineNodes circle(double radius_m) {
-  constexpr int kNodes = 52;
-  std::vector<Vec2> line;
-  for (int i = 0; i < kNodes; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kNodes;
-    line.push_back(radius_m * Vec2(std::cos(angle), std::sin(angle)));
-  }
-  OutlineNodes outline;
-  outline.add(line, 0);
-  return outline;
-}
 
 double depth_in_square(const Vec2& place) {
   const Vec2 beyond = place.cwiseAbs() - Vec2(kHalf, kHalf);
@@ -50,7 +39,7 @@ OutlineReadings felt(const std::function<double(const Vec2& place)>& depth_at) {
 
 /// Of two walks, as outlines are drawn, from a circle as large.
 std::vector<OutlineDraw> drawn(const OutlineReadings& readings) {
-  const OutlineNodes start = circle(2.0 * kHalf / std::sqrt(std::numbers::pi));
+  const OutlineNodes start = regular_polygon(52, 2.0 * kHalf / std::sqrt(std::numbers::pi));
   OutlinePrior prior;
   prior.median = {.low = 0.0,
                   .high = 1.0,
