@@ -5,7 +5,7 @@
 
 namespace palpation {
 
-/// 1 / (1 + e^-x), in a form that overflows nowhere.
-inline double sigmoid(double x) { return 0.5 + 0.5 * std::tanh(0.5 * x); }
+/// Of an x far below 0 the exponential is infinite, and this is 0.
+inline double sigmoid(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 }  // namespace palpation

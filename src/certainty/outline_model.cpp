@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/normal.h"
 #include "base/sigmoid.h"
@@ -21,6 +22,7 @@ constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
+constexpr int kPerLogarithm = 16;       ///< turns, whose density is a number by far
 
 /// sinh(power asinh t) / power
 double bent(double t, double power) {
@@ -131,16 +133,17 @@ double log_turns_density(const OutlineNodes& outline, int first, int count,
   const TurnDensity density(profile.turns);
   const NodeLoop& loop = outline.loops[outline.loop_of[first]];
   const double even = loop.turns * 2.0 * std::numbers::pi / loop.count;
-  double here = turn_at(outline, first), sum = 0.0;
+  double here = turn_at(outline, first), sum = 0.0, product = 1.0;
   if (count != loop.count)
-    sum += std::log(density.of_bend(here - turn_at(outline, outline.before(first))));
+    product = density.of_bend(here - turn_at(outline, outline.before(first)));
   for (int i = 0, node = first; i < count; ++i) {
     node = outline.next(node);
     const double after = turn_at(outline, node);
-    sum += std::log(density.at(here, even) * density.of_bend(after - here));
+    product *= density.at(here, even) * density.of_bend(after - here);
+    if (i % kPerLogarithm == kPerLogarithm - 1) sum += std::log(std::exchange(product, 1.0));
     here = after;
   }
-  return sum;
+  return sum + std::log(product);
 }
 
 double log_length_density(const Vec2& from, const Vec2& to, double log_spacing) {

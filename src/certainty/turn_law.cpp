@@ -69,9 +69,14 @@ TurnLaw calculated(const Turns& of) {
     for (int j = 0; j < kTurns; ++j)
       kernel(i, j) = std::sqrt(weight[i] * weight[j]) * density.of_bend(turns[i] - turns[j]);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(kernel);
-  const double largest = eigen.eigenvalues()[kTurns - 1];
-  const Eigen::VectorXd law = eigen.eigenvectors().col(kTurns - 1);
+  // Turns to the left are as likely as to the right: half of the first eigenvector is enough.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      kernel.topLeftCorner(kTurns / 2, kTurns / 2) +
+      kernel.topRightCorner(kTurns / 2, kTurns / 2).rowwise().reverse());
+  const double largest = eigen.eigenvalues().tail<1>().value();
+  const Eigen::VectorXd half = eigen.eigenvectors().rightCols<1>() / std::numbers::sqrt2;
+  Eigen::VectorXd law(kTurns);
+  law << half, half.reverse();
   Eigen::VectorXcd phases(kTurns);
   for (int i = 0; i < kTurns; ++i) phases[i] = std::polar(1.0, turns[i]);
   Eigen::VectorXcd turned = phases.cwiseProduct(law);
