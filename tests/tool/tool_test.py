@@ -209,6 +209,7 @@ class Tool(InFolder):
         if SANITIZED:
             self.skip("two dozen runs take minutes there, and are those of other tests")
         coarse = ["--trials", 1, "--set", "surface.plane.vertices=[37,33]", "--set", "plan.batches=2", "--quiet", "--out", self.folder]
+        coarse = ["--set", "certainty=laplace", *coarse]  # what is found is counted alike, and drawing outlines takes a minute
         words = self.done("experiment", "coverage", *coarse)
         self.assertIn("noise 25 %", words)
         header, *rows = (self.folder / "rows.csv").read_text().splitlines()
@@ -222,7 +223,6 @@ class Tool(InFolder):
         (total,) = [row for row in (self.folder / "coverage.csv").read_text().splitlines() if row.startswith("all,")]
         self.assertTrue(total.startswith("all,4,"), total)
         coarse[-1] = self.folder / "detection"
-        coarse += ["--set", "certainty=laplace"]  # what is found is counted alike, and drawing outlines takes a minute
         words = self.done("experiment", "detection", *coarse, "--set", "plan.min_contrast=2")
         self.assertIn("Healthy tissue: nothing found", words)
         kinds = [row.split(",")[0] for row in (self.folder / "detection" / "detection.csv").read_text().splitlines()[1:]]
