@@ -8,15 +8,14 @@ readings at random places. A world is called sure and wrong where more than thre
 """
 
 import collections
-import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
 import shapely.affinity
 import shapely.wkt
+from felt_plane import concluded
 from shapely import vectorized
 
 SIZE_MM = np.array([40.0, 50.0])
@@ -86,12 +85,7 @@ def answered(palpate, folder, number):
     height = dice.choice(HEIGHTS)
     at = dice.uniform(0.3, SIZE_MM - 0.3, (count, 2))
     reading = 7 + CONTRAST * (1 / (1 + np.exp(-STEEPNESS_PER_MM * depth(at))) + height * rise(at) + noise * dice.normal(size=count))
-    (folder / "scene.json").write_text(json.dumps({"surface": {"plane": {"size_mm": list(SIZE_MM), "vertices": [65, 81]}}}))
-    rows = [f"{x / 1e3},{y / 1e3},0,{value}\n" for (x, y), value in zip(at, reading)]
-    (folder / "felt.csv").write_text("x,y,z,reading\n" + "".join(rows))
-    subprocess.run([palpate, "boundary", folder / "scene.json", "--measurements", folder / "felt.csv", "--out", folder / "out", "--overwrite",
-                    "--quiet"], check=True, capture_output=True)
-    summary = json.loads((folder / "out" / "summary.json").read_text())
+    summary = concluded(palpate, folder, SIZE_MM, [65, 81], at, reading)
     outline = folder / "out" / "boundary.wkt"
     inside = found(outline.read_text()) if outline.exists() else np.zeros(len(GRID), bool)
     truth = depth(GRID) > 0

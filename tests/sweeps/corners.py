@@ -9,7 +9,6 @@ contrast; 100 to 200 readings at random places.
 
 import collections
 import csv
-import json
 import math
 import pathlib
 import subprocess
@@ -20,6 +19,7 @@ import numpy as np
 import shapely
 import shapely.affinity
 import shapely.wkt
+from felt_plane import concluded
 from shapely.geometry import LineString, Point, Polygon, box
 
 SIZE_MM = np.array([40.0, 50.0])
@@ -73,14 +73,8 @@ def answered(palpate, folder, number):
     at = dice.uniform(0.3, SIZE_MM - 0.3, (dice.choice(READINGS), 2))
     rise = dice.choice(["sigmoid", "error function", "ramp"]), dice.choice(RISES_MM)
     reading = 3 + 2 * (share(*rise, depth(truth, at)) + noise * dice.normal(size=len(at)))
-    (folder / "scene.json").write_text(json.dumps({"surface": {"plane": {"size_mm": list(SIZE_MM), "vertices": VERTICES}}}))
-    rows = [f"{x / 1e3},{y / 1e3},0,{value}\n" for (x, y), value in zip(at, reading)]
-    (folder / "felt.csv").write_text("x,y,z,reading\n" + "".join(rows))
-    run = dict(check=True, capture_output=True)
-    subprocess.run([palpate, "boundary", folder / "scene.json", "--measurements", folder / "felt.csv", "--out", folder / "out", "--overwrite",
-                    "--quiet"], **run)
-    subprocess.run([palpate, "export", folder / "out", "--for", "csv", "--out", folder / "csv", "--overwrite"], **run)
-    summary = json.loads((folder / "out" / "summary.json").read_text())
+    summary = concluded(palpate, folder, SIZE_MM, VERTICES, at, reading)
+    subprocess.run([palpate, "export", folder / "out", "--for", "csv", "--out", folder / "csv", "--overwrite"], check=True, capture_output=True)
     score = np.array([float(row["score"]) for row in csv.DictReader((folder / "csv" / "tissue.csv").open())]).reshape(VERTICES[::-1])
     found = shapely.affinity.scale(shapely.wkt.loads((folder / "out" / "boundary.wkt").read_text()), 1e3, 1e3, origin=(0, 0))
     line = LineString(truth.exterior)
