@@ -3,12 +3,11 @@
 /// An outline is a closed polygon of nodes about a millimetre apart. Its direction turns at a node
 /// as at the one before, but for corners, horns and necks, or is that of straight sides between
 /// corners (turn_law.h); how wide the law of its turns is, and of which kind, is learned with the
-/// outline. Pieces are about as
-/// long as each other. An outline is one of the lines that end where they began, whose density is
-/// divided by how densely lines of such turns do: else outlines would be the smoother beforehand
-/// the more loops there are. It is of what was felt: each loop holds a reading, else it could leave
-/// the tissue, where none contradicts it. Depth is the signed distance to the polygon, and a
-/// reading
+/// outline. Pieces are about as long as each other. An outline is one of the lines that end where
+/// they began, whose density is divided by how densely lines of such turns do: else outlines would
+/// be the smoother beforehand the more loops there are. It is of what was felt: each loop holds a
+/// reading, else it could leave the tissue, where none contradicts it. Depth is the signed distance
+/// to the polygon, and a reading
 ///
 ///     low + contrast (high - low) / (1 + exp(-(bent(slope depth) + logit fraction)))
 ///         + background + noise

@@ -55,11 +55,11 @@ struct ChangeLeft {
 
 /// Of a tumour of two heights what stands out the most; the outline holds what lies beside it, too.
 struct DrawnCore {
-  SurfacePoint where;                      ///< its middle
-  DrawnNumber area_m2;                     ///< within the outline
-  DrawnNumber beside;                      ///< contrast beside it, over its own
-  double with_m2 = 0.0, without_m2 = 0.0;  ///< within outlines that have a core, and that have
-                                           ///< none, on average; 0 where all have
+  SurfacePoint where;   ///< its middle
+  DrawnNumber area_m2;  ///< within the outline
+  DrawnNumber beside;   ///< contrast beside it, over its own
+  /// Within outlines that have a core, and that have none, on average; 0 where all have.
+  double with_m2 = 0.0, without_m2 = 0.0;
   /// That there is one: its share of the draws. At most a half where the readings do not tell
   /// (certainty/outline_core_start.h): then all that is concluded is of both kinds.
   double probability = 1.0;
