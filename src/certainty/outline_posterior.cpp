@@ -244,6 +244,11 @@ double OutlinePosterior::band_score(double probability) const {
   return farthest[static_cast<std::size_t>(std::clamp(rank, 1.0, count)) - 1];
 }
 
+bool OutlinePosterior::core_matters() const {
+  return core && (core->probability == 1.0 ||
+                  std::abs(core->with_m2 - core->without_m2) > expected.symmetric_difference_m2());
+}
+
 std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const EdgeBelief& edge,
                                                 const OutlineOptions& options) {
   require(options.fraction > 0.0 && options.fraction < 1.0, "sample_outlines",

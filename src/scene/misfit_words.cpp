@@ -263,7 +263,8 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(scatter_words(conclusion.outlines->noise_inside));
-    if (conclusion.outlines->core) words.push_back(core_words(surface, *conclusion.outlines->core));
+    if (conclusion.outlines->core_matters())
+      words.push_back(core_words(surface, *conclusion.outlines->core));
     if (conclusion.outlines->disagreement > kChainsApart)
       words.push_back(apart_words(conclusion.outlines->disagreement));
   }

@@ -9,6 +9,7 @@
 #include "certainty/outline_core_start.h"
 #include "certainty/outline_lines.h"
 #include "certainty/outline_walk.h"
+#include "palpation/certainty/outline_posterior.h"
 #include "palpation/geometry/make_plane.h"
 
 namespace palpation {
@@ -208,6 +209,20 @@ TEST(OutlineCore, IsOfOutlinesThatReachFartherAlone) {
 
 // It has no plateau anywhere: that it has a core is never all that is said.
 TEST(OutlineCore, IsNotClaimedOfACone) { EXPECT_FALSE(starts_of(cone).of.front().profile.core); }
+
+// 20 mm2 between the two, where 15 and then 25 are wrong in any case.
+TEST(OutlineCore, MattersWhereItMakesMoreOfADifferenceThanTheRestIsUnsure) {
+  OutlinePosterior posterior{
+      .expected = {.missed_m2 = 10e-6, .extra_m2 = 5e-6},
+      .core = DrawnCore{.with_m2 = 80e-6, .without_m2 = 60e-6, .probability = 0.4}};
+  EXPECT_TRUE(posterior.core_matters());
+  posterior.expected.extra_m2 = 15e-6;
+  EXPECT_FALSE(posterior.core_matters());
+  posterior.core->probability = 1.0;
+  EXPECT_TRUE(posterior.core_matters());
+  posterior.core.reset();
+  EXPECT_FALSE(posterior.core_matters());
+}
 
 }  // namespace
 }  // namespace palpation

@@ -89,6 +89,10 @@ struct OutlinePosterior {
   /// A draw lies wholly within { |depth| <= score spread } with this probability. Throws
   /// InvalidInput unless it lies in (0, 1).
   double band_score(double probability) const;
+
+  /// Whether it surely has a core; or whether, where the readings do not tell, that makes more of a
+  /// difference to its area than is expected to be wrong in any case.
+  bool core_matters() const;
 };
 
 /// From the edge's boundary on. Depends on the arguments alone: readings in another order are the
