@@ -22,6 +22,19 @@ constexpr double kFew = 0.1;
 
 using Draws = std::vector<OutlineDraw>;
 
+/// Places of the readings that tell nothing in more than half of them.
+std::vector<SurfacePoint> unheeded_by(const Draws& draws, const OutlineReadings& readings) {
+  std::vector<std::size_t> times(readings.where.size(), 0);
+  for (const OutlineDraw& draw : draws) {
+    for (const std::size_t reading : draw.unheeded) ++times[reading];
+  }
+  std::vector<SurfacePoint> places;
+  for (std::size_t reading = 0; reading < times.size(); ++reading) {
+    if (2 * times[reading] > draws.size()) places.push_back(readings.where[reading]);
+  }
+  return places;
+}
+
 /// Between the halves of draws, which are of two chains.
 double disagreement_of(const Draws& draws) {
   const auto half = draws.size() / 2;
@@ -101,11 +114,7 @@ OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64
   return result;
 }
 
-}  // namespace
-
-OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed) {
-  const int each = count / kChains;
-  if (!starts.are_alike()) return draws_of_two_kinds(starts, each, seed);
+OutlineDraws draws_of_one_kind(const ChainStarts& starts, int each, std::uint64_t seed) {
   std::vector<OutlineWalk> walks;
   for (int chain = 0; chain < kChains; ++chain)
     walks.push_back(
@@ -121,10 +130,19 @@ OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed
     });
     result.draws = std::move(of_chain[0]);
     for (OutlineDraw& draw : of_chain[1]) result.draws.push_back(std::move(draw));
-    result.disagreement = disagreement_of(result.draws);
-    if (result.do_agree()) break;
+    result.misfit.disagreement = disagreement_of(result.draws);
+    if (result.misfit.do_agree()) break;
   }
   return result;
+}
+
+}  // namespace
+
+OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed) {
+  OutlineDraws drawn =
+      (starts.are_alike() ? draws_of_one_kind : draws_of_two_kinds)(starts, count / kChains, seed);
+  drawn.misfit.unheeded = unheeded_by(drawn.draws, starts.of.front().readings);
+  return drawn;
 }
 
 }  // namespace palpation

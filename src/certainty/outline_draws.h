@@ -8,6 +8,7 @@
 
 #include "certainty/outline_start.h"
 #include "certainty/outline_walk.h"
+#include "palpation/certainty/outline_posterior.h"
 
 namespace palpation {
 
@@ -26,9 +27,7 @@ struct ChainStarts {
 
 struct OutlineDraws {
   std::vector<OutlineDraw> draws;  ///< of two chains, one after the other
-  double disagreement = 0.0;       ///< as OutlinePosterior has it
-
-  bool do_agree() const { return disagreement < 1.0; }
+  OutlineMisfit misfit{};
 };
 
 /// So many, of chains that go on for longer where they do not agree: those of two kinds, with a

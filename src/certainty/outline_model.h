@@ -30,6 +30,7 @@
 #include "certainty/turn_law.h"
 #include "palpation/base/random.h"
 #include "palpation/certainty/misfit.h"
+#include "palpation/geometry/surface_point.h"
 
 namespace palpation {
 
@@ -45,6 +46,7 @@ struct OutlineReadings {
   std::vector<int> epoch{};
   BackgroundTerms background{};
   Eigen::VectorXd shares{};  ///< of the contrast, by the first outline: noise grows with them
+  std::vector<SurfacePoint> where{};  ///< the places on the surface, as far as anyone asks
 };
 
 /// All but the nodes that is not known.

@@ -229,7 +229,7 @@ OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const
                         const OutlineOptions& options) {
   const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
   OutlineDraws drawn = draws_from(starts, options.draws, options.seed);
-  if (!starts.of.front().profile.core || drawn.do_agree()) return drawn;
+  if (!starts.of.front().profile.core || drawn.misfit.do_agree()) return drawn;
   return draws_from({{plain, starts.of.front()}, starts.least_area_m2}, options.draws,
                     options.seed);
 }
@@ -261,7 +261,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   const Field mean = belief.at_vertices(Part::Detrended).mean;
   std::optional<OutlineStart> first = outline_start(belief, mean, edge, options);
   if (!first) return std::nullopt;
-  const auto [draws, disagreement] =
+  const auto [draws, misfit] =
       drawn_from(pruned(*std::move(first), options.seed), surface, mean, options);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
@@ -275,7 +275,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
                              .level = mean_and_sd(levels),
                              .core = core_of(surface, draws, depths),
                              .plateau_probability = mean_and_sd(has_plateau).value,
-                             .disagreement = disagreement};
+                             .misfit = misfit};
   add_areas(surface, depths, posterior);
   posterior.farthest = farthest_of(surface, depths, posterior.spread);
   return posterior;

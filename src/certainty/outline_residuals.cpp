@@ -75,6 +75,14 @@ double OutlineResiduals::lacking(std::size_t reading) const {
                   mixed_density(off_[reading], scatter_.variance[reading]));
 }
 
+std::vector<std::size_t> OutlineResiduals::unheeded() const {
+  std::vector<std::size_t> unheeded;
+  for (std::size_t i = 0; i < off_.size(); ++i) {
+    if (!tells(i)) unheeded.push_back(i);
+  }
+  return unheeded;
+}
+
 void OutlineResiduals::consider(std::size_t reading, double off) {
   change_.considered.emplace_back(reading, off);
   if (!tells(reading)) return;

@@ -68,6 +68,8 @@ class OutlineResiduals {
   double log_noise() const { return scales_.log_noise; }
   double growth_of_noise() const { return scales_.growth; }
   bool tells(std::size_t reading) const { return scatter_.precision[reading] > 0.0; }
+  /// Those that do not, rising.
+  std::vector<std::size_t> unheeded() const;
   /// How much less probable a reading is, by itself, than one that fits: at most as one that tells
   /// nothing.
   double lacking(std::size_t reading) const;

@@ -142,6 +142,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
                         .steps = steps_of(changes, before)});
   readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
   readings.epoch = epochs_of(before, prior.epochs);
+  readings.where = std::move(in_order);
   readings.background.step_sd = step_sd_of(changes, range);
   readings.background.median_sd = kWaves * range;
   readings.background.drift_sd = kDrift * range;

@@ -111,7 +111,8 @@ OutlineDraw OutlineWalk::drawn() {
                    .cuts = {},
                    .steps = steps_,
                    .log_noise = chain_.residuals().log_noise(),
-                   .noise_growth = chain_.residuals().growth_of_noise()};
+                   .noise_growth = chain_.residuals().growth_of_noise(),
+                   .unheeded = chain_.residuals().unheeded()};
   for (const OutlineCut& cut : chain_.cuts()) {
     if (cut.is_present) draw.cuts.push_back(cut.stadium());
   }

@@ -25,9 +25,10 @@ struct OutlineDraw {
   /// deepest, and its boundary at the fraction of that height.
   bool has_plateau = true;
   std::vector<Stadium> cuts;
-  Eigen::VectorXd steps;      ///< of the zero, of the changes that move it
-  double log_noise = 0.0;     ///< of what the noise's standard deviations are multiplied by
-  double noise_growth = 0.0;  ///< logarithm: the noise on a tumour over that beside it
+  Eigen::VectorXd steps;              ///< of the zero, of the changes that move it
+  double log_noise = 0.0;             ///< of what the noise's standard deviations are multiplied by
+  double noise_growth = 0.0;          ///< logarithm: the noise on a tumour over that beside it
+  std::vector<std::size_t> unheeded;  ///< readings that tell nothing
 };
 
 class OutlineWalk {

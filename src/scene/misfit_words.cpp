@@ -9,11 +9,11 @@
 namespace palpation::tool {
 namespace {
 
-constexpr std::size_t kSessionsTold = 5;
+constexpr std::size_t kSessionsTold = 5, kReadingsTold = 3;
+constexpr double kSamePlace_m = 1e-9;
 constexpr double kTiltOver_m = 0.01;
 constexpr double kSeen = 2.0;         // standard deviations, of a session's zero
 constexpr double kMoreScatter = 1.1;  // times, surely
-constexpr double kChainsApart = 1.0;  // standard deviations: chance makes less of fifty draws
 
 std::string apart_words(double disagreement) {
   return "Two samplings of the outline have not come to one answer: their areas differ by " +
@@ -247,6 +247,29 @@ std::string core_words(const Surface& surface, const DrawnCore& core) {
          fixed(core.beside.most, 2) + "). The outline holds both, and goes half way up to either.";
 }
 
+/// The reading that was made there, if it is one.
+std::string reading_words(const Conclusion& conclusion, const SurfacePoint& where) {
+  const Surface& surface = conclusion.belief.prior().surface();
+  const Vec3 place = surface.position(where);
+  for (const Palpation& one : conclusion.palpations) {
+    if (one.set_aside.empty() && (surface.position(one.where) - place).norm() < kSamePlace_m)
+      return reading_text(one.reading) + " at " + place_words(place, 1);
+  }
+  return "at " + place_words(place, 1);
+}
+
+std::string unheeded_words(const Conclusion& conclusion) {
+  const std::vector<SurfacePoint>& unheeded = conclusion.outlines->misfit.unheeded;
+  if (unheeded.empty()) return "";
+  std::string words;
+  for (std::size_t i = 0; i < std::min(unheeded.size(), kReadingsTold); ++i)
+    words += (i > 0 ? ", " : "") + reading_words(conclusion, unheeded[i]);
+  return counted(unheeded.size(), "reading") + (unheeded.size() == 1 ? " fits" : " fit") +
+         " no outline and counted for nothing: " + words +
+         (unheeded.size() > kReadingsTold ? ", ..." : "") +
+         ". Touch there again: something else may lie there.";
+}
+
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
@@ -262,11 +285,12 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
+    words.push_back(unheeded_words(conclusion));
     words.push_back(scatter_words(conclusion.outlines->noise_inside));
     if (conclusion.outlines->core_matters())
       words.push_back(core_words(surface, *conclusion.outlines->core));
-    if (conclusion.outlines->disagreement > kChainsApart)
-      words.push_back(apart_words(conclusion.outlines->disagreement));
+    if (!conclusion.outlines->misfit.do_agree())
+      words.push_back(apart_words(conclusion.outlines->misfit.disagreement));
   }
   std::erase(words, "");
   return words;

@@ -94,6 +94,24 @@ TEST(Conclude, ThatReadingsScatterMoreOnATumourIsLearned) {
   }
 }
 
+// Seven standard deviations above healthy tissue, where nothing else stands out.
+TEST(Conclude, AReadingThatFitsNoOutlineIsToldToCountForNothing) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk(tissue);
+  Random random(7);
+  std::vector<Palpation> readings;
+  for (int i = 0; i < 120; ++i)
+    readings.push_back(phantom.touch(
+        tissue.project(Vec3(0.025 * random.uniform(), 0.050 * random.uniform(), 0.0)), random));
+  ASSERT_TRUE(conclude(tissue, Model{}, readings, nullptr, 1).outlines->misfit.unheeded.empty());
+  const Vec3 place(0.019, 0.012, 0.0);
+  readings.push_back({.where = tissue.project(place), .reading = 7.7});
+  const Conclusion conclusion = conclude(tissue, Model{}, readings, nullptr, 1);
+  ASSERT_TRUE(conclusion.outlines);
+  ASSERT_EQ(conclusion.outlines->misfit.unheeded.size(), 1U);
+  EXPECT_LT((tissue.position(conclusion.outlines->misfit.unheeded.front()) - place).norm(), 1e-9);
+}
+
 // A core of 4.5 mm in a rim half as stiff, felt all over. One line half way up to the core would
 // lie on the rim, and be anything.
 TEST(Conclude, ATumourOfTwoHeightsIsOneOutline) {

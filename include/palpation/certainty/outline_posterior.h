@@ -65,6 +65,17 @@ struct DrawnCore {
   double probability = 1.0;
 };
 
+/// What speaks against the draws.
+struct OutlineMisfit {
+  /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not
+  /// come to the same answer, and the draws say too little.
+  double disagreement = 0.0;
+  /// Where readings lie that tell nothing in more than half of the draws.
+  std::vector<SurfacePoint> unheeded{};
+
+  bool do_agree() const { return disagreement < 1.0; }
+};
+
 struct OutlinePosterior {
   Field depth;   ///< at the vertices, metres, positive inside: the median of the draws', so that it
                  ///< is positive where a place is inside in more than half of them
@@ -82,9 +93,7 @@ struct OutlinePosterior {
   std::optional<DrawnCore> core{};
   /// That the largest part levels off: reaches nine tenths half way to where it is deepest.
   double plateau_probability = 1.0;
-  /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not
-  /// come to the same answer, and the draws say too little.
-  double disagreement = 0.0;
+  OutlineMisfit misfit{};
 
   /// A draw lies wholly within { |depth| <= score spread } with this probability. Throws
   /// InvalidInput unless it lies in (0, 1).
