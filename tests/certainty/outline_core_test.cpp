@@ -212,13 +212,16 @@ TEST(OutlineCore, IsNotClaimedOfACone) { EXPECT_FALSE(starts_of(cone).of.front()
 
 // 20 mm2 between the two, where 15 and then 25 are wrong in any case.
 TEST(OutlineCore, MattersWhereItMakesMoreOfADifferenceThanTheRestIsUnsure) {
-  OutlinePosterior posterior{
-      .expected = {.missed_m2 = 10e-6, .extra_m2 = 5e-6},
-      .core = DrawnCore{.with_m2 = 80e-6, .without_m2 = 60e-6, .probability = 0.4}};
+  OutlinePosterior posterior;
+  posterior.expected = {.missed_m2 = 10e-6, .extra_m2 = 5e-6};
+  DrawnCore& core = posterior.core.emplace();
+  core.with_m2 = 80e-6;
+  core.without_m2 = 60e-6;
+  core.probability = 0.4;
   EXPECT_TRUE(posterior.core_matters());
   posterior.expected.extra_m2 = 15e-6;
   EXPECT_FALSE(posterior.core_matters());
-  posterior.core->probability = 1.0;
+  core.probability = 1.0;
   EXPECT_TRUE(posterior.core_matters());
   posterior.core.reset();
   EXPECT_FALSE(posterior.core_matters());
