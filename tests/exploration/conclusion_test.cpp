@@ -103,7 +103,6 @@ TEST(Conclude, AReadingThatFitsNoOutlineIsToldToCountForNothing) {
   for (int i = 0; i < 120; ++i)
     readings.push_back(phantom.touch(
         tissue.project(Vec3(0.025 * random.uniform(), 0.050 * random.uniform(), 0.0)), random));
-  ASSERT_TRUE(conclude(tissue, Model{}, readings, nullptr, 1).outlines->misfit.unheeded.empty());
   const Vec3 place(0.019, 0.012, 0.0);
   readings.push_back({.where = tissue.project(place), .reading = 7.7});
   const Conclusion conclusion = conclude(tissue, Model{}, readings, nullptr, 1);
