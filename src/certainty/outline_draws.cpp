@@ -24,12 +24,12 @@ using Draws = std::vector<OutlineDraw>;
 
 /// Places of the readings that tell nothing in more than half of them.
 std::vector<SurfacePoint> unheeded_by(const Draws& draws, const OutlineReadings& readings) {
-  std::vector<std::size_t> times(readings.where.size(), 0);
+  std::vector<std::size_t> times(readings.places.size(), 0);
   for (const OutlineDraw& draw : draws) {
     for (const std::size_t reading : draw.unheeded) ++times[reading];
   }
   std::vector<SurfacePoint> places;
-  for (std::size_t reading = 0; reading < times.size(); ++reading) {
+  for (std::size_t reading = 0; reading < readings.where.size(); ++reading) {
     if (2 * times[reading] > draws.size()) places.push_back(readings.where[reading]);
   }
   return places;

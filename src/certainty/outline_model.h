@@ -46,7 +46,7 @@ struct OutlineReadings {
   std::vector<int> epoch{};
   BackgroundTerms background{};
   Eigen::VectorXd shares{};  ///< of the contrast, by the first outline: noise grows with them
-  std::vector<SurfacePoint> where{};  ///< the places on the surface, as far as anyone asks
+  std::vector<SurfacePoint> where{};  ///< on the surface, where those are of one; else none
 };
 
 /// All but the nodes that is not known.
