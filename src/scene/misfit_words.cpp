@@ -248,12 +248,12 @@ std::string core_words(const Surface& surface, const DrawnCore& core) {
 }
 
 /// The reading that was made there, if it is one.
-std::string reading_words(const Conclusion& conclusion, const SurfacePoint& where) {
+std::string reading_at(const Conclusion& conclusion, const SurfacePoint& where) {
   const Surface& surface = conclusion.belief.prior().surface();
   const Vec3 place = surface.position(where);
   for (const Palpation& one : conclusion.palpations) {
     if (one.set_aside.empty() && (surface.position(one.where) - place).norm() < kSamePlace_m)
-      return reading_text(one.reading) + " at " + place_words(place, 1);
+      return reading_words(one.reading, place);
   }
   return "at " + place_words(place, 1);
 }
@@ -263,7 +263,7 @@ std::string unheeded_words(const Conclusion& conclusion) {
   if (unheeded.empty()) return "";
   std::string words;
   for (std::size_t i = 0; i < std::min(unheeded.size(), kReadingsTold); ++i)
-    words += (i > 0 ? ", " : "") + reading_words(conclusion, unheeded[i]);
+    words += (i > 0 ? ", " : "") + reading_at(conclusion, unheeded[i]);
   return counted(unheeded.size(), "reading") + (unheeded.size() == 1 ? " fits" : " fit") +
          " no outline and counted for nothing: " + words +
          (unheeded.size() > kReadingsTold ? ", ..." : "") +

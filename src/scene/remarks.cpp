@@ -34,8 +34,8 @@ std::string set_aside_words(const Exploration& exploration, const std::string& r
   std::string places;
   for (const Palpation& one : exploration.conclusion().palpations) {
     if (one.set_aside != reason || ++count > kPlacesNamed) continue;
-    places += (places.empty() ? "" : ", ") + reading_text(one.reading) + " at " +
-              place_words(exploration.surface().position(one.where), 1);
+    places += (places.empty() ? "" : ", ") +
+              reading_words(one.reading, exploration.surface().position(one.where));
   }
   if (count == 0) return "";
   return counted(count, "reading") + " set aside (" + reason + "): " + places +
@@ -109,8 +109,7 @@ std::string goal_words(const Episode& episode) {
 std::string standing_alone_words(const Surface& surface, const std::vector<Palpation>& alone) {
   std::string words;
   for (const Palpation& one : alone) {
-    words += (words.empty() ? "" : ", ") + reading_text(one.reading) + " at " +
-             place_words(surface.position(one.where), 1);
+    words += (words.empty() ? "" : ", ") + reading_words(one.reading, surface.position(one.where));
   }
   const bool is_one = alone.size() == 1;
   words = (is_one ? "One reading, " + words + ", lies farther from all others than they lie"

@@ -37,6 +37,10 @@ std::string share_words(double share);
 std::string reading_text(double value);
 /// "(5.0, 14.0, 0.0) mm".
 std::string place_words(const Vec3& place_m, int digits);
+/// "7.264 at (5.0, 14.0, 0.0) mm".
+inline std::string reading_words(double reading, const Vec3& place_m) {
+  return reading_text(reading) + " at " + place_words(place_m, 1);
+}
 /// The words after this start, where they have it.
 std::string without(const std::string& start, const std::string& words);
 
