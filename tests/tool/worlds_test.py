@@ -67,7 +67,7 @@ class Worlds(InFolder):
     def test_without_a_goal_a_search_looks_for_another_tumour_like_it(self):
         plane = {"plane": {"size_mm": [54, 49], "vertices": [75, 68]}}
         scene = self.scene(surface=plane, probe={"world": "two", "noise": 0.01})
-        summary = self.summary("simulate", scene, "--seed", 45010, "--set", "certainty=laplace")
+        summary = self.summary("simulate", scene, "--seed", 45010)
         self.assertEqual(len(summary["parts"]), 2)
         self.assertLess(summary["error"]["symmetric_difference_mm2"], 10)
 
