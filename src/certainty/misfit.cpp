@@ -26,6 +26,8 @@ constexpr int kWays = 4;
 constexpr std::array kRadii_m = {0.002, 0.004};
 constexpr double kApart_m = 0.002;
 
+constexpr int kMostHills = 4;  ///< that changes are weighed beside
+
 /// The readings and their most probable explanation under one kind of outline.
 struct Explained {
   const Surface& surface;
@@ -37,6 +39,10 @@ struct Explained {
   Eigen::VectorXd depth;     ///< of each row
   Eigen::VectorXd share;     ///< of the contrast, at that depth
   Eigen::VectorXd residual;  ///< r
+  Eigen::VectorXd pull;      ///< C^-1 r
+  /// Of what else is known to add to the readings: C^-1 is that of the fit less these times their
+  /// transposes.
+  std::vector<Eigen::VectorXd> also{};
 
   Explained(const Surface& on, const EdgeFit& edge, const EdgeData& readings,
             const EdgeProfile& profile, double weight)
@@ -49,13 +55,28 @@ struct Explained {
         depth(readings.depth_m + edge.correction_m),
         share(depth.unaryExpr([&](double at) { return profile_share(edge.profile, at); })),
         residual(edge.covariance.matrixL() *
-                 Eigen::VectorXd(edge.covariance.matrixU() * edge.pull)) {}
+                 Eigen::VectorXd(edge.covariance.matrixU() * edge.pull)),
+        pull(edge.pull) {}
+
+  /// C^-1 times a column.
+  Eigen::VectorXd solve(const Eigen::VectorXd& column) const {
+    Eigen::VectorXd solved = fit.covariance.solve(column);
+    for (const Eigen::VectorXd& known : also) solved -= known * known.dot(column);
+    return solved;
+  }
+
+  /// From here on a rival is known to add to the readings (Sherman and Morrison's identity).
+  void add(const Eigen::VectorXd& column) {
+    const Eigen::VectorXd solved = kPart * solve(column);
+    also.push_back(solved / std::sqrt(1.0 + kPart * column.dot(solved)));
+    pull -= also.back() * also.back().dot(residual);
+  }
 };
 
 /// A rival with its evidence and amount. `column`: h.
 Misfit weighed(const Explained& rows, const Eigen::VectorXd& column, Misfit rival) {
-  const double before = rows.residual.dot(rows.fit.pull), b = column.dot(rows.fit.pull);
-  const double a = kPart * kPart * column.dot(rows.fit.covariance.solve(column));
+  const double before = rows.residual.dot(rows.pull), b = column.dot(rows.pull);
+  const double a = kPart * kPart * column.dot(rows.solve(column));
   const double after = before - kPart * kPart * b * b / (1.0 + a);
   rival.evidence = after > 0.0
                        ? rows.log_weight +
@@ -74,6 +95,11 @@ class Kind {
     factors_.add(rival.evidence);
     if (std::isfinite(rival.evidence) && (!best_ || rival.evidence > best_->evidence))
       best_ = rival;
+  }
+
+  /// The strongest one's evidence.
+  double strongest() const {
+    return best_ ? best_->evidence : -std::numeric_limits<double>::infinity();
   }
 
   /// The strongest, with the kind's evidence; nothing without rivals.
@@ -198,6 +224,26 @@ void each_hill(const Explained& rows, const Layout& layout, Use use) {
   }
 }
 
+/// What stands out in one place explains readings that were made there one after the other, as a
+/// change would: hills of more evidence than any change has without them, the strongest first.
+void add_hills(const Layout& layout, const Field& depth, double least, Explained& rows) {
+  Kind zero, gain, moved;
+  weigh_changes(rows, depth, zero, gain, moved);
+  const double enough = std::max({least, zero.strongest(), gain.strongest(), moved.strongest()});
+  for (int i = 0; i < kMostHills; ++i) {
+    double most = enough;
+    Eigen::VectorXd strongest;
+    each_hill(rows, layout, [&](const Eigen::VectorXd& hill, const Misfit& rival) {
+      const double evidence = weighed(rows, hill, rival).evidence;
+      if (evidence <= most) return;
+      most = evidence;
+      strongest = hill;
+    });
+    if (strongest.size() == 0) return;
+    rows.add(strongest);
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(MisfitKind kind) {
@@ -216,12 +262,13 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   const double least = surprising(false_alarms);
   Kind zero, gain, moved, weaker;
   for (const auto& one : fits_) {
-    const Explained rows(surface_, one->edge, one->data, profile_,
-                         one->weight / most_likely().weight);
-    weigh_changes(rows, one->depth, zero, gain, moved);
-    each_hill(rows, Layout(one->correction), [&](const Eigen::VectorXd& hill, const Misfit& rival) {
+    Explained rows(surface_, one->edge, one->data, profile_, one->weight / most_likely().weight);
+    const Layout layout(one->correction);
+    each_hill(rows, layout, [&](const Eigen::VectorXd& hill, const Misfit& rival) {
       weaker.weigh(rows, hill, rival);
     });
+    add_hills(layout, one->depth, least, rows);
+    weigh_changes(rows, one->depth, zero, gain, moved);
   }
   std::vector<Misfit> found;
   for (const Kind* kind : {&zero, &gain, &moved, &weaker}) {

@@ -19,8 +19,8 @@ constexpr double kMuchOverReachable = 5.0;  // times what readings can reach: th
 /// standard deviation off at most.
 std::string least_known_words(const Conclusion& conclusion) {
   if (!conclusion.outlines) return "";
-  const Field& score = conclusion.certainty->score;
-  const Field off = (score.array().abs() <= 1.0).select(conclusion.outlines->depth.cwiseAbs(), 0.0);
+  const Field far = conclusion.outlines->depth.cwiseAbs();
+  const Field off = (far.array() <= conclusion.outlines->spread.array()).select(far, 0.0);
   Eigen::Index vertex = 0;
   if (off.maxCoeff(&vertex) == 0.0) return "";
   const Surface& surface = conclusion.belief.prior().surface();

@@ -46,6 +46,14 @@ void take_box(const Scene& scene, const Surface& surface, GateLimits& limits) {
 
 }  // namespace
 
+void check_forces(const Scene& scene) {
+  const ForceLimits force = bound(scene, limit_keys()).force;
+  if (!(force.contact_n < force.warn_n && force.warn_n < force.hold_n))
+    scene.refuse("robot.limits", "contact_n " + text_of(force.contact_n) + ", warn_n " +
+                                     text_of(force.warn_n) + ", hold_n " + text_of(force.hold_n) +
+                                     " must rise");
+}
+
 GateLimits gate_limits_of(const Scene& scene, const Surface& surface) {
   GateLimits limits = bound(scene, limit_keys());
   const auto registration = registration_of(scene);

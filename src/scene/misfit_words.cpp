@@ -195,7 +195,7 @@ std::string errors_words(ReadingScale scale, const LastingErrors& errors) {
   return "Readings that were made one after the other err alike, over some " +
          fixed(errors.readings, 0) + " of them, by " +
          (scale == ReadingScale::Log ? percent(errors.sd) : reading_text(errors.sd)) +
-         ", as a sensor that drifts makes them, or tissue that changes along the way. The band "
+         ", as a sensor that drifts makes them, or something that lies along the way. The band "
          "knows of it: touch again in another order to tell which.";
 }
 
@@ -227,10 +227,11 @@ std::string sessions_as_one_words(const Conclusion& conclusion) {
 }
 
 /// Nothing unless it surely does.
-std::string scatter_words(const DrawnNumber& inside) {
+std::string scatter_words(ReadingScale scale, const DrawnNumber& inside) {
   if (inside.least < kMoreScatter) return "";
   return "Readings scatter " + fixed(inside.mean, 1) + " times as much (" + fixed(inside.least, 1) +
-         " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there.";
+         " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there" +
+         (scale == ReadingScale::Log ? "." : ": field.transform auto asks for their logarithms.");
 }
 
 std::string core_words(const Surface& surface, const DrawnCore& core) {
@@ -286,7 +287,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(unheeded_words(conclusion));
-    words.push_back(scatter_words(conclusion.outlines->noise_inside));
+    words.push_back(scatter_words(conclusion.scale(), conclusion.outlines->noise_inside));
     if (conclusion.outlines->core_matters())
       words.push_back(core_words(surface, *conclusion.outlines->core));
     if (!conclusion.outlines->misfit.do_agree())

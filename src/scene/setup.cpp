@@ -8,6 +8,7 @@
 #include "palpation/base/contract.h"
 #include "palpation/geometry/distance.h"
 #include "scene/bound_keys.h"
+#include "scene/gate_setup.h"
 #include "scene/registration_file.h"
 #include "scene/words.h"
 
@@ -173,6 +174,7 @@ Robot robot_of(const Scene& scene) {
   } catch (const BrokenContract& error) {
     scene.refuse("robot.from_tissue", error.rule());
   }
+  check_forces(scene);
   return robot;
 }
 

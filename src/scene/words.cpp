@@ -185,7 +185,7 @@ std::string no_level_words(const Exploration& exploration) {
   const bool has_contrast = readings.size() > 1 && evidence.contrast_seen &&
                             exploration.conclusion().model.needs_contrast();
   if (evidence.of_edge || has_contrast) return no_edge_words(exploration);
-  return kNoContrast;
+  return readings.size() == 1 ? "Nothing found: one reading tells of no contrast." : kNoContrast;
 }
 
 std::string counted(std::size_t count, const std::string& noun) {

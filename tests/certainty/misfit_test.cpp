@@ -35,16 +35,18 @@ double stiffness(const Vec3& place) {
 /// What is felt at a place in a batch, without noise.
 using World = std::function<double(const Vec3&, int batch)>;
 
-/// Of readings at random vertices, half of them near the edge.
-Belief belief_of(const Surface& surface, const World& world, std::uint64_t seed, int readings) {
+/// Of readings at random vertices, half of them near the edge: every second one, or the later half.
+Belief belief_of(const Surface& surface, const World& world, std::uint64_t seed, int readings,
+                 bool edge_last = false) {
   Random random(seed);
   const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
   std::vector<Palpation> palpations;
   while (static_cast<int>(palpations.size()) < readings) {
     const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
     const Vec3 place = surface.vertex(vertex);
-    if (palpations.size() % 2 != 0 && std::abs(depth_in_disk(place)) > 0.0015) continue;
-    const int batch = static_cast<int>(palpations.size()) / (readings / 10);
+    const int count = static_cast<int>(palpations.size()), batch = count / (readings / 10);
+    const bool at_edge = edge_last ? 2 * count >= readings : count % 2 != 0;
+    if (at_edge && std::abs(depth_in_disk(place)) > 0.0015) continue;
     palpations.push_back({.where = surface.at_vertex(vertex),
                           .reading = world(place, batch) + kNoise * random.normal(),
                           .batch = batch});
@@ -104,6 +106,22 @@ TEST(Misfit, IsAZeroThatMovedByAQuarterOfTheContrast) {
   const Misfit first = first_of(shifted);
   EXPECT_NEAR(first.amount, 0.5, 0.2);
   EXPECT_NEAR(first.from_batch, 6, 1);
+}
+
+// The later readings, at the edge, lie higher than the earlier ones, of which some are of a cyst.
+TEST(Misfit, IsNoChangeWhereSomethingSoftWasFeltBeforeTheEdge) {
+  const World with_cyst = [](const Vec3& place, int) {
+    const double depth_m = 0.0035 - (place - Vec3(0.0205, 0.0195, 0.0)).norm();
+    return stiffness(place) - 2.5 / (1.0 + std::exp(-kSlope * depth_m));
+  };
+  const Surface surface = tissue();
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const std::vector<Misfit> found =
+        edge_of(belief_of(surface, with_cyst, seed, kReadings, true)).misfits();
+    ASSERT_EQ(found.size(), 1U) << seed;
+    EXPECT_EQ(found.front().kind, MisfitKind::WeakerPart) << seed;
+    EXPECT_LT(found.front().amount, -1.0) << seed;
+  }
 }
 
 TEST(Misfit, IsAGainThatChanged) {

@@ -22,10 +22,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPIED = ("CMakeLists.txt", "CMakePresets.json", "src", "include", "meshes", "examples", "tests", "README.md", "LICENSE")
 CONSTANTS = [
     f"src/certainty/outline_{name}"
-    for name in ("model.cpp:kTurnLogSd", "start.cpp:kTurn", "start.cpp:kWaves", "model.cpp:kUnbentLogSd", "model.cpp:kBentLogSd", "model.cpp:kLean",
-                 "scatter.cpp:kGrowth", "model.cpp:kPieceLogSd", "start.cpp:kDrift", "start.cpp:kTilt", "residuals.cpp:kSdLogSd", "model.cpp:kWildReach",
-                 "cut.cpp:kRadius_m", "cut.cpp:kHalfLength_m", "start.cpp:kSpacing_m", "model.cpp:kSpacingLogSd")
-] + [f"include/palpation/certainty/edge_belief.h:{name}" for name in ("slope_per_m", "slope_log_sd", "correction_sd_m", "correction_length_m")
+    for name in ("start.cpp:kTurn", "model.cpp:kTurnLogSd", "model.cpp:kBendLogSd", "model.cpp:kSmooth", "model.cpp:kOfSides", "model.cpp:kUnbentLogSd",
+                 "model.cpp:kBentLogSd", "model.cpp:kLean", "scatter.cpp:kGrowth", "start.cpp:kLearnedNoiseLogSd", "start.cpp:kGivenNoiseLogSd", "start.cpp:kWaves",
+                 "start.cpp:kDrift", "start.cpp:kTilt", "residuals.cpp:kSdLogSd", "model.cpp:kWildReach", "cut.cpp:kRadius_m", "cut.cpp:kHalfLength_m",
+                 "model.cpp:kPieceLogSd", "lines.h:kSpacing_m", "model.cpp:kSpacingLogSd", "model.cpp:kContrastLogSd")
+] + [f"src/certainty/turn_law.cpp:{name}" for name in ("kCornersOfSmooth", "kCornersOfAngular", "kCornerBend", "kCorners", "kOfCorner")
+     ] + [f"include/palpation/certainty/edge_belief.h:{name}" for name in ("slope_per_m", "slope_log_sd", "correction_sd_m", "correction_length_m")
      ] + ["include/palpation/belief/hyperparameters.h:length_median_m"]
 
 

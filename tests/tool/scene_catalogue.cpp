@@ -435,6 +435,8 @@ void add_domain(Cases& cases) {
   robot("C17", "pressing through the tissue", R"("indent_mm": 101)",
         {": robot.indent_mm: is 101, but must be 0 to 100 mm"});
   robot("C17", "not pressing at all", R"("indent_mm": 0, "standoff_mm": 0)", {});
+  robot("C17", "a warning beyond the hold", R"("limits": {"warn_n": 6, "hold_n": 5})",
+        {": robot.limits: contact_n 0.1, warn_n 6, hold_n 5 must rise"});
 
   add("C18", "a version to come", with("version", "2"),
       {": version: is 2, but this program reads version 1: it is older than the scene"});
