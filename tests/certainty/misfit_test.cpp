@@ -35,18 +35,25 @@ double stiffness(const Vec3& place) {
 /// What is felt at a place in a batch, without noise.
 using World = std::function<double(const Vec3&, int batch)>;
 
-/// Of readings at random vertices, half of them near the edge: every second one, or the later half.
+/// Whether the next reading may be made there, as so many were made.
+using Design = std::function<bool(const Vec3&, int made)>;
+
+/// Every second one near the edge.
+bool by_turns(const Vec3& place, int made) {
+  return made % 2 == 0 || std::abs(depth_in_disk(place)) <= 0.0015;
+}
+
+/// Of readings at random vertices.
 Belief belief_of(const Surface& surface, const World& world, std::uint64_t seed, int readings,
-                 bool edge_last = false) {
+                 const Design& design = by_turns) {
   Random random(seed);
   const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
   std::vector<Palpation> palpations;
   while (static_cast<int>(palpations.size()) < readings) {
     const auto vertex = static_cast<int>(random.uniform() * surface.vertex_count());
     const Vec3 place = surface.vertex(vertex);
-    const int count = static_cast<int>(palpations.size()), batch = count / (readings / 10);
-    const bool at_edge = edge_last ? 2 * count >= readings : count % 2 != 0;
-    if (at_edge && std::abs(depth_in_disk(place)) > 0.0015) continue;
+    const int made = static_cast<int>(palpations.size()), batch = made / (readings / 10);
+    if (!design(place, made)) continue;
     palpations.push_back({.where = surface.at_vertex(vertex),
                           .reading = world(place, batch) + kNoise * random.normal(),
                           .batch = batch});
@@ -108,19 +115,26 @@ TEST(Misfit, IsAZeroThatMovedByAQuarterOfTheContrast) {
   EXPECT_NEAR(first.from_batch, 6, 1);
 }
 
-// The later readings, at the edge, lie higher than the earlier ones, of which some are of a cyst.
-TEST(Misfit, IsNoChangeWhereSomethingSoftWasFeltBeforeTheEdge) {
-  const World with_cyst = [](const Vec3& place, int) {
-    const double depth_m = 0.0035 - (place - Vec3(0.0205, 0.0195, 0.0)).norm();
-    return stiffness(place) - 2.5 / (1.0 + std::exp(-kSlope * depth_m));
+// It is felt the more often the later, and readings lie lower there: by themselves those since then
+// surprise in one of these runs.
+TEST(Misfit, IsNoChangeWhereSomethingSoftIsFeltMoreAndMore) {
+  const auto depth_in_cyst = [](const Vec3& place) {
+    return 0.005 - (place - Vec3(0.0215, 0.0205, 0.0)).norm();
+  };
+  const World with_cyst = [&](const Vec3& place, int) {
+    return stiffness(place) - 1.3 / (1.0 + std::exp(-kSlope * depth_in_cyst(place)));
+  };
+  const Design edges_last = [&](const Vec3& place, int made) {
+    return made < 120 ||
+           std::min(std::abs(depth_in_disk(place)), std::abs(depth_in_cyst(place))) <= 0.0015;
   };
   const Surface surface = tissue();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const std::vector<Misfit> found =
-        edge_of(belief_of(surface, with_cyst, seed, kReadings, true)).misfits();
+        edge_of(belief_of(surface, with_cyst, seed, 180, edges_last)).misfits();
     ASSERT_EQ(found.size(), 1U) << seed;
     EXPECT_EQ(found.front().kind, MisfitKind::WeakerPart) << seed;
-    EXPECT_LT(found.front().amount, -1.0) << seed;
+    EXPECT_LT(found.front().amount, -0.5) << seed;
   }
 }
 
