@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
+#include "scene/session_words.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
 
-constexpr std::size_t kSessionsTold = 5, kReadingsTold = 3;
+constexpr std::size_t kReadingsTold = 3;
 constexpr double kSamePlace_m = 1e-9;
 constexpr double kTiltOver_m = 0.01;
-constexpr double kSeen = 2.0;         // standard deviations, of a session's zero
 constexpr double kMoreScatter = 1.1;  // times, surely
 
 std::string apart_words(double disagreement) {
@@ -21,27 +20,8 @@ std::string apart_words(double disagreement) {
          " standard deviations, so the band may be too narrow. More readings would settle it.";
 }
 
-std::string ordinal(int number) {
-  const bool is_teen = number % 100 / 10 == 1;
-  const char* end = is_teen || number % 10 > 3 || number % 10 == 0 ? "th"
-                    : number % 10 == 1                             ? "st"
-                    : number % 10 == 2                             ? "nd"
-                                                                   : "rd";
-  return std::to_string(number) + end;
-}
-
 std::string since_words(const Misfit& misfit) {
   return "From batch " + std::to_string(misfit.from_batch) + " on ";
-}
-
-std::string side_words(double amount, const std::string& more, const std::string& less) {
-  return reading_text(std::abs(amount)) + " " + (amount > 0.0 ? more : less);
-}
-
-/// "0.5 higher than before", or of logarithms "1.65 times as high as before".
-std::string raised_words(ReadingScale scale, double amount) {
-  if (scale == ReadingScale::Log) return fixed(std::exp(amount), 2) + " times as high as before";
-  return side_words(amount, "higher", "lower") + " than before";
 }
 
 std::string standing_out_words(ReadingScale scale, double amount) {
@@ -133,37 +113,6 @@ std::string words_of(const Conclusion& conclusion, const Misfit& misfit) {
   return "";
 }
 
-/// Nothing where its zero and gain may be those of the one before.
-std::string session_words(ReadingScale scale, const SessionChange& session) {
-  const bool has_zero = std::abs(session.zero.amount) >= kSeen * session.zero.stddev;
-  const bool has_gain = session.gain && (session.gain->least > 1.0 || session.gain->most < 1.0);
-  if (!has_zero && !has_gain) return "";
-  std::string words = "The " + ordinal(session.zero.session + 1) +
-                      " session, which begins with reading " +
-                      std::to_string(session.zero.number + 1);
-  if (has_zero)
-    words +=
-        ", has a zero of its own: its readings lie " + raised_words(scale, session.zero.amount);
-  if (has_gain)
-    words += std::string(has_zero ? ", and" : " has a gain of its own:") +
-             " what stands out does so " + fixed(session.gain->mean, 2) + " times as much (" +
-             fixed(session.gain->least, 2) + " to " + fixed(session.gain->most, 2) + ")";
-  return words + ". That is taken from them.";
-}
-
-/// In a line, where there are many.
-std::vector<std::string> session_words(ReadingScale scale,
-                                       std::span<const SessionChange> sessions) {
-  std::vector<std::string> words;
-  for (const SessionChange& session : sessions) words.push_back(session_words(scale, session));
-  std::erase(words, "");
-  if (words.size() <= kSessionsTold) return words;
-  return {"Of " + std::to_string(sessions.size() + 1) + " sessions " +
-          std::to_string(words.size()) +
-          " have zeros or gains of their own, which are taken from their readings: taken_back of " +
-          "summary.json has them."};
-}
-
 std::string taken_back_words(const Surface& surface, ReadingScale scale, const Misfit& change) {
   const std::string since =
       "Since reading " + std::to_string(change.number + 1) +
@@ -212,20 +161,6 @@ std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
          "where you touched before.";
 }
 
-/// Where a model does not let them differ; else nothing.
-std::string sessions_as_one_words(const Conclusion& conclusion) {
-  int last = 0;
-  for (const Palpation& one : conclusion.palpations) last = std::max(last, one.session);
-  const auto is_of_session = [](const Misfit& change) { return change.session > 0; };
-  if (last == 0 || std::ranges::any_of(conclusion.evidence.taken_back, is_of_session)) return "";
-  return "Readings are of " + std::to_string(last + 1) +
-         " sessions, whose zeros are taken to be one: " +
-         (conclusion.model.field.is_noiseless()    ? "the field has no noise"
-          : conclusion.model.field.trend.is_linear ? "field.trend is linear, which trades with them"
-                                                   : "too few of them count to tell them apart") +
-         ".";
-}
-
 /// Nothing unless it surely does.
 std::string scatter_words(ReadingScale scale, const DrawnNumber& inside) {
   if (inside.least < kMoreScatter) return "";
@@ -268,22 +203,24 @@ std::string unheeded_words(const Conclusion& conclusion) {
   return counted(unheeded.size(), "reading") + (unheeded.size() == 1 ? " fits" : " fit") +
          " no outline and counted for nothing: " + words +
          (unheeded.size() > kReadingsTold ? ", ..." : "") +
-         ". Touch there again: something else may lie there.";
+         ". Touch there again: contact may have been lost, or something else lies there.";
 }
 
 }  // namespace
 
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   const Surface& surface = conclusion.belief.prior().surface();
-  std::vector<std::string> words = session_words(conclusion.scale(), session_changes(conclusion));
-  for (const Misfit& change : other_changes(conclusion))
+  std::vector<std::string> words = session_words(conclusion);
+  for (const Misfit& change : other_changes(conclusion)) {
     words.push_back(taken_back_words(surface, conclusion.scale(), change));
+    if (change.kind == MisfitKind::Tilted && !session_changes(conclusion).empty())
+      words.back() += " Sessions that felt other sides of it may differ by as much instead.";
+  }
   if (const LastingErrors& errors = conclusion.evidence.errors_beside_edge;
       conclusion.outlines && errors.readings > 0.0 && !has_drift(conclusion))
     words.push_back(errors_words(conclusion.scale(), errors));
   if (conclusion.evidence.zero_or_tissue)
     words.push_back(zero_or_tissue_words(conclusion.scale(), *conclusion.evidence.zero_or_tissue));
-  words.push_back(sessions_as_one_words(conclusion));
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(unheeded_words(conclusion));

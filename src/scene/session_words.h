@@ -1,0 +1,17 @@
+/// What sessions differ by, in words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/episode.h"
+
+namespace palpation::tool {
+
+/// "0.5 higher than before", or of logarithms "1.65 times as high as before".
+std::string raised_words(ReadingScale scale, double amount);
+
+/// A sentence each, of those whose zero or gain is surely another; or that they are taken for one.
+std::vector<std::string> session_words(const Conclusion& conclusion);
+
+}  // namespace palpation::tool
