@@ -12,12 +12,10 @@
 #include "certainty/edge_belief_fit.h"
 #include "certainty/layout.h"
 #include "certainty/outline_model.h"
-#include "palpation/base/error.h"
 
 namespace palpation {
 namespace {
 
-constexpr double kKinds = 4.0;  // zero, gain, place, parts
 /// What a rival may add, standard deviations: of the contrast, and of a gain; of a move, metres.
 constexpr double kPart = 0.5;
 /// Ways in which tissue may have moved, over half a turn.
@@ -224,39 +222,33 @@ void each_hill(const Explained& rows, const Layout& layout, Use use) {
   }
 }
 
+/// Of more evidence than that; empty if none is.
+Eigen::VectorXd strongest_hill(const Explained& rows, const Layout& layout, double evidence) {
+  Eigen::VectorXd strongest;
+  each_hill(rows, layout, [&](const Eigen::VectorXd& hill, const Misfit& rival) {
+    const double of_hill = weighed(rows, hill, rival).evidence;
+    if (of_hill <= evidence) return;
+    evidence = of_hill;
+    strongest = hill;
+  });
+  return strongest;
+}
+
 /// What stands out in one place explains readings that were made there one after the other, as a
 /// change would: hills of more evidence than any change has without them, the strongest first.
 void add_hills(const Layout& layout, const Field& depth, double least, Explained& rows) {
+  if (strongest_hill(rows, layout, least).size() == 0) return;
   Kind zero, gain, moved;
   weigh_changes(rows, depth, zero, gain, moved);
-  const double enough = std::max({least, zero.strongest(), gain.strongest(), moved.strongest()});
+  least = std::max({least, zero.strongest(), gain.strongest(), moved.strongest()});
   for (int i = 0; i < kMostHills; ++i) {
-    double most = enough;
-    Eigen::VectorXd strongest;
-    each_hill(rows, layout, [&](const Eigen::VectorXd& hill, const Misfit& rival) {
-      const double evidence = weighed(rows, hill, rival).evidence;
-      if (evidence <= most) return;
-      most = evidence;
-      strongest = hill;
-    });
-    if (strongest.size() == 0) return;
-    rows.add(strongest);
+    const Eigen::VectorXd hill = strongest_hill(rows, layout, least);
+    if (hill.size() == 0) return;
+    rows.add(hill);
   }
 }
 
 }  // namespace
-
-std::string_view name_of(MisfitKind kind) {
-  constexpr std::array<std::string_view, 7> kNames = {"zero", "gain",  "moved", "weaker",
-                                                      "tilt", "waves", "drift"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-double surprising(double false_alarms) {
-  require(false_alarms > 0.0 && false_alarms < 1.0, "misfits",
-          "false_alarms = " + text_of(false_alarms), "must lie in (0, 1)");
-  return std::log(kKinds / false_alarms);
-}
 
 std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   const double least = surprising(false_alarms);

@@ -44,14 +44,20 @@ void take_box(const Scene& scene, const Surface& surface, GateLimits& limits) {
   limits.box_most = Vec3(box[3], box[4], box[5]) / 1000.0;
 }
 
+void refuse_broken(const Scene& scene, const GateLimits& limits) {
+  try {
+    check(limits);
+  } catch (const InvalidInput& error) {
+    scene.refuse("robot.limits", rule_words(error));
+  }
+}
+
 }  // namespace
 
-void check_forces(const Scene& scene) {
-  const ForceLimits force = bound(scene, limit_keys()).force;
-  if (!(force.contact_n < force.warn_n && force.warn_n < force.hold_n))
-    scene.refuse("robot.limits", "contact_n " + text_of(force.contact_n) + ", warn_n " +
-                                     text_of(force.warn_n) + ", hold_n " + text_of(force.hold_n) +
-                                     " must rise");
+void check_limits(const Scene& scene) {
+  GateLimits limits = bound(scene, limit_keys());
+  limits.box_most = Vec3::Ones();  // the tissue's, where there is one
+  refuse_broken(scene, limits);
 }
 
 GateLimits gate_limits_of(const Scene& scene, const Surface& surface) {
@@ -60,11 +66,7 @@ GateLimits gate_limits_of(const Scene& scene, const Surface& surface) {
   if (registration && !scene.gives("robot.uncertainty_mm"))
     limits.uncertainty_m = std::max(registration->uncertainty_m, kLeastUncertainty_m);
   take_box(scene, surface, limits);
-  try {
-    check(limits);
-  } catch (const InvalidInput& error) {
-    scene.refuse("robot.limits", rule_words(error));
-  }
+  refuse_broken(scene, limits);
   return limits;
 }
 

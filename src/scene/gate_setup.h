@@ -7,8 +7,8 @@
 
 namespace palpation::tool {
 
-/// Throws IoError where the scene's forces do not rise from contact to holding.
-void check_forces(const Scene& scene);
+/// Throws IoError where the scene's robot.limits contradict each other, whatever the tissue.
+void check_limits(const Scene& scene);
 /// Throws IoError where the scene's robot.limits contradict each other, or the tissue lies farther
 /// from the robot's base than any arm reaches: a transform in millimetres.
 GateLimits gate_limits_of(const Scene& scene, const Surface& surface);

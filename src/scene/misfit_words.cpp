@@ -162,11 +162,14 @@ std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
 }
 
 /// Nothing unless it surely does.
-std::string scatter_words(ReadingScale scale, const DrawnNumber& inside) {
+std::string scatter_words(const Conclusion& conclusion) {
+  const DrawnNumber& inside = conclusion.outlines->noise_inside;
   if (inside.least < kMoreScatter) return "";
   return "Readings scatter " + fixed(inside.mean, 1) + " times as much (" + fixed(inside.least, 1) +
          " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there" +
-         (scale == ReadingScale::Log ? "." : ": field.transform auto asks for their logarithms.");
+         (conclusion.model.contrast.scale == ReadingScale::Raw
+              ? ": field.transform auto asks whether their logarithms fit better."
+              : ".");
 }
 
 std::string core_words(const Surface& surface, const DrawnCore& core) {
@@ -224,7 +227,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(unheeded_words(conclusion));
-    words.push_back(scatter_words(conclusion.scale(), conclusion.outlines->noise_inside));
+    words.push_back(scatter_words(conclusion));
     if (conclusion.outlines->core_matters())
       words.push_back(core_words(surface, *conclusion.outlines->core));
     if (!conclusion.outlines->misfit.do_agree())

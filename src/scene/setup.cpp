@@ -174,7 +174,7 @@ Robot robot_of(const Scene& scene) {
   } catch (const BrokenContract& error) {
     scene.refuse("robot.from_tissue", error.rule());
   }
-  check_forces(scene);
+  check_limits(scene);
   return robot;
 }
 

@@ -68,6 +68,20 @@ class Tool(InFolder):
         self.assertIn("49 readings (49 set aside).\nAll readings are set aside, so nothing is known.", result.stdout)
         self.assertIn("49 readings set aside (frozen", result.stderr)
 
+    def test_one_reading_tells_of_no_contrast(self):
+        measured = self.write("one.csv", "x,y,z,reading\n0.01,0.02,0,7\n")
+        self.assertIn("Nothing found: one reading tells of no contrast.", self.done("boundary", self.scene, "--measurements", measured))
+
+    def test_touches_that_would_help_are_asked_for_at_the_boundary(self):
+        dice = random.Random(14)
+        places = [(dice.uniform(2, 22), dice.uniform(2, 22)) for _ in range(18)]  # of 40 x 40 mm
+        rows = [f"{x / 1000},{y / 1000},0,{7 + 2 / (1 + math.exp(-1.4 * (6 - math.hypot(x - 12, y - 12)))) + dice.gauss(0, 0.02)}" for x, y in places]
+        scene = self.write("corner.json", json.dumps({"surface": {"plane": {"size_mm": [40, 40], "vertices": [41, 41]}}}))
+        measured = self.write("corner.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
+        result = palpate("boundary", scene, "--measurements", measured)
+        right, up = map(float, re.search(r"above all around \(([-0-9.]+), ([-0-9.]+), ", result.stderr).groups())
+        self.assertLess(abs(math.hypot(right - 12, up - 12) - 6), 4)
+
     def test_slow_waves_under_a_tumour_are_taken_back_and_told(self):
         dice = random.Random(3)
         places = [(dice.uniform(0, 40), dice.uniform(0, 50)) for _ in range(90)]
