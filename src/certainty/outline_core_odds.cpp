@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/sigmoid.h"
 #include "certainty/outline_lines.h"
 #include "certainty/outline_pruning.h"
 #include "certainty/outline_walk.h"
@@ -101,6 +102,9 @@ double log_density_but_room(OutlineProfile profile, const OutlinePrior& prior) {
   return log_profile_density(profile, prior);
 }
 
+/// How surely walks so short tell odds, nats: a thousand to one are twice that.
+const double kOddsSd = 0.5 * kRuledOut;
+
 /// Whether they end elsewhere, by more than both spread.
 bool are_apart(const SettledOutline& some, const SettledOutline& others) {
   return std::abs(some.area_m2 - others.area_m2) > some.area_sd_m2 + others.area_sd_m2;
@@ -112,6 +116,11 @@ bool are_apart(const SettledOutline& some, const SettledOutline& others) {
 double most_gained(const SettledOutline& of_two) {
   return of_two.level > 0.0 ? std::log(of_two.level_beforehand / of_two.level)
                             : std::numeric_limits<double>::infinity();
+}
+
+/// By how much two heights are more probable than one, nats.
+double gained_by_two(const SettledOutline& of_one, const SettledOutline& of_two) {
+  return std::min(of_two.log_odds + alike(of_one, of_two) - of_one.log_odds, most_gained(of_two));
 }
 
 }  // namespace
@@ -170,15 +179,22 @@ double area_between(const SettledOutline& of_one, const SettledOutline& of_two) 
 /// out. That one height takes fewer numbers speaks for it where it has a plateau, as equation 4 has
 /// it: bends follow any heights.
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two) {
-  const double by_alike = alike(of_one, of_two),
-               gained = std::min(of_two.log_odds + by_alike - of_one.log_odds, most_gained(of_two));
+  const double by_alike = alike(of_one, of_two), gained = gained_by_two(of_one, of_two);
   const bool has_plateau = of_one.has_plateau > 0.5,
              rules_one_out =
                  by_alike > kChance ? gained > kRuledOut : has_plateau && gained > 2.0 * kRuledOut;
   if (of_two.level < kSeldom && rules_one_out) return Heights::Two;
   const double at_most = has_plateau ? gained : gained - of_two.log_room;
-  const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kRuledOut);
+  const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kRuledOut &&
+                                             gained > -2.0 * kRuledOut);
   return is_open ? Heights::OneOrTwo : Heights::One;
+}
+
+/// Of odds that are not surely known the mean, by MacKay's approximation (1992) of a sigmoid over a
+/// normal law. Where readings make two more probable, and still tell neither, it is a half.
+double probability_of_two(const SettledOutline& of_one, const SettledOutline& of_two) {
+  const double gained = std::min(gained_by_two(of_one, of_two), 0.0);
+  return sigmoid(gained / std::sqrt(1.0 + std::numbers::pi / 8.0 * kOddsSd * kOddsSd));
 }
 
 }  // namespace palpation

@@ -44,4 +44,7 @@ double area_between(const SettledOutline& of_one, const SettledOutline& of_two);
 enum class Heights { One, OneOrTwo, Two };
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two);
 
+/// How probable two heights are where that is open: at most a half.
+double probability_of_two(const SettledOutline& of_one, const SettledOutline& of_two);
+
 }  // namespace palpation

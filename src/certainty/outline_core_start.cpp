@@ -149,7 +149,9 @@ ChainStarts with_core_if_paid(const OutlineStart& plain, const Surface& surface,
   }
   for (const Cored& one : all.cored) {
     if (heights_by(all.plain, one.walk) == Heights::OneOrTwo)
-      return {.of = {plain, one.start}, .least_area_m2 = area_between(all.plain, one.walk)};
+      return {.of = {plain, one.start},
+              .least_area_m2 = area_between(all.plain, one.walk),
+              .probability = probability_of_two(all.plain, one.walk)};
   }
   return {.of = {plain, plain}};
 }

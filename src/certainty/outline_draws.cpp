@@ -94,24 +94,37 @@ void tell_no_core_of_less(double least_area_m2, Draws& draws) {
   }
 }
 
+/// The first halves of both, and the second ones.
+Draws by_halves(const std::array<Draws, kChains>& of_chain) {
+  Draws all;
+  for (const std::ptrdiff_t half : {0, 1}) {
+    for (const Draws& some : of_chain) {
+      const std::ptrdiff_t count = std::ssize(some) / 2;
+      all.insert(all.end(), some.begin() + half * count, some.begin() + (half + 1) * count);
+    }
+  }
+  return all;
+}
+
+/// As many of each as it is probable, an even number, and some.
 OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64_t seed) {
+  const int of_second = 2 * std::max(static_cast<int>(std::lround(starts.probability * each)), 1);
+  const std::array counts = {2 * each - of_second, of_second};
   std::array<Draws, kChains> of_chain;
   for_ranges(kChains, 1, [&](int first, int last) {
     for (int chain = first; chain < last; ++chain) {
       OutlineWalk walk =
           walk_from(starts.of[chain], kChains * seed + static_cast<std::uint64_t>(chain));
       walk.settle(2 * kSettling, kSettling / 2);
-      of_chain[chain] = walk.draws(kSweeps, each);
+      of_chain[chain] = walk.draws(kSweeps, counts[chain]);
     }
   });
   auto& [plain, cored] = of_chain;
-  if (2 * std::ranges::count_if(plain, &OutlineDraw::has_plateau) < each)
-    cored = draws_that_stay(starts.of.back(), starts.least_area_m2, each, seed);
+  if (2 * std::ranges::count_if(plain, &OutlineDraw::has_plateau) < counts.front())
+    cored = draws_that_stay(starts.of.back(), starts.least_area_m2, of_second, seed);
   else
     tell_no_core_of_less(starts.least_area_m2, cored);
-  OutlineDraws result{.draws = std::move(plain)};
-  std::ranges::move(cored, std::back_inserter(result.draws));
-  return result;
+  return {.draws = by_halves(of_chain)};
 }
 
 OutlineDraws draws_of_one_kind(const ChainStarts& starts, int each, std::uint64_t seed) {

@@ -19,6 +19,8 @@ struct ChainStarts {
   /// Within an outline of the second chain, where the two are of two kinds: what encloses less is
   /// of the first one's, whatever it has besides.
   double least_area_m2 = 0.0;
+  /// Of the second chain's kind, where the two are of two: its share of the draws.
+  double probability = 0.5;
 
   bool are_alike() const {
     return of.front().profile.core.has_value() == of.back().profile.core.has_value();
@@ -26,7 +28,9 @@ struct ChainStarts {
 };
 
 struct OutlineDraws {
-  std::vector<OutlineDraw> draws;  ///< of two chains, one after the other
+  /// Two halves, which know nothing of each other: a chain's each; or, where the chains are of two
+  /// kinds, of each what it draws in its first half, and in its second.
+  std::vector<OutlineDraw> draws;
   OutlineMisfit misfit{};
 };
 

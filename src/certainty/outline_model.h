@@ -125,8 +125,8 @@ Vec2 draw_lean(Random& random);
 
 /// Of the profile itself. Every second tumour is as steep on all sides; of which kind its lines
 /// are counts nothing here, since kinds are proposed as often as they are so.
-/// Two in three are as equation 4 has them, with a plateau; the others are bent, and no law tells
-/// how high they would be if they were wider.
+/// Two in three have a plateau, every second of these with the sigmoid's edge of equation 4; the
+/// others are bent, and no law tells how high they would be if they were wider.
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);
 /// That one with such bends is of the first kind.
 double plateau_probability(const OutlineProfile& profile);

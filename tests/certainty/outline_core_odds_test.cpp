@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace palpation {
 namespace {
 
@@ -63,6 +65,22 @@ TEST(OutlineCoreOdds, OfACoreThatIsOftenLevelAreNoMoreThanThatTells) {
   EXPECT_EQ(heights_by(one, two), Heights::One);
   two.area_m2 = 120e-6;
   EXPECT_EQ(heights_by(one, two), Heights::OneOrTwo);
+}
+
+// Odds that are known to 3.5 nats: the mean of a sigmoid over a normal law, by quadrature.
+TEST(OutlineCoreOdds, TellHowProbableTwoHeightsAreAsFarAsTheyAreKnown) {
+  const SettledOutline one = settled_at(100.0, 80.0);
+  const double sd = 0.5 * std::log(1000.0);
+  for (const double gained : {0.0, -3.0, -6.9, -12.0}) {
+    double mean = 0.0, total = 0.0;
+    for (double z = -6.0; z <= 6.0; z += 0.01) {
+      const double density = std::exp(-0.5 * z * z);
+      mean += density / (1.0 + std::exp(-gained - sd * z));
+      total += density;
+    }
+    EXPECT_NEAR(probability_of_two(one, settled_at(100.0 + gained, 120.0)), mean / total, 0.02);
+  }
+  EXPECT_EQ(probability_of_two(one, settled_at(104.0, 120.0)), 0.5);
 }
 
 }  // namespace

@@ -132,12 +132,14 @@ TEST(ReadingLaw, IsSteeperTowardsASide) {
   EXPECT_NEAR(depth_where(law, 0.7, 2.0), 0.5 * depth_where(law, 0.7), 1e-15);
 }
 
-// Shares of normal densities, by hand: at no bend 2/3 / .25^2 against 1/3 / .5^2.
+// Shares of normal densities, by hand: at no bend 1/3 / .06^2 + 1/3 / .25^2 against 1/3 / .5^2.
 TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheLessItIsBent) {
   OutlineProfile profile;
-  EXPECT_NEAR(plateau_probability(profile), 8.0 / 9.0, 1e-12);
-  profile.log_shoulder = 0.5;
-  EXPECT_NEAR(plateau_probability(profile), 8.0 / (8.0 + std::exp(1.5)), 1e-12);
+  const double sigmoid = 1.0 / (0.06 * 0.06), unbent = 1.0 / (0.25 * 0.25),
+               bent = 1.0 / (0.5 * 0.5);
+  EXPECT_NEAR(plateau_probability(profile), (sigmoid + unbent) / (sigmoid + unbent + bent), 1e-12);
+  profile.log_shoulder = 0.5;  // over 8 sd of a sigmoid's
+  EXPECT_NEAR(plateau_probability(profile), unbent / (unbent + bent * std::exp(1.5)), 1e-12);
   profile.log_skirt = -1.0;
   EXPECT_LT(plateau_probability(profile), 0.01);
 }
