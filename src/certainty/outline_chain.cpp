@@ -104,14 +104,16 @@ double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
 
 /// How far it is off the profile.
 double OutlineChain::off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
-  const double contrast = law.contrast[part_of(felt)] * share_by_core_of(reading, felt, law),
-               rise = law.gain[epoch_of(reading)] * contrast * felt.share;
+  const double rise = law.gain[epoch_of(reading)] * law.contrast[part_of(felt)] *
+                      share_of_contrast(reading, felt, law);
   return readings_->reading[reading] - law.low - rise;
 }
 
-double OutlineChain::share_by_core_of(std::size_t reading, const Felt& felt,
-                                      const ReadingLaw& law) const {
-  return law.has_core(part_of(felt)) ? share_by_core(law, place_of(reading)) : 1.0;
+/// Of its part's.
+double OutlineChain::share_of_contrast(std::size_t reading, const Felt& felt,
+                                       const ReadingLaw& law) const {
+  if (!law.has_core(part_of(felt))) return felt.share;
+  return share_by_core(law, place_of(reading), felt.depth_m, felt.share);
 }
 
 double OutlineChain::share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {

@@ -86,7 +86,7 @@ class OutlineChain {
   int part_of(const Felt& felt) const;
   double depth_of(std::size_t reading, const Felt& felt) const;
   /// Of its part's contrast, for where the core is.
-  double share_by_core_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  double share_of_contrast(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
   double share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
   double off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
   Felt felt_anew(std::size_t reading) const;

@@ -22,9 +22,9 @@ OutlineChain::Plateaus OutlineChain::plateaus() const {
   const double low = prior_->median.low, high = prior_->median.high;
   Eigen::MatrixX3d columns(static_cast<Eigen::Index>(felt_.size()), 3);
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    const double of_part = share_by_core_of(i, felt_[i], law_) *
-                           std::exp(profile_.log_contrast[part_of(felt_[i])]),
-                 rise = law_.gain[epoch_of(i)] * of_part * felt_[i].share;
+    const double rise = law_.gain[epoch_of(i)] *
+                        std::exp(profile_.log_contrast[part_of(felt_[i])]) *
+                        share_of_contrast(i, felt_[i], law_);
     columns.row(static_cast<Eigen::Index>(i)) << 1.0 - rise, rise,
         readings_->reading[i] - low - (high - low) * rise;
   }

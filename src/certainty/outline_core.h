@@ -4,7 +4,7 @@
 /// about there, its readings lie on the edge wherever they were made, and the outline becomes
 /// fingers that follow them. With a core, a stadium, the contrast beyond it is a share of the
 /// core's; the outline goes halfway up to either. Of the core's border only what lies within the
-/// outline is felt.
+/// outline is felt: beyond, what it adds ends with the outline.
 #pragma once
 
 #include <cmath>

@@ -39,9 +39,8 @@ void count_plateaus(const OutlineChain& chain, const OutlineReadings& readings,
     counts[i].on_plateau += 1.0 / kWeighed;
     const int part = outline.loops[outline.loop_of[nearest_piece(outline, place).piece]].part;
     if (!law.has_core(part)) continue;
-    const double beside = law.core->beside;
-    if (share_by_core(law, place) > beside + (1.0 - kLevel) * (1.0 - beside)) continue;
-    const double way = law.contrast[part] * (1.0 - beside),
+    if (share_at(law, law.in_core.depth_at(place)) > 1.0 - kLevel) continue;
+    const double way = law.contrast[part] * (1.0 - law.core->beside),
                  scatter = noise * std::sqrt(kNormal * readings.variance[i]);
     counts[i].alike += std::max(std::log(way / scatter), 0.0) / kWeighed;
   }

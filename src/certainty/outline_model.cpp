@@ -104,14 +104,16 @@ double steepness_at(const ReadingLaw& law, const Vec2& place) {
   return std::exp(law.lean.dot(off) / std::sqrt(off.squaredNorm() + law.radius_m * law.radius_m));
 }
 
-double share_by_core(const ReadingLaw& law, const Vec2& place) {
-  const double in_core = sigmoid(law.slope_per_m * law.in_core.depth_at(place));
-  return law.core->beside + (1.0 - law.core->beside) * in_core;
-}
-
 double share_at(const ReadingLaw& law, double depth_m, double steepness) {
   const double steps = law.slope_per_m * steepness * depth_m;
   return sigmoid(bent(steps, steps > 0.0 ? law.shoulder : law.skirt) + law.logit_fraction);
+}
+
+double share_by_core(const ReadingLaw& law, const Vec2& place, double depth_m, double share) {
+  const double in_core_m = law.in_core.depth_at(place);
+  if (in_core_m >= depth_m) return share;
+  const double beside = law.core->beside;
+  return beside * share + (1.0 - beside) * share_at(law, in_core_m, steepness_at(law, place));
 }
 
 double depth_where(const ReadingLaw& law, double share, double steepness) {

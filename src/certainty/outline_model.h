@@ -99,10 +99,11 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior);
 
 /// How many times as steep as in the middle.
 double steepness_at(const ReadingLaw& law, const Vec2& place);
-/// What share of its contrast tissue of the part that has a core has there, however deep it is.
-double share_by_core(const ReadingLaw& law, const Vec2& place);
 /// What share of its contrast tissue has at a depth.
 double share_at(const ReadingLaw& law, double depth_m, double steepness = 1.0);
+/// Of the part that has a core: there, where without one it would have this share at this depth.
+/// What a core adds rises across its own edge where that lies within the outline, else across that.
+double share_by_core(const ReadingLaw& law, const Vec2& place, double depth_m, double share);
 /// The depth at which it has so much of it, which lies in (0, 1).
 double depth_where(const ReadingLaw& law, double share, double steepness = 1.0);
 /// Of what a reading is off by that.

@@ -91,9 +91,27 @@ TEST(OutlineCore, TissueBesideItStandsOutBySoMuchLess) {
   profile.log_contrast = {0.0};
   profile.core = core_at(kMm * Vec2(3, 2), 4 * kMm, 0.5);
   const ReadingLaw law = law_of(profile, prior);
-  EXPECT_NEAR(share_by_core(law, kMm * Vec2(3, 2)), 1.0, 1e-6);
-  EXPECT_NEAR(share_by_core(law, kMm * Vec2(7, 2)), 0.75, 1e-12);
-  EXPECT_NEAR(share_by_core(law, kMm * Vec2(12, 2)), 0.5, 1e-6);
+  const auto deep = [&](double x_mm) {
+    return share_by_core(law, kMm * Vec2(x_mm, 2), 20 * kMm, 1.0);
+  };
+  EXPECT_NEAR(deep(3), 1.0, 1e-6);
+  EXPECT_NEAR(deep(7), 0.75, 1e-12);
+  EXPECT_NEAR(deep(12), 0.5, 1e-6);
+}
+
+// Half a millimetre outside of a boundary that the core reaches beyond, and that ends it.
+TEST(OutlineCore, EndsWithTheOutlineWhereItReachesBeyond) {
+  OutlinePrior prior;
+  OutlineProfile profile;
+  profile.high = 1.0;
+  profile.log_slope = std::log(1000.0);
+  profile.log_contrast = {0.0};
+  profile.core = core_at(kMm * Vec2(3, 2), 4 * kMm, 0.5);
+  const ReadingLaw law = law_of(profile, prior);
+  const double depth_m = -0.5 * kMm, share = share_at(law, depth_m);
+  EXPECT_EQ(share_by_core(law, kMm * Vec2(5, 2), depth_m, share), share);
+  EXPECT_NEAR(share_by_core(law, kMm * Vec2(8, 2), depth_m, share),
+              0.5 * share + 0.5 * share_at(law, -kMm), 1e-12);
 }
 
 // What a chain adds up step by step is what a fresh one says of where it has come to.
