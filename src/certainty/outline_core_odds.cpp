@@ -39,7 +39,7 @@ void count_plateaus(const OutlineChain& chain, const OutlineReadings& readings,
     counts[i].on_plateau += 1.0 / kWeighed;
     const int part = outline.loops[outline.loop_of[nearest_piece(outline, place).piece]].part;
     if (!law.has_core(part)) continue;
-    if (share_at(law, law.in_core.depth_at(place)) > 1.0 - kLevel) continue;
+    if (sigmoid(law.slope_per_m * law.in_core.depth_at(place)) > 1.0 - kLevel) continue;
     const double way = law.contrast[part] * (1.0 - law.core->beside),
                  scatter = noise * std::sqrt(kNormal * readings.variance[i]);
     counts[i].alike += std::max(std::log(way / scatter), 0.0) / kWeighed;
@@ -152,8 +152,7 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
   }
   sum.level_beforehand = (1.0 - kLevel) / (1.0 - least_beside(start.prior.fraction));
   sum.area_sd_m2 = std::sqrt(std::max(square_m4 - sum.area_m2 * sum.area_m2, 0.0));
-  sum.log_room = cores.log_room();
-  sum.log_odds += sum.log_room + leans.log_room();
+  sum.log_odds += cores.log_room() + leans.log_room();
   return sum;
 }
 
@@ -175,17 +174,14 @@ double area_between(const SettledOutline& of_one, const SettledOutline& of_two) 
 /// so, tissue may as well rise all the way up to its middle: then readings that make a core more
 /// probable tell neither, unless one height has a plateau all the same, and is ruled out twice
 /// over. Nor do those that do not, where the two end elsewhere, unless they rule a second height
-/// out. That one height takes fewer numbers speaks for it where it has a plateau, as equation 4 has
-/// it: bends follow any heights.
+/// out.
 Heights heights_by(const SettledOutline& of_one, const SettledOutline& of_two) {
   const double by_alike = alike(of_one, of_two), gained = gained_by_two(of_one, of_two);
-  const bool has_plateau = of_one.has_plateau > 0.5,
-             rules_one_out =
-                 by_alike > kChance ? gained > kRuledOut : has_plateau && gained > 2.0 * kRuledOut;
+  const bool rules_one_out = by_alike > kChance
+                                 ? gained > kRuledOut
+                                 : of_one.has_plateau > 0.5 && gained > 2.0 * kRuledOut;
   if (of_two.level < kSeldom && rules_one_out) return Heights::Two;
-  const double at_most = has_plateau ? gained : gained - of_two.log_room;
-  const bool is_open = at_most > kChance || (are_apart(of_one, of_two) && at_most > -kRuledOut &&
-                                             gained > -2.0 * kRuledOut);
+  const bool is_open = gained > kChance || (are_apart(of_one, of_two) && gained > -kRuledOut);
   return is_open ? Heights::OneOrTwo : Heights::One;
 }
 

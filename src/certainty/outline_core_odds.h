@@ -20,7 +20,6 @@ struct SettledOutline {
   /// How probable outlines of its kind are, nats, less what all kinds have in common: by the
   /// readings, the profile, and a core's numbers.
   double log_odds = 0.0;
-  double log_room = 0.0;     ///< and of these, what a core's numbers make of that, not positive
   double has_plateau = 0.0;  ///< how probable it is that it has one
   double area_m2 = 0.0;      ///< within the outline,
   double area_sd_m2 = 0.0;   ///< and how much that varies

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
+#include "base/sigmoid.h"
 #include "certainty/outline_core_odds.h"
 #include "certainty/outline_lines.h"
 #include "certainty/outline_pruning.h"
@@ -18,6 +20,9 @@ namespace {
 
 /// Contrasts beside a core that are tried, of its own.
 constexpr std::array kBeside = {0.45, 0.55, 0.65, 0.75};
+/// How far beyond three quarters of the way up a core reaches that ends with the outline, in steps
+/// of a sigmoid: one to half way up, and two to where its own edge is over.
+constexpr double kBeyond = 3.0;
 
 /// Of one part.
 OutlineNodes part_of(const OutlineNodes& outline, int part) {
@@ -55,32 +60,30 @@ OutlineCore core_about(const std::vector<Vec2>& places, double beside) {
           .beside = beside};
 }
 
-/// Half way up to what lies beside a core, where the field is highest; elsewhere the parts as they
-/// were.
-std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface& surface,
-                                       const Field& mean, double beside) {
-  // The edge may take what rises up to its middle for part of something higher.
-  const double low = plain.profile.low, range = std::min(plain.profile.high, mean.maxCoeff()) - low;
-  if (!(range > 0.0)) return std::nullopt;
-  const OutlineNodes halfway = outline_from(
-      lines_of(surface, mean.array() - (low + 0.5 * beside * range)), plain.readings.places);
-  const auto place_of = [&](int vertex) -> Vec2 {
-    return surface.chart().uv.row(vertex).transpose();
-  };
-  OutlineNodes part;
-  std::vector<Vec2> in_core;
-  for (int i = 0; i < halfway.parts(); ++i) {
-    const OutlineNodes one = part_of(halfway, i);
-    std::vector<Vec2> within;
+/// Where the field is highest: the part of the outlines there, and the vertices that reach half of
+/// the way from beside a core up to it.
+struct Highest {
+  OutlineNodes part{};
+  std::vector<Vec2> in_core{};
+};
+Highest highest_of(const OutlineNodes& outlines, const Surface& surface, const Field& mean,
+                   double least) {
+  Highest highest;
+  for (int i = 0; i < outlines.parts(); ++i) {
+    OutlineNodes part = part_of(outlines, i);
+    std::vector<Vec2> in_core;
     for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
-      if (mean[vertex] > low + 0.5 * (1.0 + beside) * range && is_inside(one, place_of(vertex)))
-        within.push_back(place_of(vertex));
+      const Vec2 place = surface.chart().uv.row(vertex).transpose();
+      if (mean[vertex] > least && is_inside(part, place)) in_core.push_back(place);
     }
-    if (within.size() <= in_core.size()) continue;
-    part = one;
-    in_core = std::move(within);
+    if (in_core.size() > highest.in_core.size()) highest = {std::move(part), std::move(in_core)};
   }
-  if (in_core.empty()) return std::nullopt;
+  return highest;
+}
+
+/// About the part that has a core, and elsewhere as it was; nothing where lines would cross.
+std::optional<OutlineStart> start_about(const OutlineNodes& part, const OutlineCore& core,
+                                        double high, const OutlineStart& plain) {
   OutlineNodes outline = part;
   for (int i = 0; i < plain.outline.parts(); ++i) {
     const OutlineNodes other = part_of(plain.outline, i);
@@ -88,12 +91,46 @@ std::optional<OutlineStart> start_with(const OutlineStart& plain, const Surface&
     const int number = outline.parts();
     for (const NodeLoop& loop : other.loops) outline.add(line_of(other, loop), number);
   }
-  if (!is_simple(outline)) return std::nullopt;
+  if (part.loops.empty() || !is_simple(outline)) return std::nullopt;
   OutlineStart start = plain;
   begin_with(outline, start);
-  start.profile.core = core_about(in_core, beside);
-  start.profile.high = low + range;
+  start.profile.core = core;
+  start.profile.high = high;
   return start;
+}
+
+/// Outlines half way up to what they enclose, where some of it stands out by `beside` of the rest.
+/// A core within, around which tissue is softer on all sides, begins half way up from that; of two
+/// that lie side by side the stiffer one is a core that reaches beyond the outline.
+std::vector<OutlineStart> starts_with(const OutlineStart& plain, const Surface& surface,
+                                      const Field& mean, double beside) {
+  // The edge may take what rises up to its middle for part of something higher.
+  const double low = plain.profile.low, range = std::min(plain.profile.high, mean.maxCoeff()) - low;
+  std::vector<OutlineStart> starts;
+  if (!(range > 0.0)) return starts;
+  const auto outlines_at = [&](const Field& height) {
+    return outline_from(lines_of(surface, height), plain.readings.places);
+  };
+  const auto add = [&](const OutlineNodes& part, const OutlineCore& core) {
+    if (std::optional<OutlineStart> start = start_about(part, core, low + range, plain))
+      starts.push_back(*std::move(start));
+  };
+  const double up = 0.5 * (1.0 + beside), slope_per_m = std::exp(plain.profile.log_slope);
+  const auto [part, in_core] = highest_of(outlines_at(mean.array() - (low + 0.5 * beside * range)),
+                                          surface, mean, low + up * range);
+  if (in_core.empty()) return starts;
+  OutlineCore core = core_about(in_core, beside);
+  add(part, core);
+  core.log_radius = std::log(std::exp(core.log_radius) + kBeyond / slope_per_m);
+  const Stadium places = core.stadium();
+  Field above(mean.size());
+  for (int vertex = 0; vertex < surface.vertex_count(); ++vertex) {
+    const double depth_m = places.depth_at(surface.chart().uv.row(vertex).transpose()),
+                 height = beside + (1.0 - beside) * sigmoid(slope_per_m * depth_m);
+    above[vertex] = mean[vertex] - low - 0.5 * height * range;
+  }
+  add(highest_of(outlines_at(above), surface, mean, low + up * range).part, core);
+  return starts;
 }
 
 struct Cored {
@@ -102,7 +139,8 @@ struct Cored {
 };
 
 /// Outlines that have settled: of one height, or with a core that is none if that is more probable;
-/// and those with a core, the most probable first.
+/// and those with a core, the most probable first: how alike readings are beside it speaks against
+/// one height, not for one core over another.
 struct SettledOutlines {
   SettledOutline plain;
   std::vector<Cored> cored{};
@@ -114,8 +152,7 @@ SettledOutlines settled_outlines(const OutlineStart& plain, const Surface& surfa
   std::vector<OutlineStart> starts = {plain};
   for (const double beside : kBeside) {
     if (beside < least_beside(plain.prior.fraction)) continue;
-    if (std::optional<OutlineStart> cored = start_with(plain, surface, mean, beside))
-      starts.push_back(*std::move(cored));
+    std::ranges::move(starts_with(plain, surface, mean, beside), std::back_inserter(starts));
   }
   std::vector<SettledOutline> walks(starts.size());
   for_ranges(static_cast<int>(starts.size()), 1, [&](int first, int last) {
@@ -131,9 +168,7 @@ SettledOutlines settled_outlines(const OutlineStart& plain, const Surface& surfa
     else if (starts[i].profile.core)
       all.cored.push_back({std::move(starts[i]), std::move(walks[i])});
   }
-  std::ranges::sort(all.cored, std::greater{}, [&](const Cored& one) {
-    return one.walk.log_odds + alike(all.plain, one.walk);
-  });
+  std::ranges::sort(all.cored, std::greater{}, [](const Cored& one) { return one.walk.log_odds; });
   return all;
 }
 

@@ -110,10 +110,10 @@ double share_at(const ReadingLaw& law, double depth_m, double steepness) {
 }
 
 double share_by_core(const ReadingLaw& law, const Vec2& place, double depth_m, double share) {
-  const double in_core_m = law.in_core.depth_at(place);
-  if (in_core_m >= depth_m) return share;
-  const double beside = law.core->beside;
-  return beside * share + (1.0 - beside) * share_at(law, in_core_m, steepness_at(law, place));
+  const double in_core_m = law.in_core.depth_at(place),
+               in_outline = sigmoid(law.slope_per_m * depth_m), beside = law.core->beside;
+  if (in_core_m >= depth_m || in_outline == 0.0) return share;
+  return share * (beside + (1.0 - beside) * sigmoid(law.slope_per_m * in_core_m) / in_outline);
 }
 
 double depth_where(const ReadingLaw& law, double share, double steepness) {

@@ -11,7 +11,6 @@ namespace {
 /// Of an outline whose area varies by a square millimetre.
 SettledOutline settled_at(double log_odds, double area_mm2, double has_plateau = 0.9) {
   return {.log_odds = log_odds,
-          .log_room = 0.0,
           .has_plateau = has_plateau,
           .area_m2 = area_mm2 * 1e-6,
           .area_sd_m2 = 1e-6};
@@ -24,13 +23,6 @@ TEST(OutlineCoreOdds, OfLessThanAThousandToOneTellNeitherWhereTheTwoEndElsewhere
   EXPECT_EQ(heights_by(one, settled_at(97.0, 81.0)), Heights::One);
   EXPECT_EQ(heights_by(one, settled_at(92.0, 120.0)), Heights::One);
   EXPECT_EQ(heights_by(one, settled_at(105.0, 81.0)), Heights::OneOrTwo);
-}
-
-TEST(OutlineCoreOdds, AreThoseOfReadingsAloneWhereOneHeightHasNoPlateau) {
-  SettledOutline two = settled_at(92.0, 120.0);
-  two.log_room = -7.0;
-  EXPECT_EQ(heights_by(settled_at(100.0, 80.0), two), Heights::One);
-  EXPECT_EQ(heights_by(settled_at(100.0, 80.0, 0.1), two), Heights::OneOrTwo);
 }
 
 TEST(OutlineCoreOdds, ReadingsThatOneHeightHasOnItsPlateauSpeakForNoCore) {
