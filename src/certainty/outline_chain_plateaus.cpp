@@ -17,11 +17,16 @@ struct OutlineChain::Plateaus {
   double log_density = 0.0;
 };
 
-/// A reading is off low (1 - rise) + high rise.
+/// A reading is off low (1 - rise) + high rise; one where the sensor's range ended by as much
+/// whatever they are.
 OutlineChain::Plateaus OutlineChain::plateaus() const {
   const double low = prior_->median.low, high = prior_->median.high;
   Eigen::MatrixX3d columns(static_cast<Eigen::Index>(felt_.size()), 3);
   for (std::size_t i = 0; i < felt_.size(); ++i) {
+    if (residuals_.is_bound(i)) {
+      columns.row(static_cast<Eigen::Index>(i)) << 0.0, 0.0, residuals_.off(i);
+      continue;
+    }
     const double rise = law_.gain[epoch_of(i)] *
                         std::exp(profile_.log_contrast[part_of(felt_[i])]) *
                         share_of_contrast(i, felt_[i], law_);
@@ -30,7 +35,7 @@ OutlineChain::Plateaus OutlineChain::plateaus() const {
   }
   const Eigen::Matrix3d products = residuals_.products(columns);
   Eigen::Matrix2d precision = products.topLeftCorner<2, 2>();
-  precision.diagonal().array() += 1.0 / (prior_->plateau_sd * prior_->plateau_sd);
+  precision.diagonal() += Eigen::Vector2d(prior_->low_sd, prior_->high_sd).array().pow(-2).matrix();
   const Eigen::Vector2d pull = products.topRightCorner<2, 1>();
   Plateaus plateaus{.precision = precision.llt(), .mean = {}};
   plateaus.mean = plateaus.precision.solve(pull);
@@ -45,7 +50,10 @@ bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, doubl
                                           Random& random, double log_volume) {
   Plateaus drawn_from = plateaus();
   const double before = log_prior() + drawn_from.log_density;
-  auto other = std::tuple(outline_, pieces_, profile_, law_, felt_);
+  auto other = std::tuple(outline_, pieces_, profile_, law_, felt_, held_);
+  const auto restore = [&] {
+    std::tie(outline_, pieces_, profile_, law_, felt_, held_) = std::move(other);
+  };
   outline_.place = places;
   bool taken = is_simple(outline_) && is_nested_as_before();
   if (taken) {
@@ -62,7 +70,8 @@ bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, doubl
       held_ = std::move(held);
     }
   }
-  if (!taken) std::tie(outline_, pieces_, profile_, law_, felt_) = std::move(other);
+  if (!taken) restore();
+  const std::pair was(profile_.low, profile_.high);
   const Eigen::Vector2d normal(random.normal(), random.normal());
   const Eigen::Vector2d drawn = drawn_from.mean + drawn_from.precision.matrixU().solve(normal);
   profile_.low = prior_->median.low + drawn[0];
@@ -71,8 +80,16 @@ bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, doubl
   residuals_.forget();
   for (std::size_t i = 0; i < felt_.size(); ++i)
     residuals_.consider(i, off_from(i, felt_[i], law_));
-  residuals_.keep();
-  return taken;
+  if (residuals_.is_possible()) {
+    residuals_.keep();
+    return taken;
+  }
+  // Beyond the sensor's range, which such plateaus do not reach.
+  residuals_.forget();
+  if (taken) restore();
+  std::tie(profile_.low, profile_.high) = was;
+  law_ = law_of(profile_, *prior_);
+  return false;
 }
 
 }  // namespace palpation

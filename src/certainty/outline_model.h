@@ -30,24 +30,11 @@
 #include "certainty/turn_law.h"
 #include "palpation/base/random.h"
 #include "palpation/certainty/misfit.h"
-#include "palpation/geometry/surface_point.h"
 
 namespace palpation {
 
 /// How far tissue moves, beforehand, on each axis.
 inline constexpr double kMoveSd_m = 0.003;
-
-/// The readings, one per place, in the chart's plane.
-struct OutlineReadings {
-  std::vector<Vec2> places;
-  std::vector<double> reading;
-  std::vector<double> variance;  ///< of the noise
-  /// In which of OutlinePrior::epochs each was made; empty where there is but the first.
-  std::vector<int> epoch{};
-  BackgroundTerms background{};
-  Eigen::VectorXd shares{};  ///< of the contrast, by the first outline: noise grows with them
-  std::vector<SurfacePoint> where{};  ///< on the surface, where those are of one; else none
-};
 
 /// All but the nodes that is not known.
 struct OutlineProfile {
@@ -70,7 +57,8 @@ struct OutlineProfile {
 /// Medians and spreads, of all that is positive in logarithms.
 struct OutlinePrior {
   OutlineProfile median;
-  double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
+  /// Reading units; the less of the two also tells how far readings reach that tell nothing.
+  double low_sd = 1.0, high_sd = 1.0;
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
   double least_log_noise = -std::numeric_limits<double>::infinity();

@@ -11,25 +11,11 @@
 namespace palpation {
 namespace {
 
-/// Part of the readings that tell nothing: Beta's law, with so many of each kind beforehand.
-constexpr int kWild = 1, kTelling = 99;
 constexpr double kSdLogSd = 1.0;
 constexpr double kSdStep = 1.0;
 constexpr std::size_t kDriftAndTilt = 2;
 constexpr int kNoiseTries = 2;
 constexpr std::array kGrowthSteps = {0.3, 0.1};
-
-/// Beta's, of whole numbers: of so many uniform numbers the one of this rank.
-double beta_draw(int a, int b, Random& random) {
-  std::vector<double> numbers;
-  for (int i = 0; i < a + b - 1; ++i) numbers.push_back(random.uniform());
-  std::ranges::nth_element(numbers, numbers.begin() + a - 1);
-  return numbers[static_cast<std::size_t>(a) - 1];
-}
-
-double normal_density(double off, double square) {
-  return std::exp(-half_square(off) / square) / std::sqrt(2.0 * std::numbers::pi * square);
-}
 
 }  // namespace
 
@@ -49,43 +35,29 @@ struct OutlineResiduals::Marginal {
   double log_density = 0.0;
 };
 
-OutlineResiduals::OutlineResiduals(std::vector<double> off, const std::vector<double>& variance,
-                                   const BackgroundTerms& terms, const Eigen::VectorXd& shares,
+OutlineResiduals::OutlineResiduals(const OutlineReadings& readings, std::vector<double> off,
                                    const ResidualPrior& prior, double log_noise)
-    : terms_(&terms),
-      shares_(&shares),
+    : readings_(&readings),
       prior_(prior),
       off_(std::move(off)),
-      scatter_(scatter_of(variance)),
-      information_(information_of(terms, variance)),
+      told_(readings.bounds.empty() ? std::vector<double>{} : off_),
+      scatter_(scatter_of(readings.variance)),
+      information_(information_of(readings.background, readings.variance)),
       scales_{.log_noise = std::max(log_noise, prior.least_log_noise),
-              .log_sd = std::vector(terms.waves.size(), 0.0),
+              .log_sd = std::vector(terms().waves.size(), 0.0),
               .wild = static_cast<double>(kWild) / (kWild + kTelling),
-              .has = std::vector(terms.waves.size() + kDriftAndTilt, true)} {
+              .has = std::vector(terms().waves.size() + kDriftAndTilt, true)} {
   factor();
-}
-
-double OutlineResiduals::mixed_density(double off, double variance) const {
-  const double square = variance * std::exp(2.0 * scales_.log_noise);
-  return (1.0 - scales_.wild) * normal_density(off, square) + scales_.wild * prior_.wild_density;
-}
-
-double OutlineResiduals::lacking(std::size_t reading) const {
-  return std::log(mixed_density(0.0, scatter_.variance[reading]) /
-                  mixed_density(off_[reading], scatter_.variance[reading]));
-}
-
-std::vector<std::size_t> OutlineResiduals::unheeded() const {
-  std::vector<std::size_t> unheeded;
-  for (std::size_t i = 0; i < off_.size(); ++i) {
-    if (!tells(i)) unheeded.push_back(i);
-  }
-  return unheeded;
 }
 
 void OutlineResiduals::consider(std::size_t reading, double off) {
   change_.considered.emplace_back(reading, off);
   if (!tells(reading)) return;
+  if (is_bound(reading)) {
+    if (!ToldAtEnd{readings_->bounds[reading], off}.allows(off_[reading]))
+      change_.local = -std::numeric_limits<double>::infinity();
+    return;
+  }
   const double before = off_[reading],
                precision = scatter_.precision[reading] * std::exp(-2.0 * scales_.log_noise);
   change_.local -= 0.5 * precision * (off * off - before * before);
@@ -97,7 +69,12 @@ double OutlineResiduals::change() const {
 }
 
 void OutlineResiduals::keep() {
-  for (const auto& [reading, off] : change_.considered) off_[reading] = off;
+  for (const auto& [reading, off] : change_.considered) {
+    if (is_bound(reading))
+      told_[reading] = off;
+    else
+      off_[reading] = off;
+  }
   pull_ += change_.pull;
   forget();
 }
@@ -123,8 +100,8 @@ OutlineResiduals::Told OutlineResiduals::told() const {
     } else {
       told.log_constant += std::log(scales_.wild * prior_.wild_density);
     }
-    if (terms_->is_none()) continue;
-    const auto row = terms_->of_readings.row(static_cast<Eigen::Index>(i));
+    if (terms().is_none()) continue;
+    const auto row = terms().of_readings.row(static_cast<Eigen::Index>(i));
     if (tells(i)) {
       told.weighed += scatter_.precision[i] * off_[i] * row.transpose();
     } else {
@@ -139,18 +116,18 @@ Eigen::VectorXd OutlineResiduals::sds(const ResidualScales& scales) const {
   Eigen::Index first = 0;
   for (std::size_t length = 0; length < scales.log_sd.size(); ++length) {
     if (scales.has[length])
-      sd.segment(first, terms_->waves[length])
-          .setConstant(terms_->median_sd * std::exp(scales.log_sd[length]));
-    first += terms_->waves[length];
+      sd.segment(first, terms().waves[length])
+          .setConstant(terms().median_sd * std::exp(scales.log_sd[length]));
+    first += terms().waves[length];
   }
   if (first < sd.size()) {
     const auto [drifts, tilts] =
         std::pair(scales.has[scales.log_sd.size()], scales.has[scales.log_sd.size() + 1]);
-    if (drifts) sd[first] = terms_->drift_sd;
-    if (tilts) sd.segment(first + 1, 2).setConstant(terms_->tilt_sd);
-    sd.segment(first + 3, terms_->seen).setOnes();
+    if (drifts) sd[first] = terms().drift_sd;
+    if (tilts) sd.segment(first + 1, 2).setConstant(terms().tilt_sd);
+    sd.segment(first + 3, terms().seen).setOnes();
   }
-  sd.tail(terms_->steps()) = terms_->step_sd;
+  sd.tail(terms().steps()) = terms().step_sd;
   return sd;
 }
 
@@ -162,7 +139,7 @@ OutlineResiduals::Marginal OutlineResiduals::marginal_of(const Told& told,
   sum = told.log_constant - 0.5 * scale * told.square - told.count * scales.log_noise -
         half_square((scales.log_noise - prior_.log_noise) / prior_.noise_log_sd);
   for (const double log_sd : scales.log_sd) sum -= half_square(log_sd / kSdLogSd);
-  if (terms_->is_none()) return marginal;
+  if (terms().is_none()) return marginal;
   Eigen::MatrixXd precision =
       scale * (marginal.sd.asDiagonal() * told.information * marginal.sd.asDiagonal());
   precision.diagonal().array() += 1.0;
@@ -195,7 +172,7 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random, bool keeps_telling) {
   const double noise_step = 1.7 / std::sqrt(told.count + 10.0);
   for (int i = 0; i < kNoiseTries; ++i) move(scales_.log_noise, noise_step);
   for (double& log_sd : scales_.log_sd) move(log_sd, kSdStep);
-  if (!terms_->is_none()) {
+  if (!terms().is_none()) {
     for (std::size_t kind = 0; kind < scales_.has.size(); ++kind) {
       // Every second time: what is always taken would be there in every second draw, in turn.
       if (random.uniform() < 0.5) continue;
@@ -205,15 +182,16 @@ Eigen::VectorXd OutlineResiduals::redraw(Random& random, bool keeps_telling) {
   }
   Eigen::VectorXd steps, noise = Eigen::Map<const Eigen::VectorXd>(
                              off_.data(), static_cast<Eigen::Index>(off_.size()));
-  if (!terms_->is_none()) {
+  if (!terms().is_none()) {
     Eigen::VectorXd coefficients(now.mean.size());
     for (double& one : coefficients) one = random.normal();
     coefficients = now.sd.cwiseProduct(now.mean + now.precision.matrixU().solve(coefficients));
-    noise -= terms_->of_readings * coefficients;
-    steps = coefficients.tail(terms_->steps());
+    noise -= terms().of_readings * coefficients;
+    steps = coefficients.tail(terms().steps());
   }
   redraw_growth(noise, random);
   if (!keeps_telling) redraw_telling(noise, random);
+  redraw_bounded(noise, random);
   factor();
   return steps;
 }
@@ -229,11 +207,11 @@ Eigen::MatrixXd OutlineResiduals::products(const Eigen::MatrixXd& columns) const
 
 /// By the noise alone, which the background leaves.
 void OutlineResiduals::redraw_growth(const Eigen::VectorXd& noise, Random& random) {
-  if (shares_->size() == 0) return;
+  if (readings_->shares.size() == 0) return;
   const double scale = std::exp(-2.0 * scales_.log_noise);
   const Eigen::Map<const Eigen::ArrayXd> precision(scatter_.precision.data(), noise.size()),
       beforehand(scatter_.beforehand.data(), noise.size());
-  const Eigen::ArrayXd shares = (precision > 0.0).select(shares_->array(), 0.0),
+  const Eigen::ArrayXd shares = (precision > 0.0).select(readings_->shares.array(), 0.0),
                        squares = (precision > 0.0)
                                      .select(scale * noise.array().square() / beforehand, 0.0);
   const auto log_density = [&](double growth) {
@@ -247,30 +225,18 @@ void OutlineResiduals::redraw_growth(const Eigen::VectorXd& noise, Random& rando
       scales_.growth = growth;
   }
   if (scales_.growth == before) return;
-  grow(scatter_, scales_.growth * *shares_);
-  information_ = information_of(*terms_, scatter_.variance);
-}
-
-/// By the noise alone; and how often readings tell nothing.
-void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& random) {
-  for (std::size_t i = 0; i < off_.size(); ++i) {
-    const double mixed = mixed_density(noise[static_cast<Eigen::Index>(i)], scatter_.variance[i]);
-    const bool tells = random.uniform() * mixed > scales_.wild * prior_.wild_density;
-    scatter_.precision[i] = tells ? 1.0 / scatter_.variance[i] : 0.0;
-  }
-  const int wild = static_cast<int>(std::ranges::count(scatter_.precision, 0.0)),
-            telling = static_cast<int>(scatter_.precision.size()) - wild;
-  scales_.wild = beta_draw(kWild + wild, kTelling + telling, random);
+  grow(scatter_, scales_.growth * readings_->shares);
+  information_ = information_of(terms(), scatter_.variance);
 }
 
 void OutlineResiduals::factor() {
   const Told told = this->told();
   const Marginal marginal = marginal_of(told, scales_);
   columns_.resize(marginal.sd.size(), static_cast<Eigen::Index>(off_.size()));
-  if (!terms_->is_none()) {
+  if (!terms().is_none()) {
     const double scale = std::exp(-2.0 * scales_.log_noise);
     const Eigen::Map<const Eigen::VectorXd> precision(scatter_.precision.data(), columns_.cols());
-    columns_ = marginal.sd.asDiagonal() * terms_->of_readings.transpose() *
+    columns_ = marginal.sd.asDiagonal() * terms().of_readings.transpose() *
                (scale * precision).asDiagonal();
     marginal.precision.matrixL().solveInPlace(columns_);
   }

@@ -2,7 +2,8 @@
 ///
 /// They are off by a background (outline_background.h), whose coefficients are integrated out, and
 /// by noise, which is normal but for readings that tell nothing: one in a hundred beforehand, how
-/// many, is learned. How much more those on a tumour scatter is, too (outline_scatter.h).
+/// many, is learned. How much more those on a tumour scatter is, too (outline_scatter.h). Where the
+/// sensor's range ended, how far a reading is off is drawn, too (bounded_readings.h).
 /// With V the variances of those that tell, times a scale, and F S F' the background's covariance,
 ///
 ///     log p(off) = -1/2 off' V^-1 off + 1/2 |pull|^2 + ...,  pull = L^-1 S^(1/2) F' V^-1 off,
@@ -17,7 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "certainty/outline_background.h"
+#include "certainty/bounded_readings.h"
+#include "certainty/outline_readings.h"
 #include "certainty/outline_scatter.h"
 #include "palpation/base/random.h"
 
@@ -43,17 +45,16 @@ struct ResidualChange {
 
 class OutlineResiduals {
  public:
-  /// All tell at first. `variance`: of each, the noise's beforehand, as the terms have it;
-  /// `shares`: of the contrast, by which noise grows. These must outlive it; without terms there is
-  /// no background, without shares noise is alike.
-  OutlineResiduals(std::vector<double> off, const std::vector<double>& variance,
-                   const BackgroundTerms& terms, const Eigen::VectorXd& shares,
+  /// All tell at first. `off`: what each told, less the profile. The readings must outlive it.
+  OutlineResiduals(const OutlineReadings& readings, std::vector<double> off,
                    const ResidualPrior& prior, double log_noise);
 
-  /// What if this one was so far off: for `change`, until it is kept or forgotten.
+  /// What if this one was so far off the profile: for `change`, until it is kept or forgotten.
   void consider(std::size_t reading, double off);
   /// Of the log density, by all that is considered.
   double change() const;
+  /// No reading contradicts what is considered: else `change` is minus infinity.
+  bool is_possible() const { return change_.local > -std::numeric_limits<double>::infinity(); }
   void keep();
   void forget();
 
@@ -64,6 +65,12 @@ class OutlineResiduals {
 
   /// X' C^-1 X of columns X with a row for each reading, C the covariance of those that tell.
   Eigen::MatrixXd products(const Eigen::MatrixXd& columns) const;
+
+  /// The sensor's range ended there: another profile leaves how far it is off as it is.
+  bool is_bound(std::size_t reading) const {
+    return !readings_->bounds.empty() && readings_->bounds[reading] != Bound::None;
+  }
+  double off(std::size_t reading) const { return off_[reading]; }
 
   double log_noise() const { return scales_.log_noise; }
   double growth_of_noise() const { return scales_.growth; }
@@ -77,21 +84,31 @@ class OutlineResiduals {
   double log_density() const;
 
  private:
+  /// Part of the readings that tell nothing: Beta's law, with so many of each kind beforehand.
+  static constexpr int kWild = 1, kTelling = 99;
+
   struct Told;
   struct Marginal;
 
-  double mixed_density(double off, double variance) const;
+  double variance_of(std::size_t reading) const;
+  double density(std::size_t reading, double noise) const;
+  double wild_density(std::size_t reading) const;
+  double mixed_density(std::size_t reading, double telling) const;
   Told told() const;
   Eigen::VectorXd sds(const ResidualScales& scales) const;
   Marginal marginal_of(const Told& told, const ResidualScales& scales) const;
   void redraw_growth(const Eigen::VectorXd& noise, Random& random);
   void redraw_telling(const Eigen::VectorXd& noise, Random& random);
+  void redraw_bounded(const Eigen::VectorXd& noise, Random& random);
   void factor();
 
-  const BackgroundTerms* terms_;
-  const Eigen::VectorXd* shares_;
+  const BackgroundTerms& terms() const { return readings_->background; }
+  ToldAtEnd told_at_end(std::size_t reading) const;
+
+  const OutlineReadings* readings_;
   ResidualPrior prior_;
-  std::vector<double> off_;
+  std::vector<double> off_;   // what was felt, less the profile,
+  std::vector<double> told_;  // and what was told, where the sensor's range ended; else none
   ReadingScatter scatter_;
   Eigen::MatrixXd information_;  // that all readings have of the background
   ResidualScales scales_;

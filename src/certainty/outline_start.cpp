@@ -94,6 +94,14 @@ Eigen::MatrixXd seen_terms(const Layout& layout, const SeenBackground& seen,
   return both;
 }
 
+/// Of readings that are one: that of any.
+Bound bound_of(const std::vector<Made>& made) {
+  for (const Made& one : made) {
+    if (one.bound != Bound::None) return one.bound;
+  }
+  return Bound::None;
+}
+
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
                                   const OutlineOptions& options, OutlinePrior& prior) {
   const std::vector<Misfit>& changes = options.changes;
@@ -134,6 +142,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
     for (const Made& one : data.made[i]) batches += one.batch;
     when.push_back(batches / static_cast<double>(data.made[i].size()));
     before.push_back(changes_before(changes, data.made[i]));
+    readings.bounds.push_back(bound_of(data.made[i]));
   }
   readings.background =
       background_terms({.places = readings.places,
@@ -143,11 +152,20 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
   readings.epoch = epochs_of(before, prior.epochs);
   readings.where = std::move(in_order);
+  if (std::ranges::count(readings.bounds, Bound::None) == std::ssize(readings.bounds))
+    readings.bounds.clear();
   readings.background.step_sd = step_sd_of(changes, range);
   readings.background.median_sd = kWaves * range;
   readings.background.drift_sd = kDrift * range;
   readings.background.tilt_sd = kTilt * range;
   return readings;
+}
+
+/// Plateaus where the sensor's range ended may lie as far beyond as what it told spans.
+void widen_beyond(const std::vector<Bound>& bounds, double range, OutlinePrior& prior) {
+  const auto has = [&](Bound bound) { return std::ranges::count(bounds, bound) > 0; };
+  if (has(Bound::AtLeast)) prior.high_sd = std::max(prior.high_sd, range);
+  if (has(Bound::AtMost)) prior.low_sd = std::max(prior.low_sd, range);
 }
 
 /// What would take each move back again, where the tumour is deepest: of another change, nothing.
@@ -208,7 +226,9 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
     start.prior.changes.push_back(change.kind);
     start.prior.gain_log_sd.push_back(change.session > 0 ? kSessionGainLogSd : kGainLogSd);
   }
-  start.prior.plateau_sd = plateau_sd(belief, median.high - median.low);
+  const double sd = plateau_sd(belief, median.high - median.low);
+  start.prior.low_sd = start.prior.high_sd = sd;
+  widen_beyond(start.readings.bounds, range, start.prior);
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;

@@ -13,6 +13,8 @@
 #include "palpation/base/error.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
+#include "readings/readings.h"
+#include "readings/saturation.h"
 
 namespace palpation {
 namespace {
@@ -33,6 +35,16 @@ std::vector<Palpation> felt_among(std::span<const Palpation> readings, const Mod
     if (reading.kind == TouchKind::Missed) continue;
     felt.push_back(reading);
     if (is_judged_anew(reading, model)) felt.back().set_aside.clear();
+  }
+  return felt;
+}
+
+/// With what the end of the sensor's range tells of each.
+std::vector<Palpation> bounded(std::vector<Palpation> felt) {
+  const std::optional<Saturation> end = saturation_of(used_readings(felt));
+  for (Palpation& one : felt) {
+    const bool is_at_end = end && end->is_alone && one.reading == end->value;
+    one.bound = !is_at_end ? Bound::None : end->is_upper ? Bound::AtLeast : Bound::AtMost;
   }
   return felt;
 }
@@ -76,7 +88,7 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   check(model);
   ConclusionCache own;
   if (cache == nullptr) cache = &own;
-  std::vector<Palpation> felt = live(surface, felt_among(readings, model));
+  std::vector<Palpation> felt = bounded(live(surface, felt_among(readings, model)));
   const ReadingScale scale =
       model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt, *cache);
   const Model scaled = on_scale(scale, model);

@@ -22,11 +22,14 @@ std::optional<Saturation> saturation_of(std::span<const double> readings) {
   if (values.size() < 2) return std::nullopt;
   std::size_t shared = 0;
   for (std::size_t i = 1; i + 1 < values.size(); ++i) shared = std::max(shared, values[i].count);
-  values.front().is_upper = false;
-  for (const Saturation& end : {values.back(), values.front()}) {
-    if (end.count >= kFewest && end.count > 2 * shared && 2 * end.count < rising.size()) return end;
-  }
-  return std::nullopt;
+  const auto is_end = [&](const Saturation& end) {
+    return end.count >= kFewest && end.count > 2 * shared && 2 * end.count < rising.size();
+  };
+  Saturation &least = values.front(), &greatest = values.back();
+  least.is_upper = false;
+  greatest.is_alone = !is_end(least);
+  if (is_end(greatest)) return greatest;
+  return is_end(least) ? std::optional(least) : std::nullopt;
 }
 
 }  // namespace palpation

@@ -12,6 +12,7 @@ struct Saturation {
   double value = 0.0;
   std::size_t count = 0;
   bool is_upper = true;  ///< the greatest of all; false: the least
+  bool is_alone = true;  ///< readings at the other end are not alike as well, as without noise
 };
 
 /// The greatest value, or else the least, where three readings or more are exactly that, more than

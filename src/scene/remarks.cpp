@@ -123,10 +123,14 @@ std::string standing_alone_words(const Surface& surface, const std::vector<Palpa
                             " out if " + (is_one ? "it is a fault." : "they are faults."));
 }
 
-std::string saturation_words(const Saturation& saturation) {
+/// `is_drawn`: outlines know of it.
+std::string saturation_words(const Saturation& saturation, bool is_drawn) {
   return std::to_string(saturation.count) + " readings are exactly " +
          reading_text(saturation.value) + ", the " + (saturation.is_upper ? "greatest" : "least") +
-         " of all: the sensor's range may end there, and what lies beyond is not known.";
+         " of all: the sensor's range may end there, and what lies beyond is not known" +
+         (is_drawn ? std::string(": outlines are drawn for tissue that reads as much or ") +
+                         (saturation.is_upper ? "more." : "less.")
+                   : ".");
 }
 
 using Remarks = std::vector<std::string>;
@@ -135,8 +139,11 @@ using Remarks = std::vector<std::string>;
 Remarks field_remarks(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
   Remarks remarks;
-  if (const auto saturation = saturation_of(readings_that_count(exploration)))
-    remarks.push_back(saturation_words(*saturation));
+  if (const auto saturation = saturation_of(readings_that_count(exploration))) {
+    const bool is_drawn =
+        conclusion.outlines && std::ranges::any_of(conclusion.palpations, &Palpation::is_bound);
+    remarks.push_back(saturation_words(*saturation, is_drawn));
+  }
   if (!conclusion.evidence.standing_alone.empty())
     remarks.push_back(
         standing_alone_words(exploration.surface(), conclusion.evidence.standing_alone));

@@ -16,11 +16,8 @@ namespace {
 
 constexpr double kMm = 1e-3;
 
-struct Readings {
-  std::vector<Vec2> places;
-  std::vector<double> when, off, variance;
-  BackgroundTerms terms{};
-  Eigen::VectorXd shares{};
+struct Readings : OutlineReadings {
+  std::vector<double> when, off;
 };
 
 /// In eight rows of eight, the rows made in turn, without residuals.
@@ -34,17 +31,17 @@ Readings raster(double variance) {
   readings.variance.assign(64, variance);
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(64, 1);
   step.bottomRows(20).setOnes();
-  readings.terms =
+  readings.background =
       background_terms({.places = readings.places, .when = readings.when, .steps = step});
-  readings.terms.median_sd = 0.1;
-  readings.terms.drift_sd = 0.5;
-  readings.terms.tilt_sd = 0.4;
-  readings.terms.step_sd[0] = 0.3;
+  readings.background.median_sd = 0.1;
+  readings.background.drift_sd = 0.5;
+  readings.background.tilt_sd = 0.4;
+  readings.background.step_sd[0] = 0.3;
   return readings;
 }
 
 OutlineResiduals residuals_of(const Readings& readings, const ResidualPrior& prior = {}) {
-  return {readings.off, readings.variance, readings.terms, readings.shares, prior, prior.log_noise};
+  return {readings, readings.off, prior, prior.log_noise};
 }
 
 Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
@@ -54,7 +51,7 @@ Eigen::VectorXd as_vector(const std::vector<double>& numbers) {
 
 /// Of noise and background, with scales of 1.
 Eigen::MatrixXd covariance_by_hand(const Readings& readings) {
-  const BackgroundTerms& terms = readings.terms;
+  const BackgroundTerms& terms = readings.background;
   Eigen::VectorXd sd = Eigen::VectorXd::Constant(terms.of_readings.cols(), terms.median_sd);
   sd[sd.size() - 4] = terms.drift_sd;
   sd.segment(sd.size() - 3, 2).setConstant(terms.tilt_sd);
@@ -136,7 +133,8 @@ TEST(OutlineResiduals, OfReadingsThatTellNothingDoNotMatter) {
 /// That a drift, and nothing else, is likely: waves, tilt and step add nothing to speak of.
 Readings that_may_drift() {
   Readings readings = raster(0.01);
-  readings.terms.median_sd = readings.terms.tilt_sd = readings.terms.step_sd[0] = 1e-6;
+  readings.background.median_sd = readings.background.tilt_sd = readings.background.step_sd[0] =
+      1e-6;
   Random random(11);
   for (std::size_t i = 0; i < 64; ++i)
     readings.off[i] = 0.1 * random.normal() + 0.08 * (readings.when[i] / 63.0 - 0.5);
@@ -147,12 +145,12 @@ Readings that_may_drift() {
 TEST(OutlineResiduals, DriftAsOftenAsTheReadingsSay) {
   const Readings readings = that_may_drift();
   Readings still = readings;
-  still.terms.drift_sd = 1e-6;
+  still.background.drift_sd = 1e-6;
   const double odds = std::exp(log_density_by_hand(readings) - log_density_by_hand(still));
   OutlineResiduals residuals =
       residuals_of(readings, {.noise_log_sd = 1e-9, .wild_density = 1e-12});
   const Eigen::MatrixXd drift =
-      readings.terms.of_readings.col(readings.terms.of_readings.cols() - 4);
+      readings.background.of_readings.col(readings.background.of_readings.cols() - 4);
   const double if_still = residuals_of(still).products(drift)(0, 0);
   Random random(12);
   double drifts = 0.0;
@@ -183,7 +181,9 @@ TEST(OutlineResiduals, KeepTellingWhereTheyAreToldTo) {
 // says.
 TEST(OutlineResiduals, AReadingTellsNothingAsOftenAsItShould) {
   const ResidualPrior prior{.noise_log_sd = 1e-9, .wild_density = 0.1};
-  Readings readings{.places = {}, .when = {}, .off = {0.38, 0.0}, .variance = {0.01, 0.01}};
+  Readings readings;
+  readings.off = {0.38, 0.0};
+  readings.variance = {0.01, 0.01};
   OutlineResiduals residuals = residuals_of(readings, prior);
   Random random(4);
   double nothing = 0.0;
@@ -290,7 +290,7 @@ TEST(OutlineResiduals, WhoseNoiseGrowsAreWeighedFewAtATimeAsAllTogether) {
 // of one number, against its integral on a grid.
 TEST(OutlineResiduals, LearnHowMuchMoreNoiseThereIsOnATumour) {
   Readings readings = noisier_on_the_right();
-  readings.terms = {};
+  readings.background = {};
   OutlineResiduals residuals = residuals_of(readings, {.noise_log_sd = 1e-9, .wild_density = 1e-9});
   double weights = 0.0, expected = 0.0, expected_square = 0.0;
   for (double growth = 0.0; growth < 3.0; growth += 0.001) {

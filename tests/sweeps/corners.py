@@ -8,19 +8,16 @@ contrast; 100 to 200 readings at random places.
 """
 
 import collections
-import csv
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
 import shapely
 import shapely.affinity
-import shapely.wkt
-from felt_plane import concluded
-from shapely.geometry import LineString, Point, Polygon, box
+from felt_plane import judged
+from shapely.geometry import Point, Polygon, box
 
 SIZE_MM = np.array([40.0, 50.0])
 VERTICES = [81, 101]
@@ -57,14 +54,6 @@ def share(kind, rise_mm, depth_mm):
     return np.clip(0.5 + 0.8 * depth_mm / rise_mm, 0, 1)
 
 
-def between_vertices(field, at):
-    """A field on the tissue's grid of vertices, rows of x, bilinear."""
-    cells = at / SIZE_MM * (np.array(VERTICES) - 1)
-    low = np.minimum(cells.astype(int), np.array(VERTICES) - 2)
-    (x, y), (i, j) = (cells - low).T, low.T
-    return ((1 - y) * ((1 - x) * field[j, i] + x * field[j, i + 1]) + y * ((1 - x) * field[j + 1, i] + x * field[j + 1, i + 1]))
-
-
 def answered(palpate, folder, number):
     """Kind, noise, true and wrong area and the expected one, mm2, and how far the truth is off in widths of the band."""
     dice = np.random.default_rng([number, 12])
@@ -73,14 +62,8 @@ def answered(palpate, folder, number):
     at = dice.uniform(0.3, SIZE_MM - 0.3, (dice.choice(READINGS), 2))
     rise = dice.choice(["sigmoid", "error function", "ramp"]), dice.choice(RISES_MM)
     reading = 3 + 2 * (share(*rise, depth(truth, at)) + noise * dice.normal(size=len(at)))
-    summary = concluded(palpate, folder, SIZE_MM, VERTICES, at, reading)
-    subprocess.run([palpate, "export", folder / "out", "--for", "csv", "--out", folder / "csv", "--overwrite"], check=True, capture_output=True)
-    score = np.array([float(row["score"]) for row in csv.DictReader((folder / "csv" / "tissue.csv").open())]).reshape(VERTICES[::-1])
-    found = shapely.affinity.scale(shapely.wkt.loads((folder / "out" / "boundary.wkt").read_text()), 1e3, 1e3, origin=(0, 0))
-    line = LineString(truth.exterior)
-    along = np.array([line.interpolate(t).coords[0] for t in np.arange(0, line.length, 0.1)] + list(truth.exterior.coords))
-    off = np.max(np.abs(between_vertices(score, along))) / summary["band"]["score"]
-    return kind, noise, truth.area, found.symmetric_difference(truth).area, summary["expected_error_mm2"], off
+    wrong, expected, off = judged(palpate, folder, SIZE_MM, VERTICES, at, reading, truth)
+    return kind, noise, truth.area, wrong, expected, off
 
 
 def main():

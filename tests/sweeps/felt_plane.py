@@ -1,7 +1,13 @@
 """A plane of tissue that was felt at some places, concluded by `palpate boundary`."""
 
+import csv
 import json
 import subprocess
+
+import numpy as np
+import shapely.affinity
+import shapely.wkt
+from shapely.geometry import LineString
 
 
 def concluded(palpate, folder, size_mm, vertices, at_mm, readings):
@@ -12,3 +18,24 @@ def concluded(palpate, folder, size_mm, vertices, at_mm, readings):
     subprocess.run([palpate, "boundary", folder / "scene.json", "--measurements", folder / "felt.csv", "--out", folder / "out", "--overwrite", "--quiet"],
                    check=True, capture_output=True)
     return json.loads((folder / "out" / "summary.json").read_text())
+
+
+def between_vertices(field, size_mm, at_mm):
+    """A field on the plane's grid of vertices, rows of x, bilinear."""
+    count = np.array(field.shape[::-1])
+    cells = at_mm / np.array(size_mm) * (count - 1)
+    low = np.minimum(cells.astype(int), count - 2)
+    (x, y), (i, j) = (cells - low).T, low.T
+    return ((1 - y) * ((1 - x) * field[j, i] + x * field[j, i + 1]) + y * ((1 - x) * field[j + 1, i] + x * field[j + 1, i + 1]))
+
+
+def judged(palpate, folder, size_mm, vertices, at_mm, readings, truth):
+    """Wrong area and the expected one, mm2, and how far the true polygon is off in widths of the band."""
+    summary = concluded(palpate, folder, size_mm, vertices, at_mm, readings)
+    subprocess.run([palpate, "export", folder / "out", "--for", "csv", "--out", folder / "csv", "--overwrite"], check=True, capture_output=True)
+    score = np.array([float(row["score"]) for row in csv.DictReader((folder / "csv" / "tissue.csv").open())]).reshape(vertices[::-1])
+    found = shapely.affinity.scale(shapely.wkt.loads((folder / "out" / "boundary.wkt").read_text()), 1e3, 1e3, origin=(0, 0))
+    line = LineString(truth.exterior)
+    along = np.array([line.interpolate(t).coords[0] for t in np.arange(0, line.length, 0.1)] + list(truth.exterior.coords))
+    off = np.max(np.abs(between_vertices(score, size_mm, along))) / summary["band"]["score"]
+    return found.symmetric_difference(truth).area, summary["expected_error_mm2"], off

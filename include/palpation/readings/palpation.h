@@ -16,6 +16,10 @@ enum class TouchKind {
           ///< else
 };
 
+/// What a reading tells of what was felt: that it is as much, but for noise; or, where the sensor's
+/// range ended, that it is as much at least, or at most.
+enum class Bound { None, AtLeast, AtMost };
+
 struct Palpation {
   SurfacePoint where;
   double reading = 0.0;  ///< stiffness, in the sensor's own unit
@@ -28,6 +32,9 @@ struct Palpation {
   std::string set_aside{};     ///< why the reading is not used; empty if it is
   int count = 1;               ///< readings that this is the mean of
   int session = 0;             ///< in each the sensor may have a zero and a gain of its own
+  Bound bound = Bound::None;   ///< found by `conclude`; what is given here does not count
+
+  bool is_bound() const { return bound != Bound::None; }
 };
 
 /// Of a palpation: when.
@@ -35,6 +42,7 @@ struct Made {
   int batch = 0;
   std::size_t number = 0;  ///< readings that were made before it (Palpation::count)
   int session = 0;
+  Bound bound = Bound::None;
 };
 
 inline Palpation missed_at(const SurfacePoint& where) {

@@ -1,0 +1,25 @@
+/// What outlines are drawn from.
+#pragma once
+
+#include <vector>
+
+#include "certainty/outline_background.h"
+#include "palpation/geometry/surface_point.h"
+#include "palpation/readings/palpation.h"
+
+namespace palpation {
+
+/// The readings, one per place, in the chart's plane.
+struct OutlineReadings {
+  std::vector<Vec2> places;
+  std::vector<double> reading;
+  std::vector<double> variance;  ///< of the noise
+  /// In which of OutlinePrior::epochs each was made; empty where there is but the first.
+  std::vector<int> epoch{};
+  BackgroundTerms background{};
+  Eigen::VectorXd shares{};     ///< of the contrast, by the first outline: noise grows with them
+  std::vector<Bound> bounds{};  ///< where the sensor's range ended; empty where it did nowhere
+  std::vector<SurfacePoint> where{};  ///< on the surface, where those are of one; else none
+};
+
+}  // namespace palpation
