@@ -35,7 +35,7 @@ OutlineChain::Plateaus OutlineChain::plateaus() const {
   }
   const Eigen::Matrix3d products = residuals_.products(columns);
   Eigen::Matrix2d precision = products.topLeftCorner<2, 2>();
-  precision.diagonal() += Eigen::Vector2d(prior_->low_sd, prior_->high_sd).array().pow(-2).matrix();
+  precision.diagonal().array() += 1.0 / (prior_->plateau_sd * prior_->plateau_sd);
   const Eigen::Vector2d pull = products.topRightCorner<2, 1>();
   Plateaus plateaus{.precision = precision.llt(), .mean = {}};
   plateaus.mean = plateaus.precision.solve(pull);

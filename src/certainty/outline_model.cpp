@@ -1,6 +1,5 @@
 #include "certainty/outline_model.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,7 +10,7 @@
 namespace palpation {
 namespace {
 
-constexpr double kWildReach = 6.0;  ///< of readings that tell nothing, in sds of a plateau
+constexpr double kWildReach = 6.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
 constexpr double kTurnLogSd = 1.0;  ///< of the turns' half width
 constexpr double kOfSides = 0.25;   ///< that of a polygon's sides, over that of what curves
 constexpr double kBendLogSd = 1.0;
@@ -125,7 +124,7 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
 
 ResidualPrior residual_prior(const OutlinePrior& prior) {
   return {.noise_log_sd = prior.noise_log_sd,
-          .wild_density = 1.0 / (kWildReach * std::min(prior.low_sd, prior.high_sd)),
+          .wild_density = 1.0 / (kWildReach * prior.plateau_sd),
           .least_log_noise = prior.least_log_noise};
 }
 
@@ -186,8 +185,8 @@ Vec2 draw_lean(Random& random) {
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior) {
   const OutlineProfile& median = prior.median;
   double sum =
-      half_square((profile.low - median.low) / prior.low_sd) +
-      half_square((profile.high - median.high) / prior.high_sd) +
+      half_square((profile.low - median.low) / prior.plateau_sd) +
+      half_square((profile.high - median.high) / prior.plateau_sd) +
       half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
       half_square((profile.turns.log_half_width - median_log_turn(profile, prior)) / kTurnLogSd) +
       half_square((profile.turns.log_bend - median.turns.log_bend) / kBendLogSd);

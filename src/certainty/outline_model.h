@@ -57,8 +57,7 @@ struct OutlineProfile {
 /// Medians and spreads, of all that is positive in logarithms.
 struct OutlinePrior {
   OutlineProfile median;
-  /// Reading units; the less of the two also tells how far readings reach that tell nothing.
-  double low_sd = 1.0, high_sd = 1.0;
+  double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
   double least_log_noise = -std::numeric_limits<double>::infinity();

@@ -161,13 +161,6 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   return readings;
 }
 
-/// Plateaus where the sensor's range ended may lie as far beyond as what it told spans.
-void widen_beyond(const std::vector<Bound>& bounds, double range, OutlinePrior& prior) {
-  const auto has = [&](Bound bound) { return std::ranges::count(bounds, bound) > 0; };
-  if (has(Bound::AtLeast)) prior.high_sd = std::max(prior.high_sd, range);
-  if (has(Bound::AtMost)) prior.low_sd = std::max(prior.low_sd, range);
-}
-
 /// What would take each move back again, where the tumour is deepest: of another change, nothing.
 std::vector<Vec2> unmoved(const Surface& surface, const EdgeBelief& edge,
                           std::span<const Misfit> changes) {
@@ -226,9 +219,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
     start.prior.changes.push_back(change.kind);
     start.prior.gain_log_sd.push_back(change.session > 0 ? kSessionGainLogSd : kGainLogSd);
   }
-  const double sd = plateau_sd(belief, median.high - median.low);
-  start.prior.low_sd = start.prior.high_sd = sd;
-  widen_beyond(start.readings.bounds, range, start.prior);
+  start.prior.plateau_sd = plateau_sd(belief, median.high - median.low);
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;

@@ -72,7 +72,7 @@ FarOff far_off() {
   median.turns.log_half_width = std::log(0.12);
   median.log_spacing = {std::log(kMm)};
   median.log_contrast = {0.0};
-  far.prior.low_sd = far.prior.high_sd = 0.5;
+  far.prior.plateau_sd = 0.5;
   far.prior.noise_log_sd = 1e-9;
   return far;
 }

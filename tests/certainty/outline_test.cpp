@@ -57,7 +57,7 @@ OutlinePrior prior_of(const OutlineNodes& outline) {
                   .turns = {.log_half_width = std::log(0.12)},
                   .log_spacing = std::vector(outline.loops.size(), std::log(kMm)),
                   .log_contrast = {0.0, 0.0}};
-  prior.low_sd = prior.high_sd = 0.5;
+  prior.plateau_sd = 0.5;
   return prior;
 }
 
