@@ -17,13 +17,12 @@ constexpr double kBendLogSd = 1.0;
 constexpr double kSmooth = 0.5;         ///< part of the outlines; the rest are of the other kinds
 constexpr double kPlateau = 2.0 / 3.0;  ///< part of the tumours that are as equation 4 has them
 constexpr double kSigmoid = 0.5;        ///< part of those whose edge is a sigmoid
-constexpr double kSigmoidLogSd =
-    0.06;                              ///< of shoulder and skirt there: a hundredth of the contrast
-constexpr double kUnbentLogSd = 0.25;  ///< of those of any edge between plateaus
-constexpr double kBentLogSd = 0.5;     ///< elsewhere
-constexpr double kLean = 0.3;          ///< sd of a slope's logarithm, from the middle to a side
-constexpr double kPieceLogSd = 0.25;   ///< of pieces in a loop
-constexpr double kSpacingLogSd = 0.3;  ///< of a loop's pieces
+constexpr double kSigmoidLogSd = 0.06;  ///< of shoulder and skirt there
+constexpr double kUnbentLogSd = 0.25;   ///< of those of any edge between plateaus
+constexpr double kBentLogSd = 0.5;      ///< elsewhere
+constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the middle to a side
+constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
+constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 constexpr int kPerLogarithm = 16;       ///< turns, whose density is a number by far
 

@@ -13,6 +13,7 @@
 #include "palpation/base/error.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
+#include "readings/lost_contact.h"
 #include "readings/readings.h"
 #include "readings/saturation.h"
 
@@ -39,11 +40,16 @@ std::vector<Palpation> felt_among(std::span<const Palpation> readings, const Mod
   return felt;
 }
 
-/// With what the end of the sensor's range tells of each.
-std::vector<Palpation> bounded(std::vector<Palpation> felt) {
-  const std::optional<Saturation> end = saturation_of(used_readings(felt));
+/// With what the end of the sensor's range tells of each. What lost contact is no end.
+std::vector<Palpation> bounded(const Surface& surface, std::vector<Palpation> felt) {
+  std::vector<Vec3> places;
+  for (const Palpation& one : felt) places.push_back(surface.position(one.where));
+  std::vector<Palpation> touching = felt;
+  for (const std::size_t number : lost_contact(felt, places))
+    touching[number].set_aside = kNoContact;
+  const std::optional<Saturation> end = saturation_of(used_readings(touching));
   for (Palpation& one : felt) {
-    const bool is_at_end = end && end->is_alone && one.reading == end->value;
+    const bool is_at_end = end && !end->may_be_tissue && one.reading == end->value;
     one.bound = !is_at_end ? Bound::None : end->is_upper ? Bound::AtLeast : Bound::AtMost;
   }
   return felt;
@@ -88,7 +94,7 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   check(model);
   ConclusionCache own;
   if (cache == nullptr) cache = &own;
-  std::vector<Palpation> felt = bounded(live(surface, felt_among(readings, model)));
+  std::vector<Palpation> felt = bounded(surface, live(surface, felt_among(readings, model)));
   const ReadingScale scale =
       model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt, *cache);
   const Model scaled = on_scale(scale, model);

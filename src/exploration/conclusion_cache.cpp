@@ -34,7 +34,7 @@ bool same_reading(const Palpation& a, const Palpation& b) {
   return a.where.face == b.where.face && a.where.barycentric == b.where.barycentric &&
          a.reading == b.reading && same(a.noise_variance, b.noise_variance) && a.batch == b.batch &&
          a.session == b.session && a.count == b.count && a.kind == b.kind &&
-         a.set_aside == b.set_aside;
+         a.set_aside == b.set_aside && a.bound == b.bound;
 }
 
 /// How many of the first palpations the belief knows, and nothing else; 0 if it is another belief.

@@ -12,12 +12,15 @@ struct Saturation {
   double value = 0.0;
   std::size_t count = 0;
   bool is_upper = true;  ///< the greatest of all; false: the least
-  bool is_alone = true;  ///< readings at the other end are not alike as well, as without noise
+  /// They are most of all, or those at the other end are alike, too: as well tissue that reads the
+  /// same without noise.
+  bool may_be_tissue = false;
 };
 
-/// The greatest value, or else the least, where three readings or more are exactly that, more than
-/// twice as many as share any value between, yet fewer than half: beyond the end of its range a
-/// sensor says the same of all, which noise does not. Nothing for readings that are all equal.
+/// The greatest value, or else the least, where three readings or more are exactly that, and more
+/// than twice as many as share any value between: beyond the end of its range a sensor says the
+/// same of all, which noise does not. It lies at most twice as far from the others as those span:
+/// what is farther is a fault. Nothing for readings of fewer than three values.
 std::optional<Saturation> saturation_of(std::span<const double> readings);
 
 }  // namespace palpation

@@ -139,7 +139,7 @@ using Remarks = std::vector<std::string>;
 Remarks field_remarks(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
   Remarks remarks;
-  if (const auto saturation = saturation_of(readings_that_count(exploration))) {
+  if (const auto saturation = saturation_of(used_readings(conclusion.palpations))) {
     const bool is_drawn =
         conclusion.outlines && std::ranges::any_of(conclusion.palpations, &Palpation::is_bound);
     remarks.push_back(saturation_words(*saturation, is_drawn));

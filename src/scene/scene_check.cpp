@@ -1,9 +1,9 @@
 // One value against one key of the schema, and the nearest key to one that is none.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "palpation/base/error.h"
+#include "scene/edit_distance.h"
 #include "scene/scene_json.h"
 #include "scene/scene_schema.h"
 
@@ -150,21 +150,6 @@ std::optional<Fault> tumours_fault(const SceneKey& key, const json& value) {
     if (const auto fault = tumour_fault(value[i])) return Fault{at(i) + fault->place, fault->words};
   }
   return std::nullopt;
-}
-
-int edit_distance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 std::string last_name(const std::string& path) { return path.substr(path.rfind('.') + 1); }

@@ -16,6 +16,7 @@
 #include "tool/export_command.h"
 #include "tool/help_command.h"
 #include "tool/mesh_options.h"
+#include "tool/misspelt.h"
 #include "tool/option_checks.h"
 #include "tool/readings_options.h"
 #include "tool/register_command.h"
@@ -250,7 +251,9 @@ int run_tool(int count, char** words) {
     app.parse(count, words);
     return kDone;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
+    if (app.exit(error) == 0) return kDone;
+    std::fputs(misspelt_words(app).c_str(), stderr);
+    return kWrongUsage;
   } catch (const std::bad_alloc& error) {
     return explain("not enough memory", exit_code_of(error));
   } catch (const std::exception& error) {

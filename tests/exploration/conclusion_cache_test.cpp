@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "exploration/background_search.h"
@@ -62,6 +64,24 @@ TEST(ConclusionCache, RemembersWhatWasTriedOnTheseReadingsAlone) {
   EXPECT_FALSE(cache.tried(surface, model, palpations));
   palpations.pop_back();
   EXPECT_FALSE(cache.tried(surface, model, palpations));
+}
+
+// The third reading at the end of the sensor's range tells what the first two are.
+TEST(ConclusionCache, ForgetsAReadingWhoseBoundOthersTell) {
+  Random random(0);
+  const Surface surface(make_plane({.size_m = {0.04, 0.05}, .columns = 41, .rows = 51}, random));
+  std::vector<Palpation> palpations = palpations_of(surface, 60);
+  for (Palpation& one : palpations) one.reading = 7.0 + 0.5 * random.normal();
+  for (const int at_end : {3, 20, 40, 50}) palpations[at_end].reading = 9.0;
+  const Model model{
+      .field = {.kernel = {.length_m = 0.0033, .signal_sd = 1.0}, .noise = {.sd = 0.1}}};
+  const auto bound = [](const Conclusion& conclusion) {
+    return std::ranges::count(conclusion.belief.palpations(), Bound::AtLeast, &Palpation::bound);
+  };
+  ConclusionCache cache;
+  EXPECT_EQ(bound(conclude(surface, model, std::span(palpations).first(30), &cache)), 0);
+  EXPECT_EQ(bound(conclude(surface, model, palpations, &cache)), 4);
+  EXPECT_EQ(bound(conclude(surface, model, palpations)), 4);
 }
 
 }  // namespace

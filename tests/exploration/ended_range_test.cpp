@@ -6,6 +6,7 @@
 
 #include "belief/tissue.h"
 #include "palpation/exploration/conclusion.h"
+#include "palpation/readings/screening.h"
 #include "palpation/world/phantom.h"
 
 namespace palpation {
@@ -44,6 +45,16 @@ TEST(EndedRange, LeavesOpenHowMuchATumourReads) {
   EXPECT_EQ(std::ranges::count(other.palpations, Bound::None, &Palpation::bound), 150);
   ASSERT_TRUE(other.outlines);
   EXPECT_GT(other.outlines->area_m2.least, area_m2);
+}
+
+// Five contacts that were lost read the same, too: that is no plateau without noise.
+TEST(EndedRange, IsSeenBesideLostContacts) {
+  const Surface tissue = plane(26, 51);
+  std::vector<Palpation> readings = felt_until(tissue, true);
+  for (const int lost : {10, 40, 70, 100, 130}) readings[lost].reading = 0.0;
+  const Conclusion conclusion = conclude(tissue, Model{}, readings);
+  EXPECT_GT(std::ranges::count(conclusion.palpations, Bound::AtLeast, &Palpation::bound), 9);
+  EXPECT_EQ(std::ranges::count(conclusion.palpations, kNoContact, &Palpation::set_aside), 5);
 }
 
 }  // namespace

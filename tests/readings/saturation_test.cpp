@@ -28,6 +28,7 @@ TEST(Saturation, IsWhereReadingsStopAtOneValue) {
   EXPECT_EQ(found->value, 9.0);
   EXPECT_EQ(found->count, cut);
   EXPECT_TRUE(found->is_upper);
+  EXPECT_FALSE(found->may_be_tissue);
   for (double& reading : readings) reading = -reading;
   const auto below = saturation_of(readings);
   ASSERT_TRUE(below);
@@ -44,9 +45,29 @@ TEST(Saturation, IsNotNoiseNorWhatIsRoundedNorAllAlike) {
   EXPECT_FALSE(saturation_of({}));
 }
 
-TEST(Saturation, IsNotHealthyTissueThatReadsTheSameWithoutNoise) {
+// Most of the readings are alike, or some at both ends: without noise a plateau is, too.
+TEST(Saturation, MayBeTissueThatReadsTheSameWithoutNoise) {
   std::vector<double> readings(30, 7.0);
   for (int i = 0; i < 20; ++i) readings.push_back(7.5 + 0.1 * i);
+  const auto floor = saturation_of(readings);
+  ASSERT_TRUE(floor);
+  EXPECT_FALSE(floor->is_upper);
+  EXPECT_TRUE(floor->may_be_tissue);
+  std::vector<double> plateaus = noisy_readings(60);
+  for (double& reading : plateaus) reading = std::clamp(reading, 7.0, 9.0);
+  const auto both = saturation_of(plateaus);
+  ASSERT_TRUE(both);
+  EXPECT_TRUE(both->may_be_tissue);
+  EXPECT_FALSE(saturation_of(std::vector{7.0, 7.0, 7.0, 7.0, 9.0, 9.0, 9.0}));
+}
+
+TEST(Saturation, IsNoFaultFarFromAllOthers) {
+  std::vector<double> readings = noisy_readings(60);
+  const auto [least, greatest] = std::ranges::minmax(readings);
+  readings.insert(readings.end(), 4, greatest + 1.9 * (greatest - least));
+  EXPECT_TRUE(saturation_of(readings));
+  for (int i = 0; i < 4; ++i) readings.pop_back();
+  readings.insert(readings.end(), 4, greatest + 2.1 * (greatest - least));
   EXPECT_FALSE(saturation_of(readings));
 }
 

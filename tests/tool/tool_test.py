@@ -82,6 +82,22 @@ class Tool(InFolder):
         right, up = map(float, re.search(r"above all around \(([-0-9.]+), ([-0-9.]+), ", result.stderr).groups())
         self.assertLess(abs(math.hypot(right - 12, up - 12) - 6), 4)
 
+    def test_what_lies_beyond_the_sensors_range_is_told_to_be_open(self):
+        dice = random.Random(15)
+        places = [(dice.uniform(1, 29), dice.uniform(1, 29)) for _ in range(60)]
+        felt = [(x, y, 7 + 2 / (1 + math.exp(-0.9 * (8 - math.hypot(x - 14, y - 15)))) + dice.gauss(0, 0.04)) for x, y in places]
+        ended = sum(reading > 8.2 for _, _, reading in felt)
+        scene = self.write("ended.json", json.dumps({"surface": {"plane": {"size_mm": [30, 30], "vertices": [31, 31]}}}))
+        measured = self.write("ended.csv", "x,y,z,reading\n" + "".join(f"{x / 1000},{y / 1000},0,{min(reading, 8.2)}\n" for x, y, reading in felt))
+        end = f"{ended} readings are exactly 8.200, the greatest of all: the sensor's range may end there, and what lies beyond is not known"
+        self.done("boundary", scene, "--measurements", measured, "--out", self.folder / "ended")
+        drawn = json.loads((self.folder / "ended" / "summary.json").read_text())
+        self.assertIn(end + ": outlines are drawn for tissue that reads as much or more.", drawn["warnings"])
+        self.assertLess(drawn["area_interval_mm2"][0], math.pi * 64)
+        self.assertGreater(drawn["area_interval_mm2"][1], math.pi * 64)
+        self.done("boundary", scene, "--measurements", measured, "--out", self.folder / "brief", *BRIEFLY)
+        self.assertIn(end + ".", json.loads((self.folder / "brief" / "summary.json").read_text())["warnings"])
+
     def test_slow_waves_under_a_tumour_are_taken_back_and_told(self):
         dice = random.Random(3)
         places = [(dice.uniform(0, 40), dice.uniform(0, 50)) for _ in range(90)]
@@ -459,9 +475,10 @@ class Tool(InFolder):
 
     def test_wrong_usage_ends_with_2(self):
         self.refused(2)
-        self.refused(2, "simulat", self.scene)
+        self.assertIn("palpate: there is no command simulat; the nearest is simulate\n", self.refused(2, "simulat", self.scene))
         self.refused(2, "simulate")
-        self.refused(2, "simulate", self.scene, "--treads", 2)
+        self.assertIn("palpate simulate: there is no option --treads; the nearest is --threads\n", self.refused(2, "simulate", self.scene, "--treads", 2))
+        self.assertIn("palpate: there is no command qqq\n", self.refused(2, "qqq"))
         self.assertEqual(palpate("--help").returncode, 0)
         self.assertIn("plan.gamma", self.done("help", "scene"))
 
