@@ -90,13 +90,15 @@ class Tool(InFolder):
         scene = self.write("ended.json", json.dumps({"surface": {"plane": {"size_mm": [30, 30], "vertices": [31, 31]}}}))
         measured = self.write("ended.csv", "x,y,z,reading\n" + "".join(f"{x / 1000},{y / 1000},0,{min(reading, 8.2)}\n" for x, y, reading in felt))
         end = f"{ended} readings are exactly 8.200, the greatest of all: the sensor's range may end there, and what lies beyond is not known"
+        self.done("boundary", scene, "--measurements", measured, "--out", self.folder / "brief", *BRIEFLY)
+        self.assertIn(end + ".", json.loads((self.folder / "brief" / "summary.json").read_text())["warnings"])
+        if SANITIZED:
+            return
         self.done("boundary", scene, "--measurements", measured, "--out", self.folder / "ended")
         drawn = json.loads((self.folder / "ended" / "summary.json").read_text())
         self.assertIn(end + ": outlines are drawn for tissue that reads as much or more.", drawn["warnings"])
         self.assertLess(drawn["area_interval_mm2"][0], math.pi * 64)
         self.assertGreater(drawn["area_interval_mm2"][1], math.pi * 64)
-        self.done("boundary", scene, "--measurements", measured, "--out", self.folder / "brief", *BRIEFLY)
-        self.assertIn(end + ".", json.loads((self.folder / "brief" / "summary.json").read_text())["warnings"])
 
     def test_slow_waves_under_a_tumour_are_taken_back_and_told(self):
         dice = random.Random(3)
