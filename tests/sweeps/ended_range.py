@@ -13,7 +13,7 @@ import tempfile
 
 import numpy as np
 from corners import READINGS, SIZE_MM, VERTICES, depth, outline, share
-from felt_plane import judged
+from felt_plane import judged, print_table
 
 SHAPES, ENDS, NOISES, RISES_MM = ["disk", "hexagon", "square"], [1.2, 0.9, 0.75, 0.6], [0.005, 0.02, 0.05], [1.0, 2.0, 4.0, 6.0]
 
@@ -41,10 +41,7 @@ def main():
                 table[row].append((wrong, expected, off))
             print(f"{number:4d} ends at {end:4.0%}, {ended:2d} readings  wrong {wrong:5.1f}  expected {expected:5.1f}  "
                   f"off {off:4.2f} of the band{'' if off <= 1 else '  outside'}", flush=True)
-    print("\n              worlds  in the band  wrong, mm2, mean  wrong/expected, median and most")
-    for name, rows in table.items():
-        wrong, expected, off = map(np.array, zip(*rows))
-        print(f"{name:13s} {len(rows):6d} {np.sum(off <= 1):12d} {wrong.mean():17.1f} {np.median(wrong / expected):23.2f} {np.max(wrong / expected):8.2f}")
+    print_table(table)
 
 
 if __name__ == "__main__":

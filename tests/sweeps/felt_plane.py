@@ -39,3 +39,11 @@ def judged(palpate, folder, size_mm, vertices, at_mm, readings, truth):
     along = np.array([line.interpolate(t).coords[0] for t in np.arange(0, line.length, 0.1)] + list(truth.exterior.coords))
     off = np.max(np.abs(between_vertices(score, size_mm, along))) / summary["band"]["score"]
     return found.symmetric_difference(truth).area, summary["expected_error_mm2"], off
+
+
+def print_table(table):
+    """Of each name a row: rows of wrong area, the expected one, and how far the truth is off in widths of the band."""
+    print("\n              worlds  in the band  wrong, mm2, mean  wrong/expected, median and most")
+    for name, rows in table.items():
+        wrong, expected, off = map(np.array, zip(*rows))
+        print(f"{name:13s} {len(rows):6d} {np.sum(off <= 1):12d} {wrong.mean():17.1f} {np.median(wrong / expected):23.2f} {np.max(wrong / expected):8.2f}")
