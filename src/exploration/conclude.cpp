@@ -14,7 +14,6 @@
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
 #include "readings/lost_contact.h"
-#include "readings/readings.h"
 #include "readings/saturation.h"
 
 namespace palpation {
@@ -40,17 +39,18 @@ std::vector<Palpation> felt_among(std::span<const Palpation> readings, const Mod
   return felt;
 }
 
-/// With what the end of the sensor's range tells of each. What lost contact is no end.
+/// With what ends of the sensor's range tell of each. What lost contact is no end.
 std::vector<Palpation> bounded(const Surface& surface, std::vector<Palpation> felt) {
   std::vector<Vec3> places;
   for (const Palpation& one : felt) places.push_back(surface.position(one.where));
   std::vector<Palpation> touching = felt;
   for (const std::size_t number : lost_contact(felt, places))
     touching[number].set_aside = kNoContact;
-  const std::optional<Saturation> end = saturation_of(used_readings(touching));
-  for (Palpation& one : felt) {
-    const bool is_at_end = end && !end->may_be_tissue && one.reading == end->value;
-    one.bound = !is_at_end ? Bound::None : end->is_upper ? Bound::AtLeast : Bound::AtMost;
+  for (Palpation& one : felt) one.bound = Bound::None;
+  for (const Saturation& saturation : saturations_of(touching)) {
+    for (Palpation& one : felt) {
+      if (saturation.ends(one)) one.bound = saturation.is_upper ? Bound::AtLeast : Bound::AtMost;
+    }
   }
   return felt;
 }

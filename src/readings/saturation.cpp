@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <map>
+
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
@@ -49,6 +51,23 @@ std::optional<Saturation> saturation_of(std::span<const double> readings) {
   if (is_end(greatest, values[values.size() - 2], least)) return saturation(greatest, true);
   if (is_end(least, values[1], greatest)) return saturation(least, false);
   return std::nullopt;
+}
+
+std::vector<Saturation> saturations_of(std::span<const Palpation> palpations) {
+  std::vector<Saturation> found;
+  if (const auto of_all = saturation_of(used_readings(palpations))) found.push_back(*of_all);
+  std::map<int, std::vector<Palpation>> sessions;
+  for (const Palpation& one : palpations) sessions[one.session].push_back(one);
+  if (sessions.size() < 2) return found;
+  const std::optional<double> common =
+      found.empty() ? std::nullopt : std::optional(found.front().value);
+  for (const auto& [session, made] : sessions) {
+    std::optional<Saturation> own = saturation_of(used_readings(made));
+    if (!own || own->value == common) continue;
+    own->session = session;
+    found.push_back(*own);
+  }
+  return found;
 }
 
 }  // namespace palpation

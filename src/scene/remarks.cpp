@@ -16,6 +16,7 @@
 #include "scene/area_remarks.h"
 #include "scene/misfit_words.h"
 #include "scene/parts.h"
+#include "scene/session_words.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
@@ -125,9 +126,12 @@ std::string standing_alone_words(const Surface& surface, const std::vector<Palpa
 
 /// `is_drawn`: outlines know of it.
 std::string saturation_words(const Saturation& saturation, bool is_drawn) {
-  return std::to_string(saturation.count) + " readings are exactly " +
+  const std::string session =
+      saturation.session ? " of the " + session_name(*saturation.session) : "";
+  return std::to_string(saturation.count) + " readings" + session + " are exactly " +
          reading_text(saturation.value) + ", the " + (saturation.is_upper ? "greatest" : "least") +
-         " of all: the sensor's range may end there, and what lies beyond is not known" +
+         " of " + (saturation.session ? "its own" : "all") +
+         ": the sensor's range may end there, and what lies beyond is not known" +
          (is_drawn ? std::string(": outlines are drawn for tissue that reads as much or ") +
                          (saturation.is_upper ? "more." : "less.")
                    : ".");
@@ -139,10 +143,12 @@ using Remarks = std::vector<std::string>;
 Remarks field_remarks(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
   Remarks remarks;
-  if (const auto saturation = saturation_of(used_readings(conclusion.palpations))) {
-    const bool is_drawn =
-        conclusion.outlines && std::ranges::any_of(conclusion.palpations, &Palpation::is_bound);
-    remarks.push_back(saturation_words(*saturation, is_drawn));
+  for (const Saturation& saturation : saturations_of(conclusion.palpations)) {
+    const bool is_drawn = conclusion.outlines &&
+                          std::ranges::any_of(conclusion.palpations, [&](const Palpation& one) {
+                            return one.is_bound() && saturation.ends(one);
+                          });
+    remarks.push_back(saturation_words(saturation, is_drawn));
   }
   if (!conclusion.evidence.standing_alone.empty())
     remarks.push_back(

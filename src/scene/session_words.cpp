@@ -26,8 +26,7 @@ std::string changed_words(ReadingScale scale, const SessionChange& session) {
   const bool has_zero = std::abs(session.zero.amount) >= kSeen * session.zero.stddev;
   const bool has_gain = session.gain && (session.gain->least > 1.0 || session.gain->most < 1.0);
   if (!has_zero && !has_gain) return "";
-  std::string words = "The " + ordinal(session.zero.session + 1) +
-                      " session, which begins with reading " +
+  std::string words = "The " + session_name(session.zero.session) + ", which begins with reading " +
                       std::to_string(session.zero.number + 1);
   if (has_zero)
     words +=
@@ -72,6 +71,8 @@ std::string raised_words(ReadingScale scale, double amount) {
   if (scale == ReadingScale::Log) return fixed(std::exp(amount), 2) + " times as high as before";
   return reading_text(std::abs(amount)) + (amount > 0.0 ? " higher" : " lower") + " than before";
 }
+
+std::string session_name(int session) { return ordinal(session + 1) + " session"; }
 
 std::vector<std::string> session_words(const Conclusion& conclusion) {
   std::vector<std::string> words = changed_words(conclusion.scale(), session_changes(conclusion));

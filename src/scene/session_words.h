@@ -8,6 +8,9 @@
 
 namespace palpation::tool {
 
+/// "2nd session" of that which the files number 1.
+std::string session_name(int session);
+
 /// "0.5 higher than before", or of logarithms "1.65 times as high as before".
 std::string raised_words(ReadingScale scale, double amount);
 

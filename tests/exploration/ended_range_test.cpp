@@ -57,5 +57,25 @@ TEST(EndedRange, IsSeenBesideLostContacts) {
   EXPECT_EQ(std::ranges::count(conclusion.palpations, kNoContact, &Palpation::set_aside), 5);
 }
 
+// Its zero lies half the contrast below the other's, and so does the end of its range.
+TEST(EndedRange, IsSoughtInEachSession) {
+  const Surface tissue = plane(26, 51);
+  std::vector<Palpation> readings = felt_until(tissue, false);
+  std::vector<Palpation> second = felt_until(tissue, true);
+  for (Palpation& reading : second) {
+    reading.reading -= 1.0;
+    reading.session = 1;
+  }
+  readings.insert(readings.end(), second.begin(), second.end());
+  const Conclusion conclusion = conclude(tissue, Model{}, readings);
+  int ended = 0;
+  for (const Palpation& one : conclusion.palpations) {
+    if (!one.is_bound()) continue;
+    EXPECT_EQ(one.session, 1);
+    ++ended;
+  }
+  EXPECT_GT(ended, 9);
+}
+
 }  // namespace
 }  // namespace palpation

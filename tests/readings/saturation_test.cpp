@@ -71,5 +71,36 @@ TEST(Saturation, IsNoFaultFarFromAllOthers) {
   EXPECT_FALSE(saturation_of(readings));
 }
 
+Palpation palpation_of(double reading, int session = 0) {
+  Palpation palpation;
+  palpation.reading = reading;
+  palpation.session = session;
+  return palpation;
+}
+
+// What ends in one session lies amid another's, where gains or zeros differ.
+TEST(Saturation, OfASessionIsItsOwn) {
+  std::vector<Palpation> palpations;
+  for (const double reading : noisy_readings(60)) palpations.push_back(palpation_of(reading));
+  for (const double reading : noisy_readings(60))
+    palpations.push_back(palpation_of(std::min(reading - 1.0, 8.0), 1));
+  const std::vector<Saturation> found = saturations_of(palpations);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().session, 1);
+  EXPECT_EQ(found.front().value, 8.0);
+  EXPECT_TRUE(found.front().ends(palpation_of(8.0, 1)));
+  EXPECT_FALSE(found.front().ends(palpation_of(8.0)));
+  for (Palpation& one : palpations) one.session = 0;
+  EXPECT_TRUE(saturations_of(palpations).empty());
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    palpations[i].session = static_cast<int>(i % 2);
+    palpations[i].reading = std::min(palpations[i].reading, 7.9);
+  }
+  const std::vector<Saturation> common = saturations_of(palpations);
+  ASSERT_EQ(common.size(), 1u);
+  EXPECT_FALSE(common.front().session);
+  EXPECT_TRUE(common.front().ends(palpation_of(7.9, 1)));
+}
+
 }  // namespace
 }  // namespace palpation
