@@ -5,15 +5,17 @@
 #include <iterator>
 #include <utility>
 
+#include "certainty/outline_disagreement.h"
 #include "certainty/outline_lines.h"
 #include "palpation/base/parallel.h"
 
 namespace palpation {
 namespace {
 
-constexpr int kSettling = 400, kSweeps = 800;
-/// As often chains that do not agree go on, each time for as long as before.
-constexpr int kMostRounds = 3;
+/// Sweeps of a chain: before any counts, and in a round. Chains go on until they are alike; of
+/// several rounds the first one does not count.
+constexpr int kSettling = 400, kRound = 400, kMostRounds = 6;
+constexpr double kAlike = 0.5;  ///< as chains of eight draws that know nothing of each other are
 
 /// Chains that begin anew, and sweeps of each.
 constexpr int kThatStay = 6, kSettlingToStay = 150, kSweepsToStay = 100;
@@ -35,18 +37,6 @@ std::vector<SurfacePoint> unheeded_by(const Draws& draws, const OutlineReadings&
   return places;
 }
 
-/// Between the halves of draws, which are of two chains.
-double disagreement_of(const Draws& draws) {
-  const auto half = draws.size() / 2;
-  double mean[2] = {0.0, 0.0}, square = 0.0;
-  for (std::size_t i = 0; i < draws.size(); ++i)
-    mean[i / half] += enclosed_area(draws[i].outline) / static_cast<double>(half);
-  for (std::size_t i = 0; i < draws.size(); ++i)
-    square += std::pow(enclosed_area(draws[i].outline) - mean[i / half], 2);
-  const double sd = std::sqrt(square / static_cast<double>(draws.size()));
-  return sd > 0.0 ? std::abs(mean[0] - mean[1]) / sd : 0.0;
-}
-
 OutlineWalk walk_from(const OutlineStart& start, std::uint64_t seed) {
   return {start.readings, start.prior, start.outline, start.profile, seed};
 }
@@ -55,16 +45,21 @@ bool encloses(const OutlineDraw& draw, double least_area_m2) {
   return enclosed_area(draw.outline) >= least_area_m2;
 }
 
+/// So many, evenly.
+Draws thinned(const Draws& draws, int count) {
+  Draws some;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+    some.push_back(draws[i * draws.size() / static_cast<std::size_t>(count)]);
+  return some;
+}
+
 /// So many, evenly, of those that enclose as much; of all, where none does.
 Draws of_kind(const Draws& drawn, double least_area_m2, int count) {
   Draws some;
   std::ranges::copy_if(drawn, std::back_inserter(some),
                        [&](const OutlineDraw& draw) { return encloses(draw, least_area_m2); });
   if (some.empty()) some = drawn;
-  Draws kept;
-  for (int i = 0; i < count; ++i)
-    kept.push_back(some[i * some.size() / static_cast<std::size_t>(count)]);
-  return kept;
+  return thinned(some, count);
 }
 
 /// A chain that has left its kind stays there, and tells nothing of where it came from: of several
@@ -94,66 +89,59 @@ void tell_no_core_of_less(double least_area_m2, Draws& draws) {
   }
 }
 
-/// The first halves of both, and the second ones.
-Draws by_halves(const std::array<Draws, kChains>& of_chain) {
-  Draws all;
-  for (const std::ptrdiff_t half : {0, 1}) {
-    for (const Draws& some : of_chain) {
-      const std::ptrdiff_t count = std::ssize(some) / 2;
-      all.insert(all.end(), some.begin() + half * count, some.begin() + (half + 1) * count);
-    }
+/// So many of each chain, one after the other.
+OutlineDraws draws_until_alike(const std::array<const OutlineStart*, kChains>& starts, int each,
+                               std::uint64_t seed, int most_rounds) {
+  std::vector<OutlineWalk> walks;
+  for (int chain = 0; chain < kChains; ++chain)
+    walks.push_back(walk_from(*starts[chain], kChains * seed + static_cast<std::uint64_t>(chain)));
+  std::array<Draws, kChains> of_chain;
+  OutlineDraws result;
+  for (int round = 0; round < most_rounds; ++round) {
+    for_ranges(kChains, 1, [&](int first, int last) {
+      for (int chain = first; chain < last; ++chain) {
+        if (round == 0) walks[chain].settle(kSettling, kSettling / 2);
+        if (round == 1) of_chain[chain].clear();
+        std::ranges::move(walks[chain].draws(std::max(kRound, each), each),
+                          std::back_inserter(of_chain[chain]));
+      }
+    });
+    result.draws = thinned(of_chain[0], each);
+    std::ranges::move(thinned(of_chain[1], each), std::back_inserter(result.draws));
+    result.misfit.disagreement = disagreement_of(result.draws, starts[0]->outline.place);
+    if (result.misfit.disagreement < kAlike) break;
   }
-  return all;
+  return result;
 }
 
 /// As many of each as it is probable, an even number, and some.
 OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64_t seed) {
-  const int of_second = 2 * std::max(static_cast<int>(std::lround(starts.probability * each)), 1);
-  const std::array counts = {2 * each - of_second, of_second};
-  std::array<Draws, kChains> of_chain;
-  for_ranges(kChains, 1, [&](int first, int last) {
-    for (int chain = first; chain < last; ++chain) {
-      OutlineWalk walk =
-          walk_from(starts.of[chain], kChains * seed + static_cast<std::uint64_t>(chain));
-      walk.settle(2 * kSettling, kSettling / 2);
-      of_chain[chain] = walk.draws(kSweeps, counts[chain]);
-    }
-  });
-  auto& [plain, cored] = of_chain;
-  if (2 * std::ranges::count_if(plain, &OutlineDraw::has_plateau) < counts.front())
-    cored = draws_that_stay(starts.of.back(), starts.least_area_m2, of_second, seed);
-  else
-    tell_no_core_of_less(starts.least_area_m2, cored);
-  return {.draws = by_halves(of_chain)};
-}
-
-OutlineDraws draws_of_one_kind(const ChainStarts& starts, int each, std::uint64_t seed) {
-  std::vector<OutlineWalk> walks;
-  for (int chain = 0; chain < kChains; ++chain)
-    walks.push_back(
-        walk_from(starts.of[chain], kChains * seed + static_cast<std::uint64_t>(chain)));
-  OutlineDraws result;
-  for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<Draws> of_chain(kChains);
-    for_ranges(kChains, 1, [&](int first, int last) {
-      for (int chain = first; chain < last; ++chain) {
-        walks[chain].settle(kSettling, round == 0 ? kSettling / 2 : 0);
-        of_chain[chain] = walks[chain].draws(kSweeps, each);
-      }
-    });
-    result.draws = std::move(of_chain[0]);
-    for (OutlineDraw& draw : of_chain[1]) result.draws.push_back(std::move(draw));
-    result.misfit.disagreement = disagreement_of(result.draws);
-    if (result.misfit.do_agree()) break;
+  const int of_second = std::max(static_cast<int>(std::lround(starts.probability * each)), 1);
+  const auto& [plain, cored] = starts.of;
+  OutlineDraws result = draws_until_alike({&plain, &plain}, each - of_second, seed, kMostRounds);
+  const Draws& plain_ones = result.draws;
+  Draws of_core;
+  if (2 * std::ranges::count_if(plain_ones, &OutlineDraw::has_plateau) < std::ssize(plain_ones)) {
+    of_core = draws_that_stay(cored, starts.least_area_m2, 2 * of_second, seed);
+  } else {
+    of_core = draws_until_alike({&cored, &cored}, of_second, seed, 1).draws;
+    tell_no_core_of_less(starts.least_area_m2, of_core);
   }
+  // The first halves of both, and the second ones.
+  const auto middle = of_core.begin() + of_second;
+  result.draws.insert(result.draws.begin() + (each - of_second), of_core.begin(), middle);
+  result.draws.insert(result.draws.end(), middle, of_core.end());
   return result;
 }
 
 }  // namespace
 
 OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed) {
+  const int each = count / kChains;
   OutlineDraws drawn =
-      (starts.are_alike() ? draws_of_one_kind : draws_of_two_kinds)(starts, count / kChains, seed);
+      starts.are_alike()
+          ? draws_until_alike({&starts.of.front(), &starts.of.back()}, each, seed, kMostRounds)
+          : draws_of_two_kinds(starts, each, seed);
   drawn.misfit.unheeded = unheeded_by(drawn.draws, starts.of.front().readings);
   return drawn;
 }

@@ -28,17 +28,16 @@ struct ChainStarts {
 };
 
 struct OutlineDraws {
-  /// Two halves, which know nothing of each other: a chain's each; or, where the chains are of two
-  /// kinds, of each what it draws in its first half, and in its second.
+  /// Two halves, which know nothing of each other: of each kind a chain's.
   std::vector<OutlineDraw> draws;
   OutlineMisfit misfit{};
 };
 
-/// So many, of chains that go on for longer where they do not agree: those of two kinds, with a
-/// core and without, are not asked to. Of these the second may come to be of the first one's: what
-/// has is told to have no core. Where that tells nothing, because without a core tissue rises up to
-/// its middle, and bends follow two heights, it begins anew several times instead, and only what is
-/// of its kind is taken.
+/// So many, of chains that go on until they are alike; with a core, where some have none, for as
+/// long as is sure. A chain that begins with one may come to be of those that have none: what has
+/// is told to have none. Where that tells nothing, because without a core tissue rises up to its
+/// middle, and bends follow two heights, it begins anew several times instead, and only what is of
+/// its kind is taken.
 OutlineDraws draws_from(const ChainStarts& starts, int count, std::uint64_t seed);
 
 }  // namespace palpation

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/targets.h"
 
@@ -85,6 +86,11 @@ bool OutlinePieces::encloses(const Vec2& place) const {
                         along_x_.data(), along_y_.data(), inverse_square_.data()};
   const int count = static_cast<int>(from_x_.size());
   return crossings(columns, count, place.x(), place.y()) % 2 != 0;
+}
+
+double OutlinePieces::depth_at(const Vec2& place) const {
+  const double off_m = std::sqrt(nearest(place).square);
+  return encloses(place) ? off_m : -off_m;
 }
 
 }  // namespace palpation

@@ -17,6 +17,8 @@ class OutlinePieces {
   /// As nearest_piece and is_inside of outline_nodes.h, but for rounding.
   NearestPiece nearest(const Vec2& place) const;
   bool encloses(const Vec2& place) const;
+  /// As depth_in there.
+  double depth_at(const Vec2& place) const;
 
  private:
   std::vector<double> from_x_, from_y_, to_y_, along_x_, along_y_;

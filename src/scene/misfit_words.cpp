@@ -15,9 +15,10 @@ constexpr double kTiltOver_m = 0.01;
 constexpr double kMoreScatter = 1.1;  // times, surely
 
 std::string apart_words(double disagreement) {
-  return "Two samplings of the outline have not come to one answer: their areas differ by " +
+  return "Two samplings of the outline have not come to one answer: they lie " +
          fixed(disagreement, 1) +
-         " standard deviations, so the band may be too narrow. More readings would settle it.";
+         " standard deviations apart, so the band may be too narrow. More readings would settle "
+         "it.";
 }
 
 std::string since_words(const Misfit& misfit) {

@@ -322,8 +322,9 @@ class Readings(InFolder):
                 told = self.done("mesh", "surface", "--points", readings, "--gap", 8, mesh, "--overwrite")
                 self.assertIn("No holes", told)
                 self.assertIn("of these readings", told)
-                # 872 readings take two minutes of an idle machine.
-                self.done("boundary", scene, "--measurements", readings, "--out", self.folder / name, *(BRIEFLY if SANITIZED else []), timeout=3 * PATIENCE_S)
+                # Outlines of 872 readings take two minutes, and so do those of four parts on liver.
+                briefly = BRIEFLY if SANITIZED or name in ("probing_ridge.csv", "probing_pig_liver.csv") else []
+                self.done("boundary", scene, "--measurements", readings, "--out", self.folder / name, *briefly, timeout=3 * PATIENCE_S)
                 summary = json.loads((self.folder / name / "summary.json").read_text())
                 # The ridge is 59 x 15 mm and both ways of touching it find it; the ball of 5 mm and the liver are only to be answered.
                 if "ridge" in name:

@@ -305,7 +305,7 @@ class Tool(InFolder):
     def test_tradeoff_advises_what_its_table_supports(self):
         if SANITIZED:
             self.skip("two dozen runs that draw outlines take minutes there, and are those of other tests")
-        words = self.done("experiment", "tradeoff", self.scene, "--trials", 2, "--set", "plan.batches=2", "--quiet", "--out", self.folder)
+        words = self.done("experiment", "tradeoff", self.scene, "--trials", 1, "--set", "plan.batches=2", "--quiet", "--out", self.folder)
         table = {}
         for name in ("tradeoff_areas.csv", "tradeoff_times.csv"):
             header, *rows = (self.folder / name).read_text().splitlines()

@@ -67,8 +67,9 @@ struct DrawnCore {
 
 /// What speaks against the draws.
 struct OutlineMisfit {
-  /// Between the chains' mean areas, over their draws' standard deviation: above 1 they have not
-  /// come to the same answer, and the draws say too little.
+  /// Between the chains' mean depths along the outline that they began with, over their draws'
+  /// standard deviation: above 1 they have not come to the same answer, and the draws say too
+  /// little.
   double disagreement = 0.0;
   /// Where readings lie that tell nothing in more than half of the draws.
   std::vector<SurfacePoint> unheeded{};
