@@ -251,9 +251,13 @@ int run_tool(int count, char** words) {
     app.parse(count, words);
     return kDone;
   } catch (const CLI::ParseError& error) {
-    if (app.exit(error) == 0) return kDone;
-    std::fputs(misspelt_words(app).c_str(), stderr);
-    return kWrongUsage;
+    const bool was_asked = error.get_exit_code() == 0;
+    const std::string misspelt = was_asked ? "" : misspelt_words(app);
+    if (misspelt.empty())
+      app.exit(error);
+    else
+      std::fputs((misspelt + "Run with --help for more information.\n").c_str(), stderr);
+    return was_asked ? kDone : kWrongUsage;
   } catch (const std::bad_alloc& error) {
     return explain("not enough memory", exit_code_of(error));
   } catch (const std::exception& error) {

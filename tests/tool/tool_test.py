@@ -477,7 +477,9 @@ class Tool(InFolder):
 
     def test_wrong_usage_ends_with_2(self):
         self.refused(2)
-        self.assertIn("palpate: there is no command simulat; the nearest is simulate\n", self.refused(2, "simulat", self.scene))
+        misspelt = self.refused(2, "simulat", self.scene)
+        self.assertIn("palpate: there is no command simulat; the nearest is simulate\n", misspelt)
+        self.assertNotIn("required", misspelt)
         self.refused(2, "simulate")
         self.assertIn("palpate simulate: there is no option --treads; the nearest is --threads\n", self.refused(2, "simulate", self.scene, "--treads", 2))
         self.assertIn("palpate: there is no command qqq\n", self.refused(2, "qqq"))
