@@ -23,7 +23,7 @@ COPIED = ("CMakeLists.txt", "CMakePresets.json", "src", "include", "meshes", "ex
 CONSTANTS = [
     f"src/certainty/outline_{name}"
     for name in ("start.cpp:kTurn", "model.cpp:kTurnLogSd", "model.cpp:kBendLogSd", "model.cpp:kSmooth", "model.cpp:kOfSides", "model.cpp:kSigmoidLogSd",
-                 "model.cpp:kUnbentLogSd",
+                 "model.cpp:kUnbentLogSd", "draws.cpp:kAlike",
                  "model.cpp:kBentLogSd", "model.cpp:kLean", "scatter.cpp:kGrowth", "start.cpp:kLearnedNoiseLogSd", "start.cpp:kGivenNoiseLogSd", "start.cpp:kWaves",
                  "start.cpp:kDrift", "start.cpp:kTilt", "residuals.cpp:kSdLogSd", "model.cpp:kWildReach", "cut.cpp:kRadius_m", "cut.cpp:kHalfLength_m",
                  "model.cpp:kPieceLogSd", "lines.h:kSpacing_m", "model.cpp:kSpacingLogSd", "model.cpp:kContrastLogSd")
