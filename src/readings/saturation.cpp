@@ -56,13 +56,15 @@ std::optional<Saturation> saturation_of(std::span<const double> readings) {
 std::vector<Saturation> saturations_of(std::span<const Palpation> palpations) {
   std::vector<Saturation> found;
   if (const auto of_all = saturation_of(used_readings(palpations))) found.push_back(*of_all);
-  std::map<int, std::vector<Palpation>> sessions;
-  for (const Palpation& one : palpations) sessions[one.session].push_back(one);
+  std::map<int, std::vector<double>> sessions;
+  for (const Palpation& one : palpations) {
+    if (counts(one)) sessions[one.session].push_back(one.reading);
+  }
   if (sessions.size() < 2) return found;
   const std::optional<double> common =
       found.empty() ? std::nullopt : std::optional(found.front().value);
-  for (const auto& [session, made] : sessions) {
-    std::optional<Saturation> own = saturation_of(used_readings(made));
+  for (const auto& [session, readings] : sessions) {
+    std::optional<Saturation> own = saturation_of(readings);
     if (!own || own->value == common) continue;
     own->session = session;
     found.push_back(*own);
