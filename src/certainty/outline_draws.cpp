@@ -131,6 +131,7 @@ OutlineDraws draws_of_two_kinds(const ChainStarts& starts, int each, std::uint64
   const auto middle = of_core.begin() + of_second;
   result.draws.insert(result.draws.begin() + (each - of_second), of_core.begin(), middle);
   result.draws.insert(result.draws.end(), middle, of_core.end());
+  result.misfit.disagreement = disagreement_of(result.draws, plain.outline.place);
   return result;
 }
 

@@ -61,11 +61,10 @@ std::vector<Saturation> saturations_of(std::span<const Palpation> palpations) {
     if (counts(one)) sessions[one.session].push_back(one.reading);
   }
   if (sessions.size() < 2) return found;
-  const std::optional<double> common =
-      found.empty() ? std::nullopt : std::optional(found.front().value);
+  const bool is_known = !found.empty() && !found.front().may_be_tissue;
   for (const auto& [session, readings] : sessions) {
     std::optional<Saturation> own = saturation_of(readings);
-    if (!own || own->value == common) continue;
+    if (!own || (is_known && own->value == found.front().value)) continue;
     own->session = session;
     found.push_back(*own);
   }

@@ -102,5 +102,20 @@ TEST(Saturation, OfASessionIsItsOwn) {
   EXPECT_TRUE(common.front().ends(palpation_of(7.9, 1)));
 }
 
+// One session ends below, the other above: of all together that is as well healthy tissue and a
+// tumour without noise, of either it is not.
+TEST(Saturation, OfASessionMayBeWhereThatOfAllMayBeTissue) {
+  std::vector<Palpation> palpations;
+  for (const double reading : noisy_readings(60)) {
+    if (reading < 9.0) palpations.push_back(palpation_of(std::max(reading, 7.0)));
+    if (reading > 7.0) palpations.push_back(palpation_of(std::min(reading, 9.0), 1));
+  }
+  const std::vector<Saturation> found = saturations_of(palpations);
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_TRUE(found[0].may_be_tissue);
+  EXPECT_TRUE(found[1].ends(palpation_of(7.0, 0)));
+  EXPECT_TRUE(found[2].ends(palpation_of(9.0, 1)));
+}
+
 }  // namespace
 }  // namespace palpation

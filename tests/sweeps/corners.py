@@ -7,16 +7,12 @@ turned at random on 40 x 50 mm; edges that rise over 1 to 4 mm as a sigmoid, an 
 contrast; 100 to 200 readings at random places.
 """
 
-import collections
 import math
-import pathlib
-import sys
-import tempfile
 
 import numpy as np
 import shapely
 import shapely.affinity
-from felt_plane import judged, print_table
+from felt_plane import judge_worlds
 from shapely.geometry import Point, Polygon, box
 
 SIZE_MM = np.array([40.0, 50.0])
@@ -54,32 +50,15 @@ def share(kind, rise_mm, depth_mm):
     return np.clip(0.5 + 0.8 * depth_mm / rise_mm, 0, 1)
 
 
-def answered(palpate, folder, number):
-    """Kind, noise, true and wrong area and the expected one, mm2, and how far the truth is off in widths of the band."""
+def world(number):
     dice = np.random.default_rng([number, 12])
     kind, noise = SHAPES[number % len(SHAPES)], NOISES[number // len(SHAPES) % len(NOISES)]
     truth = outline(kind, dice)
     at = dice.uniform(0.3, SIZE_MM - 0.3, (dice.choice(READINGS), 2))
     rise = dice.choice(["sigmoid", "error function", "ramp"]), dice.choice(RISES_MM)
     reading = 3 + 2 * (share(*rise, depth(truth, at)) + noise * dice.normal(size=len(at)))
-    wrong, expected, off = judged(palpate, folder, SIZE_MM, VERTICES, at, reading, truth)
-    return kind, noise, truth.area, wrong, expected, off
-
-
-def main():
-    if len(sys.argv) not in (2, 4):
-        sys.exit(__doc__)
-    first, count = map(int, sys.argv[2:] or (0, 48))
-    table = collections.defaultdict(list)
-    with tempfile.TemporaryDirectory() as folder:
-        for number in range(first, first + count):
-            kind, noise, area, wrong, expected, off = answered(sys.argv[1], pathlib.Path(folder), number)
-            for row in kind, f"noise {noise}", "all":
-                table[row].append((wrong, expected, off))
-            print(f"{number:4d} {kind:8s} noise {noise:5.3f}  area {area:4.0f}  wrong {wrong:5.1f}  expected {expected:5.1f}  "
-                  f"off {off:4.2f} of the band{'' if off <= 1 else '  outside'}", flush=True)
-    print_table(table)
+    return (kind, f"noise {noise}"), f"{kind:8s} noise {noise:5.3f}  area {truth.area:4.0f}", (SIZE_MM, VERTICES, at, reading, truth)
 
 
 if __name__ == "__main__":
-    main()
+    judge_worlds(__doc__, 48, world)
