@@ -211,18 +211,23 @@ void OutlineWalk::move_profile() {
   switch_line_kind();
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
-    Vec2* const lean = profile.lean ? &*profile.lean : nullptr;
-    double* const number[kOfProfile] = {&profile.log_slope,
-                                        lean != nullptr ? &lean->x() : nullptr,
-                                        lean != nullptr ? &lean->y() : nullptr,
-                                        &profile.log_shoulder,
-                                        &profile.log_skirt,
-                                        &profile.turns.log_half_width,
-                                        &profile.turns.log_bend};
-    if (number[i] == nullptr) continue;
-    *number[i] += lengths_.of_profile[i] * random_.normal();
-    const bool is_turn = i >= kOfProfile - kOfTurns;
-    tune(lengths_.of_profile[i], chain_.move_profile(profile, is_turn, random_), kOfNumbers, 1e300);
+    const bool leans = profile.lean.has_value();
+    struct Number {
+      double* value;
+      bool is_of_turns = false;
+    };
+    const std::array<Number, kOfProfile> numbers = {{{&profile.log_slope},
+                                                     {leans ? &profile.lean->x() : nullptr},
+                                                     {leans ? &profile.lean->y() : nullptr},
+                                                     {&profile.log_shoulder},
+                                                     {&profile.log_skirt},
+                                                     {&profile.turns.log_half_width, true},
+                                                     {&profile.turns.log_bend, true}}};
+    const auto [value, is_of_turns] = numbers[i];
+    if (value == nullptr) continue;
+    *value += lengths_.of_profile[i] * random_.normal();
+    tune(lengths_.of_profile[i], chain_.move_profile(profile, is_of_turns, random_), kOfNumbers,
+         1e300);
   }
   for (std::size_t part = 1; part < lengths_.of_contrasts.size(); ++part) {
     OutlineProfile profile = chain_.profile();

@@ -7,6 +7,7 @@
 #include "exploration/background_search.h"
 #include "exploration/comparable_evidence.h"
 #include "exploration/drift.h"
+#include "exploration/found_again.h"
 #include "exploration/taken_back.h"
 #include "readings/readings.h"
 
@@ -17,8 +18,6 @@ namespace {
 /// tissue along the way looks like it.
 constexpr double kLasting = 10.0;
 constexpr std::size_t kDrifts = 3;  ///< of parallel lines: each costs a conclusion
-/// So often a drift is found again about the edge that is seen without it.
-constexpr int kDriftRounds = 3;
 
 /// What steps of the zero that were taken back added to each reading.
 Eigen::VectorXd steps_in_turn(const std::vector<Palpation>& felt, const Known& known) {
@@ -49,14 +48,9 @@ class DriftSearch {
       : surface_(surface), felt_(felt), known_of_(known_of), set_aside_(set_aside(flat)) {}
 
   void ask(const Eigen::VectorXd& drift) {
-    std::optional<Drifted> drifted = tried(drift);
-    for (int round = 0; drifted && round < kDriftRounds; ++round) {
-      std::optional<Drifted> next = tried(drifted->edge.drift);
-      if (!next || !(next->edge.log_evidence > drifted->edge.log_evidence)) break;
-      drifted = std::move(next);
-    }
-    if (drifted && (!best_ || drifted->edge.log_evidence > best_->edge.log_evidence))
-      best_ = std::move(drifted);
+    keep_likelier(found_again(tried(drift),
+                              [&](const Drifted& drifted) { return tried(drifted.edge.drift); }),
+                  best_);
   }
 
   std::optional<Drifted>& best() { return best_; }

@@ -6,6 +6,7 @@
 
 #include "exploration/background_search.h"
 #include "exploration/comparable_evidence.h"
+#include "exploration/found_again.h"
 #include "exploration/soft_spot.h"
 #include "exploration/taken_back.h"
 #include "exploration/waves.h"
@@ -14,8 +15,6 @@ namespace palpation {
 namespace {
 
 constexpr int kBackgrounds = 4;  ///< of parallel surfaces: each costs a conclusion
-/// So often waves are found again about the edge that is seen without them.
-constexpr int kWaveRounds = 3;
 
 /// The readings without waves, and how probable they are with them.
 struct Waved {
@@ -59,15 +58,10 @@ class WavesSearch {
         set_aside_(set_aside(flat)) {}
 
   void ask(Field waves) {
-    std::optional<Waved> waved = tried(std::move(waves));
-    for (int round = 0; waved && round < kWaveRounds; ++round) {
-      std::optional<Waved> next = tried(waved->edge.waves);
-      if (!next || !(next->edge.log_evidence > waved->edge.log_evidence)) break;
-      waved = std::move(next);
-    }
+    std::optional<Waved> waved = found_again(
+        tried(std::move(waves)), [&](const Waved& found) { return tried(found.edge.waves); });
     if (waved && flat_.boundary.edge && left_by(waved->known) > kMayLeave * left_by(flat_)) return;
-    if (waved && (!best_ || waved->edge.log_evidence > best_->edge.log_evidence))
-      best_ = std::move(waved);
+    keep_likelier(std::move(waved), best_);
   }
 
   std::optional<Waved>& best() { return best_; }
