@@ -22,7 +22,6 @@ constexpr double kUnbentLogSd = 0.25;   ///< of those of any edge between platea
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
 constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the middle to a side
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
-constexpr double kSpacingLogSd = 0.3;   ///< of a loop's pieces
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 constexpr int kPerLogarithm = 16;       ///< turns, whose density is a number by far
 
@@ -193,7 +192,7 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square(profile.lean->norm() / kLean) +
            std::log(2.0 * std::numbers::pi * kLean * kLean);
   for (std::size_t loop = 0; loop < profile.log_spacing.size(); ++loop)
-    sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / kSpacingLogSd);
+    sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / prior.size_log_sd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
   for (std::size_t change = 0; change < profile.moved_m.size(); ++change)

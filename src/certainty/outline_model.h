@@ -64,6 +64,7 @@ struct OutlinePrior {
   double fraction = 0.5;              ///< of the way from low to high, where the boundary is
   Vec2 middle = Vec2::Zero();         ///< of what was found first, and
   double radius_m = 0.005;            ///< how far from it a slope is nearly that of its side
+  double size_log_sd = 0.3;           ///< of how large what was found first is
   std::vector<MisfitKind> changes{};  ///< in time: what `moved_m` and `log_gain` may differ by
   std::vector<double> gain_log_sd{};  ///< of each
   /// The changes that readings of each were made after; of the first, none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -17,6 +18,8 @@ namespace palpation {
 namespace {
 
 constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
+/// Of how large an outline is: what nobody knows is within e times as wide or as narrow.
+constexpr double kLeastSizeLogSd = 0.3, kMostSizeLogSd = 1.0;
 /// Of a noise that is given: edges are no perfect sigmoids.
 constexpr double kGivenNoiseLogSd = 0.3;
 constexpr double kLearnedNoiseLogSd = 1.0;
@@ -174,6 +177,21 @@ std::vector<Vec2> unmoved(const Surface& surface, const EdgeBelief& edge,
   return all;
 }
 
+/// How far a line may lie from where it was found, over how large that is: the readings beside it,
+/// of which half are as near, contradict no more.
+double size_log_sd(const std::vector<Vec2>& line, double radius_m,
+                   const std::vector<Vec2>& readings) {
+  std::vector<double> gaps;
+  for (const Vec2& node : line) {
+    double square = std::numeric_limits<double>::infinity();
+    for (const Vec2& reading : readings) square = std::min(square, (reading - node).squaredNorm());
+    gaps.push_back(std::sqrt(square));
+  }
+  const auto middle = gaps.begin() + std::ssize(gaps) / 2;
+  std::ranges::nth_element(gaps, middle);
+  return std::clamp(*middle / radius_m, kLeastSizeLogSd, kMostSizeLogSd);
+}
+
 }  // namespace
 
 void begin_with(const OutlineNodes& outline, OutlineStart& start) {
@@ -186,6 +204,7 @@ void begin_with(const OutlineNodes& outline, OutlineStart& start) {
   start.prior.middle = Vec2::Zero();
   for (const Vec2& node : largest) start.prior.middle += node / static_cast<double>(largest.size());
   start.prior.radius_m = std::sqrt(std::abs(enclosed_area(largest)) / std::numbers::pi);
+  start.prior.size_log_sd = size_log_sd(largest, start.prior.radius_m, start.readings.places);
 }
 
 bool moves_zero(const Misfit& change) {

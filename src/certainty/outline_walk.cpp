@@ -212,15 +212,12 @@ void OutlineWalk::move_profile() {
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
     const bool leans = profile.lean.has_value();
-    struct Number {
-      double* value;
-      bool is_of_turns = false;
-    };
-    const std::array<Number, kOfProfile> numbers = {{{&profile.log_slope},
-                                                     {leans ? &profile.lean->x() : nullptr},
-                                                     {leans ? &profile.lean->y() : nullptr},
-                                                     {&profile.log_shoulder},
-                                                     {&profile.log_skirt},
+    using Number = std::pair<double*, bool>;  // whether it is of turns
+    const std::array<Number, kOfProfile> numbers = {{{&profile.log_slope, false},
+                                                     {leans ? &profile.lean->x() : nullptr, false},
+                                                     {leans ? &profile.lean->y() : nullptr, false},
+                                                     {&profile.log_shoulder, false},
+                                                     {&profile.log_skirt, false},
                                                      {&profile.turns.log_half_width, true},
                                                      {&profile.turns.log_bend, true}}};
     const auto [value, is_of_turns] = numbers[i];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "certainty/edge_data.h"
@@ -63,6 +64,28 @@ TEST(OutlineStart, TakesReadingsWithoutNoiseAmongMany) {
   ASSERT_LT(readings.places.size(), palpations.size());
   EXPECT_TRUE(std::ranges::all_of(readings.reading, [](double one) { return std::isfinite(one); }));
   EXPECT_GT(std::ranges::min(readings.variance), 0.0);
+}
+
+/// Of a round outline, 3 mm wide to each side, whose nodes lie so far from the nearest reading.
+double size_log_sd(double gap_m) {
+  OutlineStart start;
+  std::vector<Vec2> circle;
+  for (int i = 0; i < 19; ++i) {
+    const Vec2 way(std::cos(2.0 * std::numbers::pi * i / 19),
+                   std::sin(2.0 * std::numbers::pi * i / 19));
+    circle.push_back(0.003 * way);
+    start.readings.places.push_back((0.003 + gap_m) * way);
+  }
+  OutlineNodes outline;
+  outline.add(circle, 0);
+  begin_with(outline, start);
+  return start.prior.size_log_sd;
+}
+
+TEST(OutlineStart, IsTheLessSureOfItsSizeTheFartherReadingsLie) {
+  EXPECT_EQ(size_log_sd(0.0005), 0.3);
+  EXPECT_NEAR(size_log_sd(0.0015), 0.5, 0.02);
+  EXPECT_EQ(size_log_sd(0.01), 1.0);
 }
 
 }  // namespace

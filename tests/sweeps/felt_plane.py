@@ -35,8 +35,10 @@ def between_vertices(field, size_mm, at_mm):
 
 
 def judged(palpate, folder, size_mm, vertices, at_mm, readings, truth, sessions=None):
-    """Wrong area and the expected one, mm2, and how far the true polygon is off in widths of the band."""
+    """Wrong area and the expected one, mm2, and how far the true polygon is off in widths of the band: no numbers where nothing was found."""
     summary = concluded(palpate, folder, size_mm, vertices, at_mm, readings, sessions)
+    if summary["band"] is None:
+        return truth.area, np.nan, np.nan
     subprocess.run([palpate, "export", folder / "out", "--for", "csv", "--out", folder / "csv", "--overwrite"], check=True, capture_output=True)
     score = np.array([float(row["score"]) for row in csv.DictReader((folder / "csv" / "tissue.csv").open())]).reshape(vertices[::-1])
     found = shapely.affinity.scale(shapely.wkt.loads((folder / "out" / "boundary.wkt").read_text()), 1e3, 1e3, origin=(0, 0))
@@ -47,11 +49,11 @@ def judged(palpate, folder, size_mm, vertices, at_mm, readings, truth, sessions=
 
 
 def print_table(table):
-    """Of each name a row: rows of wrong area, the expected one, and how far the truth is off in widths of the band."""
+    """Of each name a row: rows of what `judged` says of each."""
     print("\n              worlds  in the band  wrong, mm2, mean  wrong/expected, median and most")
     for name, rows in table.items():
         wrong, expected, off = map(np.array, zip(*rows))
-        print(f"{name:13s} {len(rows):6d} {np.sum(off <= 1):12d} {wrong.mean():17.1f} {np.median(wrong / expected):23.2f} {np.max(wrong / expected):8.2f}")
+        print(f"{name:13s} {len(rows):6d} {np.sum(off <= 1):12d} {wrong.mean():17.1f} {np.nanmedian(wrong / expected):23.2f} {np.nanmax(wrong / expected):8.2f}")
 
 
 def judge_worlds(usage, count, world):
