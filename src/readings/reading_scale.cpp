@@ -25,7 +25,7 @@ std::vector<Palpation> on_scale(ReadingScale scale, std::vector<Palpation> palpa
     const double reading = one.reading;
     if (!(reading > 0.0)) {
       one.reading = 0.0;  // of a set aside one, which nothing looks at
-      if (one.set_aside.empty()) one.set_aside = kNoContact;
+      if (one.set_aside.empty()) one.set_aside = reading < 0.0 ? kNoLogarithm : kNoContact;
       continue;
     }
     one.reading = std::log(reading);

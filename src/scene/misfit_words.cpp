@@ -178,9 +178,9 @@ std::string core_words(const Surface& surface, const DrawnCore& core) {
     return "Whether the stiff region is of one height, " + fixed(core.without_m2 * 1e6, 0) +
            " mm2, or a core around " + place_words(surface.position(core.where), 1) +
            " in softer tumour, " + fixed(core.with_m2 * 1e6, 0) +
-           " mm2 with it, the readings do not tell (of the outlines that they leave " +
+           " mm2 with it, is not sure: of the outlines that the readings leave " +
            fixed(100.0 * core.probability, 0) +
-           " % have a core): the band is of both. Touches between the two would tell.";
+           " % have a core, and the band is of both. Touches between the two would tell.";
   return "The stiff region has a core of " + fixed(core.area_m2.mean * 1e6, 0) + " mm2 around " +
          place_words(surface.position(core.where), 1) + "; beside it tissue stands out " +
          fixed(core.beside.mean, 2) + " times as much (" + fixed(core.beside.least, 2) + " to " +

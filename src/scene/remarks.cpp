@@ -47,7 +47,7 @@ std::string set_aside_words(const Exploration& exploration, const std::string& r
 std::vector<std::string> screening_remarks(const Exploration& exploration) {
   std::vector<std::string> remarks;
   for (const std::string& reason :
-       {kJammed, kNoContact, kFrozen, kStartUp, kBaseStep, kOutlier, kSoftSpot})
+       {kJammed, kNoContact, kNoLogarithm, kFrozen, kStartUp, kBaseStep, kOutlier, kSoftSpot})
     remarks.push_back(set_aside_words(exploration, reason));
   std::erase(remarks, "");
   if (!exploration.conclusion().model.field.probe.screening) return remarks;

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <span>
 
+#include "base/normal.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
 namespace {
 
 constexpr std::size_t kSessionsTold = 5;
-constexpr double kSeen = 2.0;  // standard deviations, of a session's zero
+constexpr double kFalseAlarms = 0.05;  // in all sessions
 
 std::string ordinal(int number) {
   const bool is_teen = number % 100 / 10 == 1;
@@ -21,16 +22,28 @@ std::string ordinal(int number) {
   return std::to_string(number) + end;
 }
 
+/// Beyond as many standard deviations some of so many sessions, which do not differ, hardly seem to
+/// (Bonferroni).
+double surely_seen(std::size_t sessions) {
+  return normal_quantile(1.0 - 0.5 * kFalseAlarms / static_cast<double>(sessions));
+}
+
+/// Whether it is not 1; `seen` standard deviations.
+bool is_a_gain(const DrawnNumber& gain, double seen) {
+  const double wider = seen / surely_seen(1);
+  return gain.mean - wider * (gain.mean - gain.least) > 1.0 ||
+         gain.mean + wider * (gain.most - gain.mean) < 1.0;
+}
+
 /// Nothing where its zero and gain may be those of the one before.
-std::string changed_words(ReadingScale scale, const SessionChange& session) {
-  const bool has_zero = std::abs(session.zero.amount) >= kSeen * session.zero.stddev;
-  const bool has_gain = session.gain && (session.gain->least > 1.0 || session.gain->most < 1.0);
+std::string changed_words(ReadingScale scale, const SessionChange& session, double seen) {
+  const bool has_zero = std::abs(session.zero.amount) >= seen * session.zero.stddev;
+  const bool has_gain = session.gain && is_a_gain(*session.gain, seen);
   if (!has_zero && !has_gain) return "";
   std::string words = "The " + session_name(session.zero.session) + ", which begins with reading " +
-                      std::to_string(session.zero.number + 1);
+                      std::to_string(session.zero.number + 1) + ",";
   if (has_zero)
-    words +=
-        ", has a zero of its own: its readings lie " + raised_words(scale, session.zero.amount);
+    words += " has a zero of its own: its readings lie " + raised_words(scale, session.zero.amount);
   if (has_gain)
     words += std::string(has_zero ? ", and" : " has a gain of its own:") +
              " what stands out does so " + fixed(session.gain->mean, 2) + " times as much (" +
@@ -42,7 +55,9 @@ std::string changed_words(ReadingScale scale, const SessionChange& session) {
 std::vector<std::string> changed_words(ReadingScale scale,
                                        std::span<const SessionChange> sessions) {
   std::vector<std::string> words;
-  for (const SessionChange& session : sessions) words.push_back(changed_words(scale, session));
+  const double seen = sessions.empty() ? 0.0 : surely_seen(sessions.size());
+  for (const SessionChange& session : sessions)
+    words.push_back(changed_words(scale, session, seen));
   std::erase(words, "");
   if (words.size() <= kSessionsTold) return words;
   return {"Of " + std::to_string(sessions.size() + 1) + " sessions " +

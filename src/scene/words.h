@@ -9,10 +9,6 @@
 
 namespace palpation::tool {
 
-/// What is said of readings that do not differ by more than noise.
-inline constexpr const char* kNoContrast =
-    "Nothing found: the readings show no contrast beyond their noise.";
-
 /// What is said where a trend is modelled and too few places are touched for one.
 inline constexpr const char* kTooFewForTrend =
     "No conclusion: fewer than 15 places have been touched, too few to tell a tumour from a tilt.";

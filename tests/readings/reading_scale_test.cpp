@@ -35,15 +35,17 @@ TEST(ReadingScale, TakesNoiseAsAPartOfTheReading) {
   EXPECT_TRUE(std::isnan(log[1].noise_variance));
 }
 
-TEST(ReadingScale, TakesWhatIsNotPositiveForLostContact) {
+TEST(ReadingScale, TakesZeroForLostContactAndLessForNoReadingOfThatScale) {
   const std::vector<Palpation> log =
       on_scale(ReadingScale::Log,
                std::vector<Palpation>{{.where = {}, .reading = 0.0},
                                       {.where = {}, .reading = -1.0, .set_aside = "by hand"},
-                                      {.where = {}, .reading = 1.0}});
+                                      {.where = {}, .reading = 1.0},
+                                      {.where = {}, .reading = -1.0}});
   EXPECT_EQ(log[0].set_aside, kNoContact);
   EXPECT_EQ(log[1].set_aside, "by hand");
   EXPECT_TRUE(log[2].set_aside.empty());
+  EXPECT_EQ(log[3].set_aside, kNoLogarithm);
 }
 
 }  // namespace

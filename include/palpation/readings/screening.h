@@ -32,6 +32,7 @@ namespace palpation {
 inline const std::string kJammed = "jam: far above all other readings";
 inline const std::string kNoContact =
     "no contact: far below all other readings, or a row without any change";
+inline const std::string kNoLogarithm = "no logarithm: not positive";
 inline const std::string kFrozen =
     "frozen: the same reading over a path longer than the probe is wide";
 inline const std::string kStartUp = "start-up: the first 3 mm of a row that starts from rest";
