@@ -112,6 +112,9 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   const Layout layout(belief.prior());
   EdgeData data = options.one_by_one.empty() ? gathered_for_edge(belief)
                                              : gathered_for_edge(belief, options.one_by_one);
+  const SeenBackground& seen = options.background;
+  if (seen.errors_in_turn.readings > 0.0 && seen.drift.size() > 0)
+    data.reading += mean_in_turn(seen.drift, data.made);
   data.variance = data.variance.cwiseMax(profile_error_variance(range));
   const double least_variance =
       std::max(profile_error_variance(range), rounding_variance(belief.palpations()));
@@ -147,11 +150,10 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
     before.push_back(changes_before(changes, data.made[i]));
     readings.bounds.push_back(bound_of(data.made[i]));
   }
-  readings.background =
-      background_terms({.places = readings.places,
-                        .when = when,
-                        .seen = seen_terms(layout, options.background, in_order, made),
-                        .steps = steps_of(changes, before)});
+  readings.background = background_terms({.places = readings.places,
+                                          .when = when,
+                                          .seen = seen_terms(layout, seen, in_order, made),
+                                          .steps = steps_of(changes, before)});
   readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
   readings.epoch = epochs_of(before, prior.epochs);
   readings.where = std::move(in_order);

@@ -145,6 +145,11 @@ std::optional<WaveScale> slow_waves_among(const std::vector<Misfit>& changes) {
   return waves->background.wave_scale;
 }
 
+Eigen::VectorXd drift_among(const std::vector<Misfit>& changes) {
+  const auto drift = std::ranges::find(changes, MisfitKind::Drift, &Misfit::kind);
+  return drift == changes.end() ? Eigen::VectorXd() : drift->background.drift;
+}
+
 }  // namespace
 
 void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
@@ -164,7 +169,8 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
                        .one_by_one = believed.one_by_one,
                        .changes = with_gains_of_sessions(believed.evidence.taken_back),
                        .background = {slow_waves_among(believed.evidence.taken_back),
-                                      believed.evidence.errors_beside_edge}});
+                                      believed.evidence.errors_beside_edge,
+                                      drift_among(believed.evidence.taken_back)}});
   if (boundary.outlines) boundary.level = boundary.outlines->level;
 }
 

@@ -35,13 +35,13 @@ std::vector<Palpation> felt(const Surface& surface, double noise) {
 }
 
 OutlineReadings readings_of(const Surface& surface, const std::vector<Palpation>& palpations,
-                            double noise_sd) {
+                            double noise_sd, const OutlineOptions& options = {}) {
   const Prior prior(surface, Metric::Chart, Kernel{.length_m = 0.0045, .signal_sd = 1.0});
   const Belief belief = Belief(prior, {.noise_sd = noise_sd}).condition_on(palpations);
   const Marginals marginals = belief.at_vertices();
   constexpr double kFirstLevels[] = {8.0};
   const auto edge = EdgeBelief::around(belief, marginals, kFirstLevels, 0.5);
-  return outline_start(belief, marginals.mean, edge.value(), {}).value().readings;
+  return outline_start(belief, marginals.mean, edge.value(), options).value().readings;
 }
 
 TEST(OutlineStart, KnowsManyReadingsToTheBitInWhateverOrderTheyWereMade) {
@@ -64,6 +64,21 @@ TEST(OutlineStart, TakesReadingsWithoutNoiseAmongMany) {
   ASSERT_LT(readings.places.size(), palpations.size());
   EXPECT_TRUE(std::ranges::all_of(readings.reading, [](double one) { return std::isfinite(one); }));
   EXPECT_GT(std::ranges::min(readings.variance), 0.0);
+}
+
+// What was taken back beside one edge would speak for that edge.
+TEST(OutlineStart, GivesBackADriftThatLastingErrorsExplain) {
+  const Surface surface = tissue();
+  const std::vector<Palpation> palpations = felt(surface, kNoise);
+  OutlineOptions options;
+  options.background.drift = Eigen::VectorXd::Constant(std::ssize(palpations), 0.5);
+  const OutlineReadings without = readings_of(surface, palpations, kNoise, options);
+  options.background.errors_in_turn = {.readings = 10.0, .sd = 0.2};
+  const OutlineReadings with = readings_of(surface, palpations, kNoise, options);
+  ASSERT_EQ(with.reading.size(), without.reading.size());
+  for (std::size_t i = 0; i < with.reading.size(); ++i)
+    EXPECT_NEAR(with.reading[i], without.reading[i] + 0.5, 1e-12) << i;
+  EXPECT_GT(with.background.seen, without.background.seen);
 }
 
 /// Of a round outline, 3 mm wide to each side, whose nodes lie so far from the nearest reading.

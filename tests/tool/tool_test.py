@@ -74,8 +74,8 @@ class Tool(InFolder):
 
     def test_touches_that_would_help_are_asked_for_at_the_boundary(self):
         dice = random.Random(14)
-        places = [(dice.uniform(2, 22), dice.uniform(2, 22)) for _ in range(18)]  # of 40 x 40 mm
-        rows = [f"{x / 1000},{y / 1000},0,{7 + 2 / (1 + math.exp(-1.4 * (6 - math.hypot(x - 12, y - 12)))) + dice.gauss(0, 0.02)}" for x, y in places]
+        places = [(dice.uniform(2, 22), dice.uniform(2, 22)) for _ in range(14)]  # of 40 x 40 mm
+        rows = [f"{x / 1000},{y / 1000},0,{7 + 2 / (1 + math.exp(-1.4 * (6 - math.hypot(x - 12, y - 12)))) + dice.gauss(0, 0.2)}" for x, y in places]
         scene = self.write("corner.json", json.dumps({"surface": {"plane": {"size_mm": [40, 40], "vertices": [41, 41]}}}))
         measured = self.write("corner.csv", "\n".join(["x,y,z,reading", *rows]) + "\n")
         result = palpate("boundary", scene, "--measurements", measured)

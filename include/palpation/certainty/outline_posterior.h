@@ -22,7 +22,10 @@ namespace palpation {
 /// What adds to readings and was seen beside the edge; what is left of it is among the unknown.
 struct SeenBackground {
   std::optional<WaveScale> slow_waves{};  ///< that are taken back in the readings
-  LastingErrors errors_in_turn{};         ///< that are not
+  LastingErrors errors_in_turn{};         ///< of the readings as they were made
+  /// What of these was taken from each reading in turn: outlines are given it back, since a drift
+  /// that was found beside one edge would speak for that edge. Empty where nothing was.
+  Eigen::VectorXd drift{};
 };
 
 struct OutlineOptions {
