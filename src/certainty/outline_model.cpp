@@ -192,7 +192,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
     sum += half_square(profile.lean->norm() / kLean) +
            std::log(2.0 * std::numbers::pi * kLean * kLean);
   for (std::size_t loop = 0; loop < profile.log_spacing.size(); ++loop)
-    sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / prior.size_log_sd);
+    sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / prior.size_log_sd) +
+           std::log(prior.size_log_sd / kLeastSizeLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
   for (std::size_t change = 0; change < profile.moved_m.size(); ++change)

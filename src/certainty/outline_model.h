@@ -33,6 +33,9 @@
 
 namespace palpation {
 
+/// Of how large an outline is, the spread of its logarithm, where readings lie close to it.
+inline constexpr double kLeastSizeLogSd = 0.3;
+
 /// How far tissue moves, beforehand, on each axis.
 inline constexpr double kMoveSd_m = 0.003;
 
@@ -61,12 +64,12 @@ struct OutlinePrior {
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
   double least_log_noise = -std::numeric_limits<double>::infinity();
-  double fraction = 0.5;              ///< of the way from low to high, where the boundary is
-  Vec2 middle = Vec2::Zero();         ///< of what was found first, and
-  double radius_m = 0.005;            ///< how far from it a slope is nearly that of its side
-  double size_log_sd = 0.3;           ///< of how large what was found first is
-  std::vector<MisfitKind> changes{};  ///< in time: what `moved_m` and `log_gain` may differ by
-  std::vector<double> gain_log_sd{};  ///< of each
+  double fraction = 0.5;                 ///< of the way from low to high, where the boundary is
+  Vec2 middle = Vec2::Zero();            ///< of what was found first, and
+  double radius_m = 0.005;               ///< how far from it a slope is nearly that of its side
+  double size_log_sd = kLeastSizeLogSd;  ///< of how large what was found first is
+  std::vector<MisfitKind> changes{};     ///< in time: what `moved_m` and `log_gain` may differ by
+  std::vector<double> gain_log_sd{};     ///< of each
   /// The changes that readings of each were made after; of the first, none.
   std::vector<std::vector<int>> epochs{{}};
 };

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
 /// Of how large an outline is: what nobody knows is within e times as wide or as narrow.
-constexpr double kLeastSizeLogSd = 0.3, kMostSizeLogSd = 1.0;
+constexpr double kMostSizeLogSd = 1.0;
 /// Of a noise that is given: edges are no perfect sigmoids.
 constexpr double kGivenNoiseLogSd = 0.3;
 constexpr double kLearnedNoiseLogSd = 1.0;

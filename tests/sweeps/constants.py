@@ -26,7 +26,7 @@ CONSTANTS = [
                  "model.cpp:kUnbentLogSd", "draws.cpp:kAlike",
                  "model.cpp:kBentLogSd", "model.cpp:kLean", "scatter.cpp:kGrowth", "start.cpp:kLearnedNoiseLogSd", "start.cpp:kGivenNoiseLogSd", "start.cpp:kWaves",
                  "start.cpp:kDrift", "start.cpp:kTilt", "residuals.cpp:kSdLogSd", "model.cpp:kWildReach", "cut.cpp:kRadius_m", "cut.cpp:kHalfLength_m",
-                 "model.cpp:kPieceLogSd", "lines.h:kSpacing_m", "start.cpp:kLeastSizeLogSd", "model.cpp:kContrastLogSd")
+                 "model.cpp:kPieceLogSd", "lines.h:kSpacing_m", "model.h:kLeastSizeLogSd", "model.cpp:kContrastLogSd")
 ] + [f"src/certainty/turn_law.cpp:{name}" for name in ("kCornersOfSmooth", "kCornersOfAngular", "kCornerBend", "kCorners", "kOfCorner")
      ] + [f"include/palpation/certainty/edge_belief.h:{name}" for name in ("slope_per_m", "slope_log_sd", "correction_sd_m", "correction_length_m")
      ] + ["include/palpation/belief/hyperparameters.h:length_median_m"]
