@@ -231,6 +231,7 @@ std::optional<Lag> learn_lag(const Prior& prior, std::span<const Palpation> palp
           .stddev_m = lag_prior.sd_m};
   lag.at_bound = std::min(lag.value_m - lag_prior.least_m, lag_prior.most_m - lag.value_m) <
                  2.0 * kPrecision_m;
+  lag.log_gain = posterior(readings, lag.value_m) - posterior(readings, 0.0);
   const std::optional<Peak> peak = peak_around(posterior, readings, lag.value_m);
   const std::optional<double> scatter = scatter_m(posterior, readings, lag.value_m);
   if (peak && scatter) lag.stddev_m = std::min(lag.stddev_m, std::max(peak->stddev_m, *scatter));

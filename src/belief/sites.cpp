@@ -53,7 +53,8 @@ std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> pa
         site_at.try_emplace(PlaceKey(x.x(), x.y(), x.z(), place.modes.sum()), sites.size());
     if (is_new) sites.push_back({palpation.where, std::move(place), {}, {}, {}});
     Site& site = sites[entry->second];
-    site.made.push_back({palpation.batch, before[number], palpation.session, palpation.bound});
+    site.made.push_back(
+        {palpation.batch, before[number], palpation.session, palpation.bound, palpation.travel});
     if (std::isnan(palpation.noise_variance)) {
       site.plain.push_back(palpation.reading);
     } else {

@@ -251,8 +251,12 @@ bool is_background(const Misfit& change) {
          change.kind == MisfitKind::Drift;
 }
 
+bool is_of_all(const Misfit& change) {
+  return is_background(change) || change.kind == MisfitKind::Late;
+}
+
 bool is_since(const Misfit& change, const Made& made) {
-  if (is_background(change)) return true;
+  if (is_of_all(change)) return true;
   if (change.session > 0) return made.session >= change.session;
   return std::pair(made.batch, made.number) >= std::pair(change.from_batch, change.number);
 }

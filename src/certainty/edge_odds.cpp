@@ -161,11 +161,13 @@ EdgeInErrors EdgeBelief::in_lasting_errors(const Eigen::VectorXd& taken_back) co
     textured.weigh(here.rows, spread, texture * texture.transpose(), 0.0);
   }
   const double by_noise = WithWaves(here.rows, spread).level();
-  EdgeInErrors found{.log_evidence = std::max(by_noise, beside.level) - freedom_,
-                     .log_evidence_in_texture = std::max(by_noise, textured.level) - freedom_,
-                     .log_evidence_without_edge = alone.level,
-                     .errors_without_edge = alone.errors,
-                     .drift = Eigen::VectorXd::Zero(taken_back.size())};
+  EdgeInErrors found{
+      .log_evidence = std::max(by_noise, beside.level) - freedom_,
+      .log_evidence_in_texture = std::max(by_noise, textured.level) - freedom_,
+      .log_evidence_without_edge = alone.level,
+      .errors_without_edge = alone.errors,
+      .do_last_without_edge = alone.level > WithWaves(flat, spread).level() + surprising(),
+      .drift = Eigen::VectorXd::Zero(taken_back.size())};
   if (!(beside.level > by_noise + surprising())) return found;
   found.errors = beside.errors;
   found.drift = beside.errors.sd * beside.errors.sd *

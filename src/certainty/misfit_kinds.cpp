@@ -8,13 +8,13 @@
 namespace palpation {
 namespace {
 
-constexpr double kKinds = 4.0;  // zero, gain, place, parts
+constexpr double kKinds = 6.0;  // zero, gain, place, parts, outlines, readings that come late
 
 }  // namespace
 
 std::string_view name_of(MisfitKind kind) {
-  constexpr std::array<std::string_view, 7> kNames = {"zero", "gain",  "moved", "weaker",
-                                                      "tilt", "waves", "drift"};
+  constexpr std::array<std::string_view, 9> kNames = {"zero",  "gain",  "moved",   "weaker", "tilt",
+                                                      "waves", "drift", "outline", "late"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -10,6 +10,7 @@
 #include "certainty/edge_data.h"
 #include "exploration/background_search.h"
 #include "exploration/change_search.h"
+#include "exploration/session_units.h"
 #include "exploration/taken_back.h"
 #include "exploration/zero_changes.h"
 #include "readings/readings.h"
@@ -62,10 +63,14 @@ std::size_t add_change(const Misfit& change, std::span<const Palpation> palpatio
   return which;
 }
 
+/// Sessions are brought to one unit first: their gains beyond that are drawn with the outlines.
 Believed believed_with_one_zero(const Surface& surface, const Model& model,
-                                const std::vector<Palpation>& felt, ConclusionCache& cache,
+                                const std::vector<Palpation>& made, ConclusionCache& cache,
                                 ConclusionCache& apart) {
   const bool may_differ = !model.field.trend.is_linear && !model.field.is_noiseless();
+  const std::vector<Misfit> units =
+      may_differ ? session_units(surface, made) : std::vector<Misfit>();
+  const std::vector<Palpation> felt = with_changes_taken_back(surface, made, units);
   std::vector<Misfit> changes = may_differ ? session_zeros(surface, felt) : std::vector<Misfit>();
   Believed believed =
       changes.empty()
@@ -74,12 +79,17 @@ Believed believed_with_one_zero(const Surface& surface, const Model& model,
   const auto take_back = [&] {
     believed = believe(surface, model, with_changes_taken_back(surface, felt, changes), apart);
   };
+  const auto all_changes = [&] {
+    std::vector<Misfit> all = units;
+    all.insert(all.end(), changes.begin(), changes.end());
+    return all;
+  };
   for (int round = 0; !changes.empty() && round < kSessionRounds; ++round) {
     changes =
         estimated_zeros(as_made(felt, believed.palpations), believed.belief, std::move(changes));
     take_back();
   }
-  believed.evidence.taken_back = changes;
+  believed.evidence.taken_back = all_changes();
   if (!believed.evidence.contrast_seen) return believed;
   const auto again = [&](std::vector<Palpation> changed) {
     return believe(surface, model, std::move(changed), apart).belief;
@@ -88,7 +98,7 @@ Believed believed_with_one_zero(const Surface& surface, const Model& model,
   if (more.empty()) return believed;
   for (const Misfit& change : more) add_change(change, believed.palpations, changes);
   take_back();
-  believed.evidence.taken_back = std::move(changes);
+  believed.evidence.taken_back = all_changes();
   return believed;
 }
 
@@ -121,7 +131,9 @@ void weigh_against_errors_in_turn(Known& known, Eigen::Index readings) {
   evidence.errors_beside_edge = edge.errors;
   const double log_odds = edge.log_evidence - edge.log_evidence_without_edge;
   if (log_odds > surprising()) return;
-  evidence.of_edge = {.log_odds = log_odds, .errors = edge.errors_without_edge};
+  evidence.of_edge = {
+      .log_odds = log_odds,
+      .errors = edge.do_last_without_edge ? edge.errors_without_edge : LastingErrors{}};
   if (log_odds < -surprising() && may_be_errors(known, edge.errors_without_edge))
     known.boundary = {};
 }
@@ -187,12 +199,15 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
         step && step->is_of_the_zero() ? step->zero : change_to_take_back(model, known, readings);
     if (!change) break;
     const std::size_t which = add_change(*change, readings, changes);
-    if (change->kind == MisfitKind::Moved) look_closer_at(which, changes, surface, model, felt);
+    if (change->kind == MisfitKind::Moved || change->kind == MisfitKind::Late)
+      look_closer_at(which, changes, surface, model, felt);
     take_back();
   }
   if (is_last) {
     weigh_against_errors_in_turn(known, readings_made(felt));
     weigh_against_waves(known);
+    if (known.boundary.edge)
+      known.believed.evidence.another_outline = known.boundary.edge->outline_since();
   }
   return known;
 }

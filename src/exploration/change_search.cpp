@@ -9,9 +9,11 @@
 #include "certainty/edge_data.h"
 #include "certainty/outline_model.h"
 #include "exploration/comparable_evidence.h"
+#include "exploration/lag_fit.h"
 #include "exploration/taken_back.h"
 #include "exploration/zero_changes.h"
 #include "palpation/base/parallel.h"
+#include "palpation/belief/lag.h"
 
 namespace palpation {
 namespace {
@@ -104,15 +106,19 @@ std::vector<double> log_gains(std::span<const Misfit> changes, const Belief& bel
   return gains;
 }
 
-/// What a conclusion does not explain, the strongest first; of each kind once. A move is found by
-/// the field, which knows how far, or else by the edge, to first order.
-std::vector<Misfit> all_misfits(const std::optional<EdgeBelief>& edge, const Belief& belief,
-                                std::span<const Palpation> readings) {
+/// What a conclusion does not explain, the strongest first; of each kind once, but for a lag, which
+/// edge and field may tell differently. A move is found by the field, which knows how far, or else
+/// by the edge, to first order.
+std::vector<Misfit> all_misfits(const Model& model, const std::optional<EdgeBelief>& edge,
+                                const Belief& belief, std::span<const Palpation> readings) {
   if (!edge) return {};
   std::vector<Misfit> found = edge->misfits();
-  std::erase_if(found, [](const Misfit& misfit) {
-    return misfit.kind == MisfitKind::Gain && 1.0 + misfit.amount < kLeastGain;
+  std::erase_if(found, [&](const Misfit& misfit) {
+    return (misfit.kind == MisfitKind::Gain && 1.0 + misfit.amount < kLeastGain) ||
+           (misfit.kind == MisfitKind::Late && model.field.probe.has_lag());
   });
+  const std::optional<Misfit> lag = model.field.probe.has_lag() ? std::nullopt : lag_seen(belief);
+  if (lag) found.push_back(*lag);
   std::optional<Misfit> move = changed_since(belief);
   if (move && move->kind != MisfitKind::Moved) move.reset();
   const auto by_edge = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
@@ -141,6 +147,11 @@ Misfit moved_on(Misfit move, const Vec3& by_m) {
   return move;
 }
 
+Misfit later_by(Misfit lag, double by_m) {
+  lag.amount += by_m;
+  return lag;
+}
+
 /// The same from another reading on.
 Misfit made_later(Misfit move, const Readings& felt, std::ptrdiff_t by) {
   const std::ptrdiff_t number = static_cast<std::ptrdiff_t>(move.number) + by;
@@ -150,12 +161,60 @@ Misfit made_later(Misfit move, const Readings& felt, std::ptrdiff_t by) {
   return move;
 }
 
+bool begins_a_session(std::size_t number, const Readings& felt) {
+  return number > 0 && felt[number].session != felt[number - 1].session;
+}
+
+/// The same with the session that begins the nearest; itself where none begins.
+Misfit made_with_a_session(Misfit move, const Readings& felt) {
+  std::optional<std::size_t> nearest;
+  const auto off = [&](std::size_t number) {
+    return std::abs(static_cast<std::ptrdiff_t>(number) - static_cast<std::ptrdiff_t>(move.number));
+  };
+  for (std::size_t number = 1; number < felt.size(); ++number) {
+    if (begins_a_session(number, felt) && (!nearest || off(number) < off(*nearest)))
+      nearest = number;
+  }
+  if (!nearest) return move;
+  move.number = *nearest;
+  move.from_batch = felt[*nearest].batch;
+  return move;
+}
+
+/// It, and what is a step away.
+std::vector<Misfit> steps_from(const Misfit& change, double step_m, std::ptrdiff_t later,
+                               const std::pair<Vec3, Vec3>& plane, const Readings& felt) {
+  if (change.kind == MisfitKind::Late)
+    return {change, later_by(change, step_m), later_by(change, -step_m)};
+  std::vector<Misfit> steps = {change};
+  for (const Vec3& way : {plane.first, plane.second}) {
+    steps.push_back(moved_on(change, step_m * way));
+    steps.push_back(moved_on(change, -step_m * way));
+  }
+  steps.push_back(made_later(change, felt, later));
+  steps.push_back(made_later(change, felt, -later));
+  steps.push_back(made_with_a_session(change, felt));
+  return steps;
+}
+
+/// Of how far and when, but for a constant: as likely with a session as with any other reading.
+double log_prior_of(const Misfit& change, const Readings& felt) {
+  const double z = change.amount / (change.kind == MisfitKind::Late ? LagPrior{}.sd_m : kMoveSd_m);
+  const bool is_with_session =
+      change.kind == MisfitKind::Moved && begins_a_session(change.number, felt);
+  return (is_with_session ? std::log(static_cast<double>(felt.size())) : 0.0) - 0.5 * z * z;
+}
+
+bool is_displaced(const Misfit& misfit) {
+  return misfit.kind == MisfitKind::Moved || misfit.kind == MisfitKind::Late;
+}
+
 }  // namespace
 
 std::optional<Misfit> change_to_take_back(const Model& model, const Known& known,
                                           const std::vector<Palpation>& readings) {
   const Belief& belief = known.believed.belief;
-  std::vector<Misfit> found = all_misfits(known.boundary.edge, belief, readings);
+  std::vector<Misfit> found = all_misfits(model, known.boundary.edge, belief, readings);
   std::erase_if(found, [](const Misfit& misfit) { return !is_change(misfit); });
   if (found.empty()) return std::nullopt;
   const std::vector<double> gains = log_gains(found, belief, model, readings);
@@ -193,7 +252,7 @@ std::optional<RasterStep> raster_step(const Model& model, const Known& known,
 
 void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surface& surface,
                     const Model& model, const std::vector<Palpation>& felt) {
-  const auto [across, along] = plane_of(surface, felt);
+  const std::pair<Vec3, Vec3> plane = plane_of(surface, felt);
   std::ptrdiff_t later = kReadingsOfStep;
   for (double step_m = kFirstStep_m; step_m >= kLastStep_m; step_m *= 0.5, later /= 2) {
     ConclusionCache apart;
@@ -203,22 +262,14 @@ void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surfa
     if (!known.boundary.edge) return;
     bool is_better = true;
     for (int step = 0; is_better && step < kMostSteps; ++step) {
-      const Misfit move = changes[which];
-      std::vector<Misfit> tried = {move};
-      for (const Vec3& way : {across, along}) {
-        tried.push_back(moved_on(move, step_m * way));
-        tried.push_back(moved_on(move, -step_m * way));
-      }
-      tried.push_back(made_later(move, felt, later));
-      tried.push_back(made_later(move, felt, -later));
+      const std::vector<Misfit> tried = steps_from(changes[which], step_m, later, plane, felt);
       std::vector<Readings> versions;
       for (const Misfit& one : tried) {
         changes[which] = one;
         versions.push_back(with_changes_taken_back(surface, felt, changes));
       }
       std::vector<double> evidences = log_evidences_around(known, model, std::move(versions));
-      for (std::size_t i = 0; i < tried.size(); ++i)
-        evidences[i] -= 0.5 * tried[i].moved_m.squaredNorm() / (kMoveSd_m * kMoveSd_m);
+      for (std::size_t i = 0; i < tried.size(); ++i) evidences[i] += log_prior_of(tried[i], felt);
       const auto best = std::ranges::max_element(evidences);
       changes[which] = tried[best - evidences.begin()];
       is_better = best != evidences.begin();
@@ -228,12 +279,11 @@ void look_closer_at(std::size_t which, std::vector<Misfit>& changes, const Surfa
 
 std::vector<Misfit> misfits_of(const Model& model, const std::optional<EdgeBelief>& edge,
                                const Belief& belief, std::span<const Palpation> readings) {
-  std::vector<Misfit> found = all_misfits(edge, belief, readings);
-  const auto move = std::ranges::find(found, MisfitKind::Moved, &Misfit::kind);
-  if (move != found.end()) {
-    const std::vector<double> gain = log_gains({&*move, 1}, belief, model, readings);
-    if (!(gain.front() > surprising())) found.erase(move);
-  }
+  std::vector<Misfit> found = all_misfits(model, edge, belief, readings);
+  std::erase_if(found, [&](const Misfit& one) {
+    return is_displaced(one) &&
+           !(log_gains({&one, 1}, belief, model, readings).front() > surprising());
+  });
   if (const auto strongest = std::ranges::find_if(found, is_change); strongest != found.end())
     found.erase(std::remove_if(strongest + 1, found.end(), is_change), found.end());
   return found;

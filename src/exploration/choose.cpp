@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "exploration/batch_choice.h"
+#include "exploration/search_goal.h"
 #include "palpation/base/error.h"
 #include "palpation/decision/tour.h"
 #include "palpation/exploration/choice.h"
@@ -58,6 +59,15 @@ bool gains_too_little(const Conclusion& conclusion, const Plan& plan, const Prog
                           stops);
 }
 
+/// Why nothing more is to be felt; empty while a disk that was to be found could still hide where
+/// a touch may be made.
+std::string enough_found(const Conclusion& conclusion, const Plan& plan,
+                         std::span<const int> candidates) {
+  std::string reason = enough_known(conclusion, plan.stop);
+  if (reason.empty() || stops_to_goal(conclusion, plan.aim, candidates, 1).empty()) return reason;
+  return "";
+}
+
 }  // namespace
 
 Choice choose(const Surface& surface, const Conclusion& conclusion, const Plan& plan,
@@ -73,7 +83,7 @@ Choice choose(const Surface& surface, const Conclusion& conclusion, const Plan& 
     stops = initial_design(surface, plan.initial.design, plan.initial.count, candidates, random);
   } else {
     if (done >= plan.batches) return {.stop_reason = "budget"};
-    if (std::string reason = enough_known(conclusion, plan.stop); !reason.empty())
+    if (std::string reason = enough_found(conclusion, plan, candidates); !reason.empty())
       return {.stop_reason = std::move(reason)};
     BatchOptions options = plan.batch;
     options.from = progress.probe;

@@ -15,6 +15,7 @@
 #include "palpation/readings/screening.h"
 #include "readings/lost_contact.h"
 #include "readings/saturation.h"
+#include "readings/way.h"
 
 namespace palpation {
 namespace {
@@ -29,9 +30,10 @@ bool is_judged_anew(const Palpation& palpation, const Model& model) {
 }
 
 /// Those that were made, as they were made.
-std::vector<Palpation> felt_among(std::span<const Palpation> readings, const Model& model) {
+std::vector<Palpation> felt_among(const Surface& surface, std::span<const Palpation> readings,
+                                  const Model& model) {
   std::vector<Palpation> felt;
-  for (const Palpation& reading : readings) {
+  for (const Palpation& reading : with_travel(surface, {readings.begin(), readings.end()})) {
     if (reading.kind == TouchKind::Missed) continue;
     felt.push_back(reading);
     if (is_judged_anew(reading, model)) felt.back().set_aside.clear();
@@ -65,9 +67,9 @@ Model on_scale(ReadingScale scale, Model model) {
   return model;
 }
 
-/// Whether errors or waves alone make the readings about as probable as the edge does.
+/// Whether errors or waves alone make the readings about as probable as the edge does, or more so.
 bool may_be_no_tumour(const Evidence& evidence) {
-  return evidence.of_edge && std::abs(evidence.of_edge->log_odds) < surprising();
+  return evidence.of_edge && evidence.of_edge->log_odds < surprising();
 }
 
 /// The step that tissue or the zero may have made is taken for tissue; were it the zero's, nothing
@@ -87,6 +89,12 @@ Certainty doubted_by_step(Certainty certainty, const Surface& surface, const Mod
   return as_likely_another(std::move(certainty), surface, score);
 }
 
+/// Readings before and since put the outline elsewhere: which of them are right is not known.
+Certainty doubted_by_outline(Certainty certainty, const Surface& surface,
+                             const BoundaryFit& boundary, const Misfit& since) {
+  return doubted_as_a_whole(std::move(certainty), surface, *boundary.offset_sd(), since.rms);
+}
+
 }  // namespace
 
 Conclusion conclude(const Surface& surface, const Model& model, std::span<const Palpation> readings,
@@ -94,7 +102,8 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   check(model);
   ConclusionCache own;
   if (cache == nullptr) cache = &own;
-  std::vector<Palpation> felt = bounded(surface, live(surface, felt_among(readings, model)));
+  std::vector<Palpation> felt =
+      bounded(surface, live(surface, felt_among(surface, readings, model)));
   const ReadingScale scale =
       model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt, *cache);
   const Model scaled = on_scale(scale, model);
@@ -110,6 +119,9 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   std::optional<Certainty> certainty;
   if (scaled.band && boundary.level && believed.belief.site_count() > 0)
     certainty = certainty_of(surface, scaled, believed, component, boundary);
+  if (certainty && believed.evidence.another_outline)
+    certainty = doubted_by_outline(*std::move(certainty), surface, boundary,
+                                   *believed.evidence.another_outline);
   if (certainty && believed.evidence.zero_or_tissue)
     certainty =
         doubted_by_step(*std::move(certainty), surface, scaled, modelled, believed.evidence);

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include "palpation/readings/screening.h"
 
 namespace palpation {
 namespace {
@@ -16,15 +19,29 @@ Prior for_lag(const Prior& prior) {
   return prior.with(prior.kernel(), {}, prior.slope());
 }
 
-/// The field of fixed hyperparameters; those in force are in reading units.
+/// Those of a field, in reading units.
+Hyperparameters in_force(const Belief& belief) {
+  return {belief.prior().kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())};
+}
+
+/// The field of fixed hyperparameters.
 LearnedField as_given(const Surface& surface, const FieldModel& field,
                       std::span<const Palpation> palpations) {
   const Belief belief = fixed_field(surface, field, palpations);
-  return {
-      Belief(belief.prior(), belief.options()),
-      {belief.prior().kernel().length_m, belief.signal_sd(), std::sqrt(belief.noise_variance())},
-      0.0,
-      true};
+  return {Belief(belief.prior(), belief.options()), in_force(belief), 0.0, true};
+}
+
+/// Whether most readings lie nearer to the one before than anything is felt.
+bool follow_closely(const Belief& belief) {
+  const Surface& surface = belief.prior().surface();
+  const std::vector<Palpation>& palpations = belief.palpations();
+  std::ptrdiff_t near = 0;
+  for (std::size_t i = 1; i < palpations.size(); ++i) {
+    const Vec3 leg =
+        surface.position(palpations[i].where) - surface.position(palpations[i - 1].where);
+    near += leg.norm() < kShortLength_m;
+  }
+  return 2 * near > std::ssize(palpations);
 }
 
 LearnedField learned_at(const Surface& surface, const FieldModel& field,
@@ -50,6 +67,16 @@ LagFit fit_lagged(const Surface& surface, const FieldModel& field,
     taught = learned_at(surface, field, palpations, taught.learned, lag_m);
   }
   return {belief_of(surface, field, displaced(surface, palpations, lag_m), taught), lag};
+}
+
+std::optional<Misfit> lag_seen(const Belief& belief) {
+  if (!(belief.noise_variance() > 0.0) || !follow_closely(belief)) return std::nullopt;
+  LagPrior none_expected;
+  none_expected.mean_m = 0.0;
+  const std::optional<Lag> lag =
+      learn_lag(for_lag(belief.prior()), belief.palpations(), in_force(belief), none_expected);
+  if (!lag || !(lag->log_gain > surprising())) return std::nullopt;
+  return Misfit{.kind = MisfitKind::Late, .evidence = lag->log_gain, .amount = lag->value_m};
 }
 
 }  // namespace palpation

@@ -5,6 +5,7 @@
 
 #include "exploration/field_fit.h"
 #include "palpation/belief/lag.h"
+#include "palpation/certainty/misfit.h"
 
 namespace palpation {
 
@@ -18,5 +19,10 @@ struct LagFit {
 /// Without a lag the same as fit_field.
 LagFit fit_lagged(const Surface& surface, const FieldModel& field,
                   std::span<const Palpation> palpations);
+
+/// How late the belief's readings come, where that is likelier than that they do not by more than
+/// chance makes it. Nothing where they do not follow each other closely, as on a raster, whose rows
+/// an outline can follow one by one: what others tell, their edge tells as well.
+std::optional<Misfit> lag_seen(const Belief& belief);
 
 }  // namespace palpation

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "readings/readings.h"
@@ -94,9 +95,11 @@ std::vector<int> stops_to_goal(const Conclusion& conclusion, const Aim& aim,
   if (!aim.has_goal()) return {};
   const std::optional<Search> search = search_after(conclusion, aim.probability);
   if (!search) return {};
+  std::vector<int> centres;
+  std::ranges::set_intersection(search->centres, candidates, std::back_inserter(centres));
   const Layout layout(conclusion.belief.prior());
   return touches_to_rule_out(layout, layout.touched(conclusion.belief.palpations()), search->sought,
-                             aim.undetected_diameter_m, search->centres,
+                             aim.undetected_diameter_m, centres,
                              {.candidates = candidates, .most = most});
 }
 

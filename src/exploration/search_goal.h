@@ -38,7 +38,8 @@ double scatter_of(const Conclusion& conclusion);
 double contrast_on_scale(const Conclusion& conclusion, double least);
 
 /// Where else to touch, one after the other, so that a tumour of the goal's diameter would be found
-/// with its probability wherever it is: `most` at most, and none where that is so already.
+/// with its probability wherever its centre may be touched, which is at the `candidates`, rising:
+/// `most` at most, and none where that is so already.
 std::vector<int> stops_to_goal(const Conclusion& conclusion, const Aim& aim,
                                std::span<const int> candidates, std::size_t most);
 

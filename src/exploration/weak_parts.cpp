@@ -31,6 +31,12 @@ struct Judged {
   double score = 0.0;  ///< of being strong enough
 };
 
+/// The outlines were drawn with it.
+void take_off(double part_m2, DrawnNumber& area_m2) {
+  for (double* const number : {&area_m2.mean, &area_m2.least, &area_m2.most})
+    *number = std::max(*number - part_m2, 0.0);
+}
+
 }  // namespace
 
 void take_out_weak_parts(Conclusion& conclusion) {
@@ -67,8 +73,12 @@ void take_out_weak_parts(Conclusion& conclusion) {
     return;
   }
   for (const Judged& one : weak) {
-    for (const int vertex : one.vertices)
+    double area_m2 = 0.0;
+    for (const int vertex : one.vertices) {
       contour.field[vertex] = 2.0 * contour.level - contour.field[vertex];
+      area_m2 += surface.vertex_areas()[vertex];
+    }
+    if (conclusion.outlines) take_off(area_m2, conclusion.outlines->area_m2);
     if (conclusion.certainty)
       conclusion.certainty =
           without_part(std::move(*conclusion.certainty), surface, one.vertices, one.score);

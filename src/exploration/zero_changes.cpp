@@ -1,11 +1,10 @@
 #include "exploration/zero_changes.h"
 
 #include <algorithm>
-#include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 
+#include "exploration/session_pairs.h"
 #include "exploration/taken_back.h"
 #include "exploration/zero_steps.h"
 #include "readings/readings.h"
@@ -26,36 +25,20 @@ bool may_show_steps(std::span<const std::size_t> numbers, const Belief& belief) 
   return numbers.size() >= kFewest && belief.noise_variance() > 0.0 && !belief.prior().has_slope();
 }
 
-/// Of readings of a session beside the nearest ones of those before it, over the closer half.
+/// The median by which a session's readings lie above those beside them.
 double apart_by(const Surface& surface, std::span<const Palpation> palpations, int session) {
-  std::vector<std::pair<double, double>> apart;  // places, readings
-  for (const Palpation& one : palpations) {
-    if (!counts(one) || one.session != session) continue;
-    const Vec3 here = surface.position(one.where);
-    std::pair nearest(std::numeric_limits<double>::infinity(), 0.0);
-    for (const Palpation& other : palpations) {
-      if (!counts(other) || other.session >= session) continue;
-      nearest = std::min(nearest, {(surface.position(other.where) - here).squaredNorm(),
-                                   one.reading - other.reading});
-    }
-    apart.push_back(nearest);
-  }
+  std::vector<double> apart;
+  for (const ReadingPair& pair : pairs_of_session(surface, palpations, session))
+    apart.push_back(pair.own - pair.other);
   std::ranges::sort(apart);
-  apart.resize((apart.size() + 1) / 2);
-  std::ranges::sort(apart, {}, [](const auto& pair) { return pair.second; });
-  return apart[apart.size() / 2].second;
+  return apart[apart.size() / 2];
 }
 
 }  // namespace
 
 std::vector<Misfit> session_zeros(const Surface& surface, std::span<const Palpation> palpations) {
   std::vector<Misfit> changes;
-  std::map<int, std::size_t> first_of;
-  for (std::size_t i = 0; i < palpations.size(); ++i) {
-    if (counts(palpations[i])) first_of.try_emplace(palpations[i].session, i);
-  }
-  for (const auto& [session, number] : first_of) {
-    if (session == first_of.begin()->first) continue;
+  for (const auto& [session, number] : later_sessions(palpations)) {
     // Those before it have zeros of their own: taken from all, what is left is this one's.
     std::vector<Palpation> others =
         with_changes_taken_back(surface, {palpations.begin(), palpations.end()}, changes);

@@ -63,6 +63,8 @@ py::dict change_of(const Misfit& change) {
     return py::dict("kind"_a = std::string(name_of(change.kind)),
                     "drift"_a = change.background.drift,
                     "readings"_a = change.background.errors.readings);
+  if (change.kind == MisfitKind::Late)
+    return py::dict("kind"_a = std::string(name_of(change.kind)), "lag_m"_a = change.amount);
   const Vec3& to = change.moved_m;
   py::dict result("kind"_a = std::string(name_of(change.kind)), "batch"_a = change.from_batch,
                   "reading"_a = change.number);

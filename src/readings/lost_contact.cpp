@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace palpation {
 namespace {
@@ -31,14 +33,9 @@ std::size_t low_around(std::size_t here, std::span<const std::size_t> rising, st
   return static_cast<std::size_t>(std::ranges::count(nearest, true, &Near::is_low));
 }
 
-}  // namespace
-
-std::vector<std::size_t> lost_contact(std::span<const Palpation> palpations,
-                                      std::span<const Vec3> places) {
-  std::vector<std::size_t> rising;
-  for (std::size_t i = 0; i < palpations.size(); ++i) {
-    if (counts(palpations[i])) rising.push_back(i);
-  }
+/// Of the readings with these numbers.
+std::vector<std::size_t> lost_among(std::span<const Palpation> palpations,
+                                    std::span<const Vec3> places, std::vector<std::size_t> rising) {
   if (rising.size() < kFewReadings) return {};
   const auto reading = [&](std::size_t rank) { return palpations[rising[rank]].reading; };
   std::ranges::stable_sort(rising, {}, [&](std::size_t i) { return palpations[i].reading; });
@@ -52,8 +49,23 @@ std::vector<std::size_t> lost_contact(std::span<const Palpation> palpations,
   const auto contradicted = std::ranges::count_if(
       lowest, [&](std::size_t i) { return low_around(i, rising, low, places) <= kAround / 2; });
   if (2 * static_cast<std::size_t>(contradicted) < low) return {};
-  std::vector<std::size_t> found(lowest.begin(), lowest.end());
-  std::sort(found.begin(), found.end());
+  return {lowest.begin(), lowest.end()};
+}
+
+}  // namespace
+
+std::vector<std::size_t> lost_contact(std::span<const Palpation> palpations,
+                                      std::span<const Vec3> places) {
+  std::map<int, std::vector<std::size_t>> sessions;
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    if (counts(palpations[i])) sessions[palpations[i].session].push_back(i);
+  }
+  std::vector<std::size_t> found;
+  for (auto& [session, numbers] : sessions) {
+    const std::vector<std::size_t> lost = lost_among(palpations, places, std::move(numbers));
+    found.insert(found.end(), lost.begin(), lost.end());
+  }
+  std::ranges::sort(found);
   return found;
 }
 

@@ -10,6 +10,17 @@ constexpr double kSameDirection = 0.999;  // cosine
 
 }  // namespace
 
+std::vector<Palpation> with_travel(const Surface& surface, std::vector<Palpation> palpations) {
+  for (std::size_t i = 1; i < palpations.size(); ++i) {
+    Palpation& one = palpations[i];
+    const Palpation& before = palpations[i - 1];
+    if (!one.travel.isZero(0.0) || one.session != before.session) continue;
+    const Vec3 from = surface.position(before.where), to = surface.position(one.where);
+    if (from != to) one.travel = (to - from).normalized();
+  }
+  return palpations;
+}
+
 std::vector<Palpation> merged_on_the_way(const Surface& surface,
                                          std::span<const Palpation> palpations, double within_m,
                                          double noise_variance) {

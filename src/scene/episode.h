@@ -93,7 +93,8 @@ struct GoalState {
   double diameter_m = 0.0;
   double probability = 0.95;
   std::optional<double> undetected_m{};  ///< diameter_ruled_out_m with that probability
-  std::size_t touches_needed = 0;        ///< further ones, a thousand at most
+  /// Further ones, a thousand at most, for all whose middle may be touched.
+  std::size_t touches_needed = 0;
 
   bool is_reached() const { return undetected_m && *undetected_m <= diameter_m; }
 };

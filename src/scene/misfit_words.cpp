@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "scene/background_words.h"
 #include "scene/session_words.h"
 #include "scene/words.h"
 
@@ -11,7 +13,6 @@ namespace {
 
 constexpr std::size_t kReadingsTold = 3;
 constexpr double kSamePlace_m = 1e-9;
-constexpr double kTiltOver_m = 0.01;
 constexpr double kMoreScatter = 1.1;  // times, surely
 
 std::string apart_words(double disagreement) {
@@ -31,44 +32,28 @@ std::string standing_out_words(ReadingScale scale, double amount) {
   return (amount > 0.0 ? "stands out by " : "reads less by ") + reading_text(std::abs(amount));
 }
 
-std::string tilt_words(ReadingScale scale, const Vec3& slope_per_m) {
-  const double rise = slope_per_m.norm() * kTiltOver_m;
-  const Vec3 way = slope_per_m.normalized();
-  const std::string by = scale == ReadingScale::Log
-                             ? "become " + fixed(std::exp(rise), 2) + " times as high"
-                             : "rise by " + reading_text(rise);
-  return "Readings slope all over the tissue: they " + by + " for each 10 mm towards " + "(" +
-         fixed(way.x(), 2) + ", " + fixed(way.y(), 2) + ", " + fixed(way.z(), 2) + ")" +
-         ". That is taken from them; where the tissue or the sensor is known to slope, set "
-         "field.trend to linear.";
+std::string late_words(double lag_m) {
+  return "Readings are of places " + fixed(std::abs(lag_m) * 1e3, 1) + " mm " +
+         (lag_m > 0.0 ? "behind" : "ahead of") +
+         " where they were made, along the way on which the probe came there, as backlash, a "
+         "filter "
+         "or a pose that comes late makes them";
 }
 
-std::string waves_words(const Surface& surface, ReadingScale scale, const Field& waves) {
-  Eigen::Index lowest = 0, highest = 0;
-  const double rise = waves.maxCoeff(&highest) - waves.minCoeff(&lowest);
-  const auto at = [&](Eigen::Index vertex) {
-    return place_words(surface.vertex(static_cast<int>(vertex)), 1);
-  };
-  const std::string by = scale == ReadingScale::Log
-                             ? "are " + fixed(std::exp(rise), 2) + " times as high at "
-                             : "lie " + reading_text(rise) + " higher at ";
-  return "Readings rise and fall slowly all over the tissue: without what has an edge they " + by +
-         at(highest) + " than at " + at(lowest) + ". That is taken from them.";
-}
-
-std::string drift_words(ReadingScale scale, const Unevenness& background) {
-  Eigen::Index lowest = 0, highest = 0;
-  const double rise = background.drift.maxCoeff(&highest) - background.drift.minCoeff(&lowest);
-  const std::string by = scale == ReadingScale::Log
-                             ? "are " + fixed(std::exp(rise), 2) + " times as high"
-                             : "lie " + reading_text(rise) + " higher";
-  return "Readings rise and fall as time goes on, as a sensor that drifts makes them: wherever "
-         "they "
-         "are, they " +
-         by + " about reading " + std::to_string(highest + 1) + " than about reading " +
-         std::to_string(lowest + 1) +
-         ". That is taken from them; where the way leads over the tissue as time goes on, tissue "
-         "may do the same: touch again in another order.";
+std::string another_outline_words(const Conclusion& conclusion, const Misfit& since) {
+  const Surface& surface = conclusion.belief.prior().surface();
+  const std::string who = since.session > 0
+                              ? "Readings of the " + session_name(since.session) + " and later"
+                              : "Readings since number " + std::to_string(since.number + 1);
+  return who + " put the outline elsewhere than those before, at " +
+         place_words(surface.position(*since.where), 1) + " by " +
+         fixed(std::abs(since.amount) * 1e3, 1) + " mm " +
+         (since.amount > 0.0 ? "outwards" : "inwards") +
+         ", and neither a zero, a gain nor a shift explains it: the probe's tip, the scale or turn "
+         "of "
+         "its registration, or the tissue is another. The outline is of both: take one or the "
+         "other "
+         "out.";
 }
 
 /// Of what may be tumour.
@@ -106,6 +91,10 @@ std::string words_of(const Conclusion& conclusion, const Misfit& misfit) {
       return waves_words(surface, scale, misfit.background.waves);
     case MisfitKind::Drift:
       return drift_words(scale, misfit.background);
+    case MisfitKind::Late:
+      return late_words(misfit.amount) + ", or nearly so: the outline does not know of it.";
+    case MisfitKind::Outline:
+      return another_outline_words(conclusion, misfit);
     case MisfitKind::WeakerPart:
       return "Something else lies at " + place_words(surface.position(*misfit.where), 1) + ": it " +
              standing_out_words(scale, misfit.amount) + ", which the outline does not hold" +
@@ -114,10 +103,20 @@ std::string words_of(const Conclusion& conclusion, const Misfit& misfit) {
   return "";
 }
 
-std::string taken_back_words(const Surface& surface, ReadingScale scale, const Misfit& change) {
-  const std::string since =
-      "Since reading " + std::to_string(change.number + 1) +
-      (change.from_batch > 0 ? ", of batch " + std::to_string(change.from_batch) : "") + ", ";
+/// The session that it begins, or its batch.
+std::string of_when(std::span<const Palpation> palpations, const Misfit& change) {
+  const std::size_t number = change.number;
+  if (number > 0 && number < palpations.size() &&
+      palpations[number].session != palpations[number - 1].session)
+    return ", with which the " + session_name(palpations[number].session) + " begins";
+  return change.from_batch > 0 ? ", of batch " + std::to_string(change.from_batch) : "";
+}
+
+std::string taken_back_words(const Conclusion& conclusion, const Misfit& change) {
+  const Surface& surface = conclusion.belief.prior().surface();
+  const ReadingScale scale = conclusion.scale();
+  const std::string since = "Since reading " + std::to_string(change.number + 1) +
+                            of_when(conclusion.palpations, change) + ", ";
   switch (change.kind) {
     case MisfitKind::Gain:
       return since + "what stands out does so " + fixed(1.0 + change.amount, 2) +
@@ -134,19 +133,15 @@ std::string taken_back_words(const Surface& surface, ReadingScale scale, const M
       return waves_words(surface, scale, change.background.waves);
     case MisfitKind::Drift:
       return drift_words(scale, change.background);
+    case MisfitKind::Late:
+      return late_words(change.amount) +
+             ". They are taken to be of there, and so is the outline; field.lag_mm says so "
+             "beforehand.";
     default:
       return since + "readings lie " + raised_words(scale, change.amount) +
              ", wherever they are: the sensor's zero has moved. That much is taken from "
              "them; set it again.";
   }
-}
-
-std::string errors_words(ReadingScale scale, const LastingErrors& errors) {
-  return "Readings that were made one after the other err alike, over some " +
-         fixed(errors.readings, 0) + " of them, by " +
-         (scale == ReadingScale::Log ? percent(errors.sd) : reading_text(errors.sd)) +
-         ", as a sensor that drifts makes them, or something that lies along the way. The band "
-         "knows of it: touch again in another order to tell which.";
 }
 
 bool has_drift(const Conclusion& conclusion) {
@@ -187,27 +182,52 @@ std::string core_words(const Surface& surface, const DrawnCore& core) {
          fixed(core.beside.most, 2) + "). The outline holds both, and goes half way up to either.";
 }
 
-/// The reading that was made there, if it is one.
-std::string reading_at(const Conclusion& conclusion, const SurfacePoint& where) {
+/// The readings, as they were made, that are taken to be of these places; null of others.
+std::vector<const Palpation*> made_at(const Conclusion& conclusion,
+                                      std::span<const SurfacePoint> places) {
   const Surface& surface = conclusion.belief.prior().surface();
-  const Vec3 place = surface.position(where);
-  for (const Palpation& one : conclusion.palpations) {
-    if (one.set_aside.empty() && (surface.position(one.where) - place).norm() < kSamePlace_m)
-      return reading_words(one.reading, place);
+  const std::vector<Palpation> taken = readings_as_if_unchanged(conclusion);
+  std::vector<const Palpation*> made;
+  for (const SurfacePoint& where : places) {
+    const auto one = std::ranges::find_if(taken, [&](const Palpation& other) {
+      return other.set_aside.empty() &&
+             (surface.position(other.where) - surface.position(where)).norm() < kSamePlace_m;
+    });
+    made.push_back(one == taken.end() ? nullptr : &conclusion.palpations[one - taken.begin()]);
   }
-  return "at " + place_words(place, 1);
+  return made;
+}
+
+/// What makes such readings: a lost contact reads low.
+std::string cause_words(const std::optional<Level>& level,
+                        std::span<const Palpation* const> readings) {
+  const auto are_all = [&](const auto& is_so) {
+    return level && std::ranges::all_of(readings, [&](const Palpation* one) {
+             return one != nullptr && is_so(one->reading);
+           });
+  };
+  if (are_all([&](double reading) { return reading > level->value; }))
+    return "something stiffer may lie there";
+  if (are_all([&](double reading) { return reading < level->value; }))
+    return "contact may have been lost, or something softer lies there";
+  return "contact may have been lost, or something else lies there";
 }
 
 std::string unheeded_words(const Conclusion& conclusion) {
   const std::vector<SurfacePoint>& unheeded = conclusion.outlines->misfit.unheeded;
   if (unheeded.empty()) return "";
+  const Surface& surface = conclusion.belief.prior().surface();
+  const std::vector<const Palpation*> made = made_at(conclusion, unheeded);
   std::string words;
-  for (std::size_t i = 0; i < std::min(unheeded.size(), kReadingsTold); ++i)
-    words += (i > 0 ? ", " : "") + reading_at(conclusion, unheeded[i]);
+  for (std::size_t i = 0; i < std::min(unheeded.size(), kReadingsTold); ++i) {
+    words += i > 0 ? ", " : "";
+    words += made[i] != nullptr ? reading_words(made[i]->reading, surface.position(made[i]->where))
+                                : "at " + place_words(surface.position(unheeded[i]), 1);
+  }
   return counted(unheeded.size(), "reading") + (unheeded.size() == 1 ? " fits" : " fit") +
          " no outline and counted for nothing: " + words +
          (unheeded.size() > kReadingsTold ? ", ..." : "") +
-         ". Touch there again: contact may have been lost, or something else lies there.";
+         ". Touch there again: " + cause_words(level_in_readings(conclusion), made) + ".";
 }
 
 }  // namespace
@@ -216,7 +236,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   const Surface& surface = conclusion.belief.prior().surface();
   std::vector<std::string> words = session_words(conclusion);
   for (const Misfit& change : other_changes(conclusion)) {
-    words.push_back(taken_back_words(surface, conclusion.scale(), change));
+    words.push_back(taken_back_words(conclusion, change));
     if (change.kind == MisfitKind::Tilted && !session_changes(conclusion).empty())
       words.back() += " Sessions that felt other sides of it may differ by as much instead.";
   }
@@ -225,6 +245,8 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
     words.push_back(errors_words(conclusion.scale(), errors));
   if (conclusion.evidence.zero_or_tissue)
     words.push_back(zero_or_tissue_words(conclusion.scale(), *conclusion.evidence.zero_or_tissue));
+  if (conclusion.evidence.another_outline)
+    words.push_back(another_outline_words(conclusion, *conclusion.evidence.another_outline));
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(unheeded_words(conclusion));

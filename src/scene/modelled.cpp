@@ -34,6 +34,7 @@ std::string term_of(const Misfit& change) {
   if (change.kind == MisfitKind::Tilted) return "a slope that was found";
   if (change.kind == MisfitKind::Waves) return "slow waves that were found";
   if (change.kind == MisfitKind::Drift) return "drift that was found";
+  if (change.kind == MisfitKind::Late) return "lag that was found";
   return std::string(name_of(change.kind)) + " that changed";
 }
 

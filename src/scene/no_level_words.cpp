@@ -20,6 +20,9 @@ std::string without_edge_words(const std::optional<EdgeOdds>& of_edge) {
     return ", but readings that were made one after the other err alike, as a drifting sensor or "
            "its filter makes them, and " +
            less_probable + ". Where it is a tumour all the same";
+  if (of_edge->wave_length_m == 0.0)
+    return ", but scatter over it as healthy tissue of uneven stiffness or noise does, and " +
+           less_probable + ". Where it is a tumour all the same";
   return ", as slowly as healthy tissue may, and " + less_probable +
          ". Where a tumour may lie so deep";
 }
@@ -49,7 +52,8 @@ std::string no_contrast_words(const Exploration& exploration) {
   const std::string words = "Nothing found: the readings show no contrast that is surely no noise";
   if (greatest == nullptr) return words + ".";
   return words + "; the greatest is " +
-         reading_words(greatest->reading, exploration.surface().position(greatest->where)) + ".";
+         reading_words(greatest->reading, exploration.surface().position(greatest->where)) +
+         ". Tissue that is stiff throughout, as far as it was touched, reads alike.";
 }
 
 }  // namespace
@@ -63,8 +67,9 @@ std::string weaker_words(const Exploration& exploration) {
 }
 
 std::string instead_of_edge(const EdgeOdds& odds) {
-  return odds.errors.readings > 0.0 ? "Noise that lasts from reading to reading"
-                                    : "Healthy tissue that waves";
+  if (odds.errors.readings > 0.0) return "Noise that lasts from reading to reading";
+  return odds.wave_length_m > 0.0 ? "Healthy tissue that waves"
+                                  : "Noise, or tissue that is uneven,";
 }
 
 std::string no_level_words(const Exploration& exploration) {

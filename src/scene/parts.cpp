@@ -81,19 +81,40 @@ void look_inside(TumourPart& part, const Surface& surface, const Field& score) {
   part.probability = normal_probability(deepest);
 }
 
-/// Where the outline follows the border it has corners there.
-bool has_border_corner(const TumourPart& part, const Surface& surface) {
+bool lies_on_border(const Vec2& place, const Surface& surface) {
   for (const std::vector<int>& loop : surface.border_loops()) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Vec2 a = surface.chart().uv.row(loop[i]).transpose();
       const Vec2 along = surface.chart().uv.row(loop[(i + 1) % loop.size()]).transpose() - a;
-      for (const Vec2& corner : part.polygon.outer) {
-        const double share = std::clamp((corner - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        if ((corner - a - share * along).norm() <= 1e-9 * surface.diameter()) return true;
-      }
+      const double share = std::clamp((place - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      if ((place - a - share * along).norm() <= 1e-9 * surface.diameter()) return true;
     }
   }
   return false;
+}
+
+double border_length(const Surface& surface) {
+  double length = 0.0;
+  for (const std::vector<int>& loop : surface.border_loops()) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      length +=
+          (surface.chart().uv.row(loop[i]) - surface.chart().uv.row(loop[(i + 1) % loop.size()]))
+              .norm();
+  }
+  return length;
+}
+
+/// Where the outline follows the border it has corners there.
+void look_at_border(TumourPart& part, const Surface& surface) {
+  const Ring& outer = part.polygon.outer;
+  double along = 0.0;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    if (!lies_on_border(outer[i], surface)) continue;
+    part.touches_border = true;
+    const Vec2& next = outer[(i + 1) % outer.size()];
+    if (lies_on_border(0.5 * (outer[i] + next), surface)) along += (next - outer[i]).norm();
+  }
+  if (part.touches_border) part.border_share = along / border_length(surface);
 }
 
 /// Of the part of the belief whose summit lies within this one; nothing where one contrast explains
@@ -120,7 +141,7 @@ std::vector<TumourPart> parts_of(const Episode& episode) {
     TumourPart& part = parts.emplace_back(measured(polygon, exploration.surface()));
     if (exploration.conclusion().certainty)
       look_inside(part, exploration.surface(), exploration.conclusion().certainty->score);
-    part.touches_border = has_border_corner(part, exploration.surface());
+    look_at_border(part, exploration.surface());
     if (exploration.conclusion().edge)
       part.contrast = contrast_of(part, exploration.surface(), *exploration.conclusion().edge);
   }

@@ -15,6 +15,7 @@
 #include "readings/saturation.h"
 #include "scene/area_remarks.h"
 #include "scene/misfit_words.h"
+#include "scene/part_remarks.h"
 #include "scene/parts.h"
 #include "scene/session_words.h"
 #include "scene/words.h"
@@ -104,6 +105,8 @@ std::string goal_words(const Episode& episode) {
   if (goal->touches_needed > 0)
     words += " That takes about " + std::to_string(goal->touches_needed) +
              (goal->touches_needed == 1 ? " more touch." : " more touches.");
+  else
+    words += " What is left of it has its middle where no touch may be made.";
   return words;
 }
 
@@ -196,18 +199,6 @@ Remarks level_remarks(const Exploration& exploration) {
   return remarks;
 }
 
-std::string border_words(const std::vector<TumourPart>& parts) {
-  const auto at_border = std::ranges::count_if(parts, &TumourPart::touches_border);
-  if (at_border == 0) return "";
-  const std::string of_all = " of " + std::to_string(parts.size());
-  if (at_border > 1)
-    return std::to_string(at_border) + of_all +
-           " parts reach the border of the tissue, beyond which they may go on.";
-  const auto part = std::ranges::find_if(parts, &TumourPart::touches_border);
-  return "Part " + std::to_string(part - parts.begin() + 1) + of_all +
-         " reaches the border of the tissue, beyond which it may go on.";
-}
-
 /// Where no place is inside in more than half of the outlines.
 Remarks nothing_found_remarks(const Conclusion& conclusion) {
   if (!conclusion.outlines || conclusion.tip_hides_all()) return {};
@@ -218,7 +209,7 @@ Remarks nothing_found_remarks(const Conclusion& conclusion) {
       fixed(most_mm2, 0) + " mm2 that the readings do not place."};
 }
 
-Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>& parts) {
+Remarks found_remarks(const Conclusion& conclusion, const std::vector<TumourPart>& parts) {
   if (parts.empty()) return nothing_found_remarks(conclusion);
   Remarks remarks;
   const std::optional<Certainty>& certainty = conclusion.certainty;
@@ -226,15 +217,8 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
     remarks.push_back(
         "The level was not inferred from the tumour's edge: band, cut line and expected error are "
         "the field's alone, and not calibrated.");
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string part =
-        "Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size());
-    if (parts[i].probability && *parts[i].probability < kSure)
-      remarks.push_back(part + " is tumour with probability " + percent(*parts[i].probability) +
-                        " only.");
-  }
-  if (std::string at_border = border_words(parts); !at_border.empty())
-    remarks.push_back(std::move(at_border));
+  std::ranges::move(part_remarks(parts, conclusion.belief.prior().surface()),
+                    std::back_inserter(remarks));
   if (conclusion.outlines && conclusion.outlines->plateau_probability < kLikely)
     remarks.push_back(
         "The stiff region rises up to its middle (that it levels off is " +
@@ -242,9 +226,10 @@ Remarks part_remarks(const Conclusion& conclusion, const std::vector<TumourPart>
         " probable): how stiff its core is was not felt, and something buried deep, or "
         "healthy tissue that stiffens by and by, feels alike.");
   if (const auto& odds = conclusion.evidence.of_edge; odds && odds->log_odds < surprising())
-    remarks.push_back(instead_of_edge(*odds) +
-                      " explains the readings no worse than the edge that was found: it may be no "
-                      "tumour, or a tumour may lie elsewhere.");
+    remarks.push_back(instead_of_edge(*odds) + " explains the readings " +
+                      (odds->log_odds < -surprising() ? "better" : "no worse") +
+                      " than the edge that was found: it may be no tumour, or a tumour may lie "
+                      "elsewhere.");
   if (certainty && certainty->score.maxCoeff() < certainty->band_score)
     remarks.push_back("No place is almost certainly tumour: the band has no inner curve.");
   return remarks;
@@ -273,7 +258,7 @@ std::vector<std::string> boundary_remarks(const Episode& episode) {
   add(level_remarks(exploration));
   const std::vector<TumourPart> parts = parts_of(episode);
   add(misfit_words(conclusion));
-  add(part_remarks(conclusion, parts));
+  add(found_remarks(conclusion, parts));
   add(area_remarks(episode, !parts.empty()));
   return remarks;
 }

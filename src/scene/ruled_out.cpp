@@ -36,13 +36,14 @@ std::optional<GoalState> goal_state(const Episode& episode) {
   const Aim& aim = exploration.plan().aim;
   if (!aim.has_goal()) return std::nullopt;
   const Conclusion& conclusion = episode.conclusion();
-  std::vector<int> all(static_cast<std::size_t>(exploration.surface().vertex_count()));
-  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> reached(static_cast<std::size_t>(exploration.surface().vertex_count()));
+  std::iota(reached.begin(), reached.end(), 0);
+  if (exploration.reach().vertices) reached = *exploration.reach().vertices;
   return GoalState{
       .diameter_m = aim.undetected_diameter_m,
       .probability = aim.probability,
       .undetected_m = ruled_out_m(episode, aim.probability),
-      .touches_needed = stops_to_goal(conclusion, aim, all, kMostTouchesCounted).size()};
+      .touches_needed = stops_to_goal(conclusion, aim, reached, kMostTouchesCounted).size()};
 }
 
 }  // namespace palpation::tool

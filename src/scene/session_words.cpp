@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 #include "base/normal.h"
@@ -11,6 +12,7 @@ namespace palpation::tool {
 namespace {
 
 constexpr std::size_t kSessionsTold = 5;
+constexpr int kFewInSession = 3;
 constexpr double kFalseAlarms = 0.05;  // in all sessions
 
 std::string ordinal(int number) {
@@ -80,6 +82,20 @@ std::string sessions_as_one_words(const Conclusion& conclusion) {
          ".";
 }
 
+/// What a session's zero takes of few readings.
+std::string short_sessions_words(const Conclusion& conclusion) {
+  std::map<int, int> readings;
+  for (const Palpation& one : conclusion.palpations) readings[one.session] += counts(one);
+  const auto few = std::ranges::count_if(
+      readings, [](const auto& session) { return session.second < kFewInSession; });
+  if (readings.size() < 2 || few == 0) return "";
+  return counted(static_cast<std::size_t>(few), "session") + " of " +
+         std::to_string(readings.size()) + " " + (few == 1 ? "has" : "have") + " fewer than " +
+         std::to_string(kFewInSession) +
+         " readings that count: what they tell goes to the zero of their session, and hardly any "
+         "of it to the tissue. Readings of one zero are of one session.";
+}
+
 }  // namespace
 
 std::string raised_words(ReadingScale scale, double amount) {
@@ -92,6 +108,7 @@ std::string session_name(int session) { return ordinal(session + 1) + " session"
 std::vector<std::string> session_words(const Conclusion& conclusion) {
   std::vector<std::string> words = changed_words(conclusion.scale(), session_changes(conclusion));
   words.push_back(sessions_as_one_words(conclusion));
+  words.push_back(short_sessions_words(conclusion));
   return words;
 }
 

@@ -136,6 +136,8 @@ json change_json(const Misfit& change) {
     return {{"kind", name_of(change.kind)},
             {"rise", change.background.drift.maxCoeff() - change.background.drift.minCoeff()},
             {"readings", change.background.errors.readings}};
+  if (change.kind == MisfitKind::Late)
+    return {{"kind", name_of(change.kind)}, {"lag_mm", kMm * change.amount}};
   json result = {
       {"kind", name_of(change.kind)}, {"batch", change.from_batch}, {"reading", change.number + 1}};
   if (change.kind == MisfitKind::Zero)

@@ -27,10 +27,9 @@ double depth_in_disk(const Vec3& place) {
   return kRadius_m - (place - Vec3(0.0105, 0.0125, 0.0)).norm();
 }
 
-/// The disk's, 7 outside and 9 inside.
-double stiffness(const Vec3& place) {
-  return 7.0 + 2.0 / (1.0 + std::exp(-kSlope * depth_in_disk(place)));
-}
+/// 7 outside and 9 inside.
+double stiffness_at(double depth_m) { return 7.0 + 2.0 / (1.0 + std::exp(-kSlope * depth_m)); }
+double stiffness(const Vec3& place) { return stiffness_at(depth_in_disk(place)); }
 
 /// What is felt at a place in a batch, without noise.
 using World = std::function<double(const Vec3&, int batch)>;
@@ -197,6 +196,54 @@ TEST(Misfit, ThatDoesNotSurpriseIsWhereToLookAgain) {
   EXPECT_LE(said, 10);
 }
 
+constexpr int kEverywhere = 200;  // readings, at random
+
+EdgeBelief edge_felt_everywhere(const Surface& surface, const World& world, std::uint64_t seed) {
+  const Design anywhere = [](const Vec3&, int) { return true; };
+  return edge_of(belief_of(surface, world, seed, kEverywhere, anywhere));
+}
+
+/// Of so many runs, those in which readings since some moment have an outline of their own.
+int with_another_outline(const World& world, int runs) {
+  const Surface surface = tissue();
+  int found = 0;
+  for (int seed = 1; seed <= runs; ++seed)
+    found += edge_felt_everywhere(surface, world, static_cast<std::uint64_t>(seed))
+                 .outline_since()
+                 .has_value();
+  return found;
+}
+
+double grown(const Vec3& place, int batch) {
+  return stiffness_at(depth_in_disk(place) + (batch >= 5 ? 0.0015 : 0.0));
+}
+
+// By a field that has learned its noise from such readings it nearly always is; one that knows it
+// weaves a steep outline between them now and then.
+TEST(OutlineSince, IsOftenSeenWhereATumourGrew) { EXPECT_GE(with_another_outline(grown, 20), 6); }
+
+TEST(OutlineSince, SaysSinceWhenWhereAndByHowMuch) {
+  const Surface surface = tissue();
+  const std::optional<Misfit> since = edge_felt_everywhere(surface, grown, 1).outline_since();
+  ASSERT_TRUE(since && since->where);
+  EXPECT_EQ(since->kind, MisfitKind::Outline);
+  EXPECT_NEAR(since->from_batch, 5, 1);
+  EXPECT_NEAR(since->amount, 0.0015, 0.0007);
+  EXPECT_LT(std::abs(depth_in_disk(surface.position(*since->where))), 0.0025);
+}
+
+TEST(OutlineSince, IsSeldomSeenWhereThereIsNone) {
+  const World sound = [](const Vec3& place, int) { return stiffness(place); };
+  EXPECT_LE(with_another_outline(sound, 50), 3);
+}
+
+TEST(OutlineSince, IsNeitherAZeroNorAGainThatChanged) {
+  const World changed = [](const Vec3& place, int batch) {
+    return batch >= 5 ? 6.0 + 0.7 * stiffness(place) : stiffness(place);
+  };
+  EXPECT_LE(with_another_outline(changed, 20), 2);
+}
+
 TEST(Misfit, RefusesARateThatIsNone) {
   const Surface surface = tissue();
   const World sound = [](const Vec3& place, int) { return stiffness(place); };
@@ -211,6 +258,7 @@ TEST(Misfit, RefusesARateThatIsNone) {
       EdgeBelief::around(belief, belief.at_vertices(), kFirstLevels, 0.5).value();
   EXPECT_THROW(static_cast<void>(edge.misfits(0.0)), InvalidInput);
   EXPECT_THROW(static_cast<void>(edge.misfits(1.0)), InvalidInput);
+  EXPECT_THROW(static_cast<void>(edge.outline_since(0.0)), InvalidInput);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "palpation/base/random.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/geometry/make_plane.h"
+#include "readings/way.h"
 
 namespace palpation {
 namespace {
@@ -53,7 +54,7 @@ TEST(ConclusionCache, OfWhatWasTriedChangesNothing) {
 TEST(ConclusionCache, RemembersWhatWasTriedOnTheseReadingsAlone) {
   Random random(0);
   const Surface surface(make_plane({.size_m = {0.04, 0.05}, .columns = 41, .rows = 51}, random));
-  std::vector<Palpation> palpations = palpations_of(surface, 30);
+  std::vector<Palpation> palpations = with_travel(surface, palpations_of(surface, 30));
   const Model model{.level = {.estimate = LevelEstimate::Edge}};
   ConclusionCache cache;
   EXPECT_FALSE(cache.tried(surface, model, palpations));

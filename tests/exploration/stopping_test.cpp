@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/normal.h"
+#include "exploration/search_goal.h"
 #include "palpation/base/error.h"
 #include "palpation/exploration/exploration.h"
 #include "palpation/geometry/make_plane.h"
@@ -128,6 +129,37 @@ std::string reason_of_a_run(const StopRule& stop, double noise, int batches = 30
 
 TEST(Stopping, ComesWhenTheBandIsNarrowEnough) {
   EXPECT_EQ(reason_of_a_run({.band_m = 0.002}, 0.01), "band");
+}
+
+// A disk of 5 mm could hide long after the boundary is known well enough.
+TEST(Stopping, DoesNotComeBeforeTheSearchIsDone) {
+  const Surface tissue = sheet(26, 51);
+  const Phantom phantom(tissue, {Disk{.centre_m = {0.0125, 0.025, 0.0}, .radius_m = 0.006}},
+                        {.noise = 0.02});
+  const auto run_with = [&](double undetected_m, const Reach& reach) {
+    Exploration exploration(tissue, {.level = {.estimate = LevelEstimate::Edge}},
+                            {.acquisition = straddle(),
+                             .batches = 30,
+                             .aim = {.undetected_diameter_m = undetected_m},
+                             .stop = {.error_m2 = 15e-6}},
+                            reach);
+    Random random(3);
+    run(exploration, [&](const SurfacePoint& where, const Vec3&) {
+      return std::optional(phantom.touch(where, random));
+    });
+    EXPECT_EQ(exploration.stop_reason(), "expected error");
+    return exploration;
+  };
+  const Exploration no_goal = run_with(0.0, {}), goal = run_with(0.005, {});
+  EXPECT_GT(diameter_ruled_out_m(no_goal.conclusion(), 0.95).value_or(1.0), 0.005);
+  EXPECT_LE(diameter_ruled_out_m(goal.conclusion(), 0.95).value_or(1.0), 0.005);
+  // Where nothing may be touched no touch is waited for.
+  Reach but_a_corner{.vertices = std::vector<int>()};
+  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex) {
+    if (tissue.vertex(vertex).head<2>().norm() > 0.006) but_a_corner.vertices->push_back(vertex);
+  }
+  EXPECT_GT(diameter_ruled_out_m(run_with(0.005, but_a_corner).conclusion(), 0.95).value_or(1.0),
+            0.005);
 }
 
 /// Batches of a run to that error, with drawn outlines asked or not.

@@ -46,6 +46,18 @@ TEST(LostContact, IsNotTheOneEndOfTheTissueThatIsSoft) {
   EXPECT_EQ(lost_contact(felt.palpations, felt.places), Numbers{});
 }
 
+TEST(LostContact, IsFarBelowItsOwnSessionNotAnother) {
+  Lattice felt(0.005);
+  const Numbers later{1, 6, 9, 14, 19, 22, 27, 33, 38, 44, 49, 60};
+  for (const std::size_t i : later) {
+    felt.palpations[i].session = 1;
+    felt.palpations[i].reading -= 50.0;  // its zero
+  }
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), Numbers{});
+  felt.palpations[27].reading = felt.palpations[40].reading = -100.0;
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), (Numbers{27, 40}));
+}
+
 TEST(LostContact, IsNotAskedOfFewReadingsNorOfThoseThatTellNothing) {
   const Lattice felt(0.005);
   std::vector<Palpation> few(felt.palpations.begin(), felt.palpations.begin() + 9);

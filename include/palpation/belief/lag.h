@@ -38,6 +38,7 @@ struct Lag {
                           ///< of what it moves without a tenth of the readings; the prior's at most
   bool at_bound = false;  ///< the most probable value is the least or the most that was looked at:
                           ///< the readings do not tell the lag
+  double log_gain = 0.0;  ///< nats: how much more probable than no lag
 };
 
 /// The most probable lag of the readings, raw as they were made, under a field of the given

@@ -79,7 +79,8 @@ struct EdgeInErrors {
   double log_evidence_in_texture = 0.0;  ///< by the likeliest texture of the tissue instead
   double log_evidence_without_edge = 0.0;
   LastingErrors errors{};  ///< beside the edge, where they make it clearly more probable
-  LastingErrors errors_without_edge{};
+  LastingErrors errors_without_edge{};  ///< and
+  bool do_last_without_edge = false;    ///< whether noise of as much is less probable by far
   /// Their mean at each reading, in the order in which these were made: the edge takes its part.
   Eigen::VectorXd drift{};
 };
@@ -150,7 +151,12 @@ class EdgeBelief {
   /// each kind once, and parts that are too weak to be cut out; the strongest first.
   /// `false_alarms`: the share of runs in which a true model may be doubted, all kinds together.
   /// Throws InvalidInput unless it lies in (0, 1).
-  std::vector<Misfit> misfits(double false_alarms = 0.02) const;
+  std::vector<Misfit> misfits(double false_alarms = 0.03) const;
+  /// Readings that have an outline of their own since some moment (Outline), whatever their zero
+  /// and gain: another correction, of the same prior. A session's first moment, where there are
+  /// several; else each tenth of all. Nothing where that does not surprise. Throws as `misfits`
+  /// does.
+  std::optional<Misfit> outline_since(double false_alarms = 0.03) const;
   /// Of what may stand out beside the boundary, surprising or not, that which readings make the
   /// most probable (WeakerPart, its own evidence against none): where to look again. Nothing where
   /// they speak for none.

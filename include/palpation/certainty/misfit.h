@@ -29,6 +29,8 @@ enum class MisfitKind {
   Tilted,      ///< all readings rise to one side
   Waves,       ///< all readings rise and fall slowly over the tissue
   Drift,       ///< errors last from reading to reading, in the order in which these were made
+  Outline,     ///< from some moment on readings have an outline of their own
+  Late,        ///< all readings are of places behind, or ahead, along the way (lag.h)
 };
 
 /// Of slow waves over tissue.
@@ -57,33 +59,38 @@ struct Unevenness {
 struct Misfit {
   MisfitKind kind = MisfitKind::Zero;
   double evidence = 0.0;  ///< nats: logarithm of the kind's mean Bayes factor
-  int from_batch = 0;     ///< Zero, Gain, Moved: the first batch that differs
-  /// Zero, Gain, Moved: how many readings were made before the first that differs, those that the
-  /// belief takes as one (Palpation::count) counted apart.
+  int from_batch = 0;     ///< Zero, Gain, Moved, Outline: the first batch that differs
+  /// Zero, Gain, Moved, Outline: how many readings were made before the first that differs, those
+  /// that the belief takes as one (Palpation::count) counted apart.
   std::size_t number = 0;
   int session = 0;  ///< the first that differs, where sessions tell; 0: batch and number do
   /// Zero: by how much, in readings. Gain: the factor, less one. Moved: how far, metres.
-  /// WeakerPart: its height above the profile there, in readings.
+  /// WeakerPart: its height above the profile there, in readings. Outline: how much deeper that
+  /// place lies within it. Late: how far behind. Metres both.
   double amount = 0.0;
   double stddev = 0.0;                  ///< of the amount, where that was estimated
+  double rms = 0.0;                     ///< Outline: of the amount, over all that tell of it
   double low = 0.0;                     ///< Gain: what reads so is not changed by it
   Vec3 moved_m = Vec3::Zero();          ///< Moved: where to
-  std::optional<SurfacePoint> where{};  ///< WeakerPart
+  std::optional<SurfacePoint> where{};  ///< WeakerPart; Outline: where it is felt the most
   Unevenness background{};              ///< Tilted, Waves, Drift
 };
 
-/// Whether it is of all readings, all the while: a slope, waves or drift.
+/// Whether it adds to all readings, all the while: a slope, waves or drift.
 bool is_background(const Misfit& change);
+
+/// Whether it is of all readings, all the while: a background, or readings that come late.
+bool is_of_all(const Misfit& change);
 
 /// Whether it was made after that.
 bool is_since(const Misfit& change, const Made& made);
 
-/// "zero", "gain", "moved", "weaker", "tilt", "waves", "drift".
+/// "zero", "gain", "moved", "weaker", "tilt", "waves", "drift", "outline", "late".
 std::string_view name_of(MisfitKind kind);
 
 /// What a kind's evidence must exceed, nats, so that a true model is doubted in so many runs at
 /// most, all kinds together. Throws InvalidInput unless that lies in (0, 1).
-double surprising(double false_alarms = 0.02);
+double surprising(double false_alarms = 0.03);
 
 /// The change since some moment, of place, zero or gain, that makes the field's readings more
 /// probable by the most, where it surprises: tissue that moved in its own plane, or whose

@@ -75,6 +75,9 @@ struct Evidence {
   /// A step in readings that were made on other ground since then, which tissue may have made, or
   /// the zero: it is taken for tissue.
   std::optional<Misfit> zero_or_tissue{};
+  /// Readings that have an outline of their own since some moment, where that was asked for: the
+  /// boundary is of both.
+  std::optional<Misfit> another_outline{};
 
   /// Whether level and boundary may be concluded.
   bool allows_boundary() const { return contrast_seen && !trend_is_missing; }

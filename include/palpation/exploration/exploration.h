@@ -63,6 +63,7 @@ class Exploration {
 
   const Surface& surface() const { return surface_; }
   const Plan& plan() const { return plan_; }
+  const Reach& reach() const { return reach_; }
   /// All that follows from the readings.
   const Conclusion& conclusion() const { return conclusion_; }
   /// All readings in the order in which they came, those that could not be made too; with the

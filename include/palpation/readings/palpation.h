@@ -43,6 +43,7 @@ struct Made {
   std::size_t number = 0;  ///< readings that were made before it (Palpation::count)
   int session = 0;
   Bound bound = Bound::None;
+  Vec3 travel = Vec3::Zero();  ///< Palpation::travel
 };
 
 inline Palpation missed_at(const SurfacePoint& where) {

@@ -1,0 +1,15 @@
+/// What is said of parts: that they may be none, reach the border of the tissue, or have holes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palpation/geometry/surface.h"
+#include "scene/parts.h"
+
+namespace palpation::tool {
+
+/// A sentence each.
+std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts, const Surface& surface);
+
+}  // namespace palpation::tool
