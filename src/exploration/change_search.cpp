@@ -117,7 +117,7 @@ std::vector<Misfit> all_misfits(const Model& model, const std::optional<EdgeBeli
     return (misfit.kind == MisfitKind::Gain && 1.0 + misfit.amount < kLeastGain) ||
            (misfit.kind == MisfitKind::Late && model.field.probe.has_lag());
   });
-  const std::optional<Misfit> lag = model.field.probe.has_lag() ? std::nullopt : lag_seen(belief);
+  const std::optional<Misfit> lag = lag_seen(model.field, *edge, belief);
   if (lag) found.push_back(*lag);
   std::optional<Misfit> move = changed_since(belief);
   if (move && move->kind != MisfitKind::Moved) move.reset();

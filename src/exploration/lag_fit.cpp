@@ -1,10 +1,11 @@
 #include "exploration/lag_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "palpation/readings/screening.h"
+#include "readings/way.h"
 
 namespace palpation {
 namespace {
@@ -31,17 +32,15 @@ LearnedField as_given(const Surface& surface, const FieldModel& field,
   return {Belief(belief.prior(), belief.options()), in_force(belief), 0.0, true};
 }
 
-/// Whether most readings lie nearer to the one before than anything is felt.
-bool follow_closely(const Belief& belief) {
-  const Surface& surface = belief.prior().surface();
-  const std::vector<Palpation>& palpations = belief.palpations();
-  std::ptrdiff_t near = 0;
-  for (std::size_t i = 1; i < palpations.size(); ++i) {
-    const Vec3 leg =
-        surface.position(palpations[i].where) - surface.position(palpations[i - 1].where);
-    near += leg.norm() < kShortLength_m;
-  }
-  return 2 * near > std::ssize(palpations);
+/// A share of runs in which an edge may hint at a lag that is none: it is asked of the field then.
+constexpr double kHinted = 0.9;
+
+/// An outline follows the rows of a raster one by one, each as late as it is, and to first order an
+/// edge knows of no lag that is far.
+bool may_come_late(const EdgeBelief& edge, const Belief& belief) {
+  if (follow_closely(belief.prior().surface(), belief.palpations())) return true;
+  const std::vector<Misfit> hints = edge.misfits(kHinted);
+  return std::ranges::find(hints, MisfitKind::Late, &Misfit::kind) != hints.end();
 }
 
 LearnedField learned_at(const Surface& surface, const FieldModel& field,
@@ -69,8 +68,10 @@ LagFit fit_lagged(const Surface& surface, const FieldModel& field,
   return {belief_of(surface, field, displaced(surface, palpations, lag_m), taught), lag};
 }
 
-std::optional<Misfit> lag_seen(const Belief& belief) {
-  if (!(belief.noise_variance() > 0.0) || !follow_closely(belief)) return std::nullopt;
+std::optional<Misfit> lag_seen(const FieldModel& field, const EdgeBelief& edge,
+                               const Belief& belief) {
+  if (field.probe.has_lag() || !(belief.noise_variance() > 0.0) || !may_come_late(edge, belief))
+    return std::nullopt;
   LagPrior none_expected;
   none_expected.mean_m = 0.0;
   const std::optional<Lag> lag =

@@ -5,6 +5,7 @@
 
 #include "exploration/field_fit.h"
 #include "palpation/belief/lag.h"
+#include "palpation/certainty/edge_belief.h"
 #include "palpation/certainty/misfit.h"
 
 namespace palpation {
@@ -21,8 +22,9 @@ LagFit fit_lagged(const Surface& surface, const FieldModel& field,
                   std::span<const Palpation> palpations);
 
 /// How late the belief's readings come, where that is likelier than that they do not by more than
-/// chance makes it. Nothing where they do not follow each other closely, as on a raster, whose rows
-/// an outline can follow one by one: what others tell, their edge tells as well.
-std::optional<Misfit> lag_seen(const Belief& belief);
+/// chance makes it. Asked where they follow each other closely, or the edge hints at one. Nothing
+/// where a lag is modelled.
+std::optional<Misfit> lag_seen(const FieldModel& field, const EdgeBelief& edge,
+                               const Belief& belief);
 
 }  // namespace palpation

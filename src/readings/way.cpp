@@ -1,6 +1,7 @@
 #include "readings/way.h"
 
 #include "palpation/geometry/path.h"
+#include "palpation/readings/screening.h"
 #include "readings/as_one.h"
 
 namespace palpation {
@@ -19,6 +20,16 @@ std::vector<Palpation> with_travel(const Surface& surface, std::vector<Palpation
     if (from != to) one.travel = (to - from).normalized();
   }
   return palpations;
+}
+
+bool follow_closely(const Surface& surface, std::span<const Palpation> palpations) {
+  std::ptrdiff_t near = 0;
+  for (std::size_t i = 1; i < palpations.size(); ++i) {
+    const Vec3 leg =
+        surface.position(palpations[i].where) - surface.position(palpations[i - 1].where);
+    near += leg.norm() < kShortLength_m;
+  }
+  return 2 * near > std::ssize(palpations);
 }
 
 std::vector<Palpation> merged_on_the_way(const Surface& surface,

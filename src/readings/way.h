@@ -13,6 +13,9 @@ namespace palpation {
 /// in the same session.
 std::vector<Palpation> with_travel(const Surface& surface, std::vector<Palpation> palpations);
 
+/// Whether most readings lie nearer to the one before than anything is felt.
+bool follow_closely(const Surface& surface, std::span<const Palpation> palpations);
+
 /// Readings on the way that follow each other in one direction within `within_m`, and differ from
 /// the first of them by no more than noise does, as one, in their middle, with their precisions
 /// added up. Where they differ by more there is an edge, over which a mean is not what lies in the

@@ -13,6 +13,7 @@
 #include "readings/contact.h"
 #include "readings/readings.h"
 #include "readings/saturation.h"
+#include "readings/way.h"
 #include "scene/area_remarks.h"
 #include "scene/misfit_words.h"
 #include "scene/part_remarks.h"
@@ -142,6 +143,26 @@ std::string saturation_words(const Saturation& saturation, bool is_drawn) {
 
 using Remarks = std::vector<std::string>;
 
+/// Which way all were made, nearly, of readings that follow each other closely: as unit vectors
+/// they add up to so much of their number.
+constexpr double kOneWay = 0.8;
+
+/// A lag shifts the outline as a whole then.
+std::string one_way_words(const Conclusion& conclusion) {
+  const std::vector<Palpation>& made = conclusion.palpations;
+  if (!conclusion.level || conclusion.model.field.probe.has_lag() ||
+      !follow_closely(conclusion.belief.prior().surface(), made))
+    return "";
+  Vec3 way = Vec3::Zero();
+  for (const Palpation& one : made) way += one.travel / static_cast<double>(made.size());
+  if (way.norm() < kOneWay) return "";
+  way.normalize();
+  return "Nearly all readings were made on the way towards (" + fixed(way.x(), 2) + ", " +
+         fixed(way.y(), 2) + ", " + fixed(way.z(), 2) +
+         "): if they come late, by backlash or a filter, the whole outline lies too far on that "
+         "way, and nothing shows it. A few rows the other way would.";
+}
+
 /// Of the readings, and of the field that they make.
 Remarks field_remarks(const Exploration& exploration) {
   const Conclusion& conclusion = exploration.conclusion();
@@ -166,6 +187,8 @@ Remarks field_remarks(const Exploration& exploration) {
                       " mm, is as far as any was looked for: the true one may lie beyond. Give "
                       "field.lag_mm, or touch in more directions.");
   }
+  if (std::string words = one_way_words(conclusion); !words.empty())
+    remarks.push_back(std::move(words));
   return remarks;
 }
 

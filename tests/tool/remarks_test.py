@@ -75,6 +75,15 @@ class Remarks(InFolder):
         self.assertIn("lag that was found", summary["modelled"])
         self.assertIn("mm behind where they were made, along the way on which the probe came there", words)
 
+    def test_rows_of_one_way_do_not_tell_whether_they_come_late(self):
+        rows = [[(1.5 * i + 0.75, 2.0 * row + 1) for i in range(20)] for row in range(15)]
+        _, words = self.said(lambda i, x, y: step(in_disk(x, y)), [place for row in rows for place in row], *BRIEFLY)
+        self.assertIn("Nearly all readings were made on the way towards (1.00, ", words)
+        there_and_back = [place for number, row in enumerate(rows) for place in (row[::-1] if number % 2 else row)]
+        for places in (there_and_back, self.at_random()):
+            _, words = self.said(lambda i, x, y: step(in_disk(x, y)), places, *BRIEFLY)
+            self.assertNotIn("Nearly all", words)
+
     def test_sessions_of_a_reading_or_two_tell_nothing(self):
         _, words = self.said(lambda i, x, y: step(in_disk(x, y)), self.at_random(30), *BRIEFLY, sessions=[f"{i // 2}" for i in range(30)])
         self.assertIn("15 sessions of 15 have fewer than 3 readings that count: what they tell goes to the zero of their session", words)
