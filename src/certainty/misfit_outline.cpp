@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "certainty/edge_belief_fit.h"
 #include "certainty/misfit_rival.h"
@@ -13,6 +14,8 @@ namespace {
 /// Of the most that a reading changes with its depth: those that change by less tell of no edge.
 constexpr double kAtEdge = 0.01;
 constexpr double kJitter = 1e-9;    // of the largest variance
+constexpr int kMostWild = 3;        // readings that tell nothing, of those since
+constexpr double kWild = 10.0;      // contrasts: as far as they may read
 constexpr std::size_t kSpans = 10;  // of the readings, in time, where there is one session
 
 /// When another outline may have begun: with each session but the first; where there is one, with
@@ -69,8 +72,9 @@ class OwnOutline {
   bool is_untold() const { return at_.empty(); }
 
   /// Of readings by how much they are `since`, each row; its evidence against none, amount and
-  /// place.
-  Misfit weighed(const ExplainedReadings& rows, const Eigen::VectorXd& since, Misfit rival) const {
+  /// place. `asks_most`: the row that asks the most for it.
+  Misfit weighed(const ExplainedReadings& rows, const Eigen::VectorXd& since, Misfit rival,
+                 Eigen::Index* asks_most = nullptr) const {
     Eigen::MatrixXd inverse = inverse_;
     for (const Eigen::VectorXd& known : rows.also) inverse -= known(at_) * known(at_).transpose();
     const Eigen::VectorXd change = by_depth_.cwiseProduct(since)(at_);
@@ -89,6 +93,11 @@ class OwnOutline {
     const Eigen::VectorXd deeper = root_ * weights;
     Eigen::Index felt_most = 0;
     deeper.cwiseProduct(change).cwiseAbs().maxCoeff(&felt_most);
+    if (asks_most != nullptr) {
+      Eigen::Index most = 0;
+      deeper.cwiseProduct(change).cwiseProduct(pull).maxCoeff(&most);
+      *asks_most = at_[most];
+    }
     rival.amount = deeper[felt_most];
     rival.rms = std::sqrt(deeper.squaredNorm() / static_cast<double>(size()));
     rival.where = rows.data.places[static_cast<std::size_t>(at_[felt_most])];
@@ -104,13 +113,35 @@ class OwnOutline {
   Eigen::MatrixXd inverse_;  // C^-1, of these rows
 };
 
+/// Those since may have a zero and a gain of their own.
+void add_zero_and_gain(const Eigen::VectorXd& since, ExplainedReadings& rows) {
+  rows.add(rows.contrast * since);
+  rows.add(rows.contrast * since.cwiseProduct(rows.share));
+}
+
+/// As readings show it that are left when the few that ask the most for it tell nothing.
+Misfit beside_wild(const OwnOutline& own, ExplainedReadings rows, const Eigen::VectorXd& since,
+                   const Misfit& moment) {
+  Eigen::Index wild = 0;
+  for (int i = 0; i < kMostWild; ++i) {
+    own.weighed(rows, since, moment, &wild);
+    rows.add(kWild * rows.contrast * Eigen::VectorXd::Unit(since.size(), wild));
+  }
+  return own.weighed(rows, since, moment);
+}
+
 }  // namespace
 
-std::optional<Misfit> EdgeBelief::outline_since(double false_alarms) const {
+std::optional<Misfit> EdgeBelief::outline_since(std::span<const Misfit> taken_back,
+                                                double false_alarms) const {
   RivalKind others;
   for (const auto& one : fits_) {
-    const ExplainedReadings rows(surface_, one->edge, one->data, profile_,
-                                 one->weight / most_likely().weight);
+    ExplainedReadings rows(surface_, one->edge, one->data, profile_,
+                           one->weight / most_likely().weight);
+    for (const Misfit& change : taken_back) {
+      if (change.kind == MisfitKind::Zero || change.kind == MisfitKind::Gain)
+        add_zero_and_gain(part_since(one->data, change), rows);
+    }
     const OwnOutline own(rows, one->correction);
     if (own.is_untold() || !std::isfinite(rows.log_weight)) continue;
     // Where the outline fits nobody's readings, those since are no others.
@@ -118,10 +149,9 @@ std::optional<Misfit> EdgeBelief::outline_since(double false_alarms) const {
         own.weighed(rows, Eigen::VectorXd::Ones(rows.depth.size()), {}).evidence - rows.log_weight;
     for (const Misfit& moment : moments_of(one->data)) {
       const Eigen::VectorXd since = part_since(one->data, moment);
-      ExplainedReadings beside = rows;  // a zero and a gain of their own
-      beside.add(rows.contrast * since);
-      beside.add(rows.contrast * since.cwiseProduct(rows.share));
-      Misfit rival = own.weighed(beside, since, moment);
+      ExplainedReadings beside = rows;
+      add_zero_and_gain(since, beside);
+      Misfit rival = beside_wild(own, std::move(beside), since, moment);
       rival.evidence -= std::max(of_all, 0.0);
       others.add(rival);
     }

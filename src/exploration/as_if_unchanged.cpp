@@ -105,6 +105,13 @@ Believed believed_with_one_zero(const Surface& surface, const Model& model,
 /// So often a gain or a move is taken back, some of them in two steps.
 constexpr int kMostTakenBack = 8;
 
+/// Whether it is the sensor's, since a reading that is known to some: those between look like
+/// another outline.
+bool has_own_moment(const Misfit& change) {
+  return change.session == 0 &&
+         (change.kind == MisfitKind::Zero || change.kind == MisfitKind::Gain);
+}
+
 /// That is slower than a tumour of 4 cm2 is wide.
 constexpr double kSlowWave_m = 0.0225;
 
@@ -206,8 +213,9 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
   if (is_last) {
     weigh_against_errors_in_turn(known, readings_made(felt));
     weigh_against_waves(known);
-    if (known.boundary.edge)
-      known.believed.evidence.another_outline = known.boundary.edge->outline_since();
+    Evidence& evidence = known.believed.evidence;
+    if (known.boundary.edge && std::ranges::none_of(evidence.taken_back, has_own_moment))
+      evidence.another_outline = known.boundary.edge->outline_since(evidence.taken_back);
   }
   return known;
 }

@@ -154,9 +154,10 @@ class EdgeBelief {
   std::vector<Misfit> misfits(double false_alarms = 0.03) const;
   /// Readings that have an outline of their own since some moment (Outline), whatever their zero
   /// and gain: another correction, of the same prior. A session's first moment, where there are
-  /// several; else each tenth of all. Nothing where that does not surprise. Throws as `misfits`
-  /// does.
-  std::optional<Misfit> outline_since(double false_alarms = 0.03) const;
+  /// several; else each tenth of all. What is left of zeros and gains that were `taken_back`
+  /// explains as much as it can. Nothing where that does not surprise. Throws as `misfits` does.
+  std::optional<Misfit> outline_since(std::span<const Misfit> taken_back = {},
+                                      double false_alarms = 0.03) const;
   /// Of what may stand out beside the boundary, surprising or not, that which readings make the
   /// most probable (WeakerPart, its own evidence against none): where to look again. Nothing where
   /// they speak for none.
