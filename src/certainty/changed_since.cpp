@@ -251,6 +251,10 @@ bool is_background(const Misfit& change) {
          change.kind == MisfitKind::Drift;
 }
 
+bool is_displacement(const Misfit& change) {
+  return change.kind == MisfitKind::Moved || change.kind == MisfitKind::Late;
+}
+
 bool is_of_all(const Misfit& change) {
   return is_background(change) || change.kind == MisfitKind::Late;
 }

@@ -172,7 +172,7 @@ void add_hills(const Layout& layout, const Field& depth, double least, Explained
 
 std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
   const double least = surprising(false_alarms);
-  RivalKind zero, gain, moved, weaker, late;
+  RivalKind zero, gain, moved, weaker;
   for (const auto& one : fits_) {
     ExplainedReadings rows(surface_, one->edge, one->data, profile_,
                            one->weight / most_likely().weight);
@@ -182,11 +182,10 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
     });
     add_hills(layout, one->depth, least, rows);
     weigh_changes(rows, one->depth, zero, gain, moved);
-    weigh_lag(rows, one->depth, late);
   }
   std::vector<Misfit> found;
-  for (const RivalKind* kind : {&zero, &gain, &moved, &weaker, &late}) {
-    const std::optional<Misfit> verdict = kind->verdict();
+  for (const std::optional<Misfit>& verdict :
+       {zero.verdict(), gain.verdict(), moved.verdict(), weaker.verdict(), lag()}) {
     if (verdict && verdict->evidence > least) found.push_back(*verdict);
   }
   for (Misfit& one : found) {
@@ -198,6 +197,16 @@ std::vector<Misfit> EdgeBelief::misfits(double false_alarms) const {
     found.insert(found.end(), weaker_.begin(), weaker_.end());
   std::ranges::sort(found, std::greater{}, &Misfit::evidence);
   return found;
+}
+
+std::optional<Misfit> EdgeBelief::lag() const {
+  RivalKind late;
+  for (const auto& one : fits_) {
+    const ExplainedReadings rows(surface_, one->edge, one->data, profile_,
+                                 one->weight / most_likely().weight);
+    weigh_lag(rows, one->depth, late);
+  }
+  return late.verdict();
 }
 
 std::optional<Misfit> EdgeBelief::stands_out_most() const {

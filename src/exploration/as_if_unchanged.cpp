@@ -206,8 +206,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
         step && step->is_of_the_zero() ? step->zero : change_to_take_back(model, known, readings);
     if (!change) break;
     const std::size_t which = add_change(*change, readings, changes);
-    if (change->kind == MisfitKind::Moved || change->kind == MisfitKind::Late)
-      look_closer_at(which, changes, surface, model, felt);
+    if (is_displacement(*change)) look_closer_at(which, changes, surface, model, felt);
     take_back();
   }
   if (is_last) {

@@ -205,10 +205,6 @@ double log_prior_of(const Misfit& change, const Readings& felt) {
   return (is_with_session ? std::log(static_cast<double>(felt.size())) : 0.0) - 0.5 * z * z;
 }
 
-bool is_displaced(const Misfit& misfit) {
-  return misfit.kind == MisfitKind::Moved || misfit.kind == MisfitKind::Late;
-}
-
 }  // namespace
 
 std::optional<Misfit> change_to_take_back(const Model& model, const Known& known,
@@ -281,7 +277,7 @@ std::vector<Misfit> misfits_of(const Model& model, const std::optional<EdgeBelie
                                const Belief& belief, std::span<const Palpation> readings) {
   std::vector<Misfit> found = all_misfits(model, edge, belief, readings);
   std::erase_if(found, [&](const Misfit& one) {
-    return is_displaced(one) &&
+    return is_displacement(one) &&
            !(log_gains({&one, 1}, belief, model, readings).front() > surprising());
   });
   if (const auto strongest = std::ranges::find_if(found, is_change); strongest != found.end())

@@ -1,6 +1,5 @@
 #include "exploration/lag_fit.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -32,15 +31,12 @@ LearnedField as_given(const Surface& surface, const FieldModel& field,
   return {Belief(belief.prior(), belief.options()), in_force(belief), 0.0, true};
 }
 
-/// A share of runs in which an edge may hint at a lag that is none: it is asked of the field then.
-constexpr double kHinted = 0.9;
-
 /// An outline follows the rows of a raster one by one, each as late as it is, and to first order an
 /// edge knows of no lag that is far.
 bool may_come_late(const EdgeBelief& edge, const Belief& belief) {
   if (follow_closely(belief.prior().surface(), belief.palpations())) return true;
-  const std::vector<Misfit> hints = edge.misfits(kHinted);
-  return std::ranges::find(hints, MisfitKind::Late, &Misfit::kind) != hints.end();
+  const std::optional<Misfit> hint = edge.lag();
+  return hint && hint->evidence > 0.0;
 }
 
 LearnedField learned_at(const Surface& surface, const FieldModel& field,

@@ -6,6 +6,7 @@
 
 #include "exploration/session_pairs.h"
 #include "exploration/taken_back.h"
+#include "readings/robust.h"
 
 namespace palpation {
 namespace {
@@ -60,9 +61,7 @@ double middle_of(std::span<const Palpation> palpations, int session) {
   for (const Palpation& one : palpations) {
     if (counts(one) && one.session == session) readings.push_back(one.reading);
   }
-  const auto middle = readings.begin() + std::ssize(readings) / 2;
-  std::ranges::nth_element(readings, middle);
-  return *middle;
+  return median(readings);
 }
 
 }  // namespace

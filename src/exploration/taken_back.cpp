@@ -19,7 +19,7 @@ void take_back(const Surface& surface, const Misfit& change, std::size_t number,
     palpation.reading -= added_at(surface, change.background, palpation.where);
   if (change.kind == MisfitKind::Gain)
     palpation.reading = change.low + (palpation.reading - change.low) / (1.0 + change.amount);
-  if (change.kind != MisfitKind::Moved && change.kind != MisfitKind::Late) return;
+  if (!is_displacement(change)) return;
   const Vec3 off_m =
       change.kind == MisfitKind::Moved ? change.moved_m : change.amount * palpation.travel;
   const Vec3 lay = surface.position(palpation.where) - off_m;

@@ -1,8 +1,11 @@
 #include "readings/way.h"
 
+#include <numeric>
+
 #include "palpation/geometry/path.h"
 #include "palpation/readings/screening.h"
 #include "readings/as_one.h"
+#include "readings/passes.h"
 
 namespace palpation {
 namespace {
@@ -23,13 +26,11 @@ std::vector<Palpation> with_travel(const Surface& surface, std::vector<Palpation
 }
 
 bool follow_closely(const Surface& surface, std::span<const Palpation> palpations) {
-  std::ptrdiff_t near = 0;
-  for (std::size_t i = 1; i < palpations.size(); ++i) {
-    const Vec3 leg =
-        surface.position(palpations[i].where) - surface.position(palpations[i - 1].where);
-    near += leg.norm() < kShortLength_m;
-  }
-  return 2 * near > std::ssize(palpations);
+  std::vector<Vec3> places;
+  for (const Palpation& one : palpations) places.push_back(surface.position(one.where));
+  Pass all(places.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all.size() > 1 && median_step_m(places, all) < kShortLength_m;
 }
 
 std::vector<Palpation> merged_on_the_way(const Surface& surface,

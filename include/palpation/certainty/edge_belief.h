@@ -158,6 +158,9 @@ class EdgeBelief {
   /// explains as much as it can. Nothing where that does not surprise. Throws as `misfits` does.
   std::optional<Misfit> outline_since(std::span<const Misfit> taken_back = {},
                                       double false_alarms = 0.03) const;
+  /// How late readings come, to first order, surprising or not (Late). Nothing where nobody knows
+  /// from where the probe came.
+  std::optional<Misfit> lag() const;
   /// Of what may stand out beside the boundary, surprising or not, that which readings make the
   /// most probable (WeakerPart, its own evidence against none): where to look again. Nothing where
   /// they speak for none.

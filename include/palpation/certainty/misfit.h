@@ -79,6 +79,9 @@ struct Misfit {
 /// Whether it adds to all readings, all the while: a slope, waves or drift.
 bool is_background(const Misfit& change);
 
+/// Whether it changes where readings belong, not what they are: tissue that moved, or a lag.
+bool is_displacement(const Misfit& change);
+
 /// Whether it is of all readings, all the while: a background, or readings that come late.
 bool is_of_all(const Misfit& change);
 
