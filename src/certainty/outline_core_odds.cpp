@@ -87,13 +87,6 @@ double log_density(const OutlineCore& core, const OutlinePrior& prior) {
   return log_core_density(core, prior.middle, prior.radius_m, prior.fraction);
 }
 
-/// Of how the slope leans.
-double log_density_of_lean(const OutlineProfile& profile, const OutlinePrior& prior) {
-  OutlineProfile even = profile;
-  even.lean.reset();
-  return log_profile_density(profile, prior) - log_profile_density(even, prior);
-}
-
 /// Of all of the profile but a core and a lean.
 double log_density_but_room(OutlineProfile profile, const OutlinePrior& prior) {
   profile.core.reset();
@@ -130,7 +123,7 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
   SettledOutline sum;
   sum.readings.resize(start.readings.places.size());
   Room<5> cores;
-  Room<2> leans;
+  Room<4> leans;
   double square_m4 = 0.0;
   for (int i = 0; i < kWeighed; ++i) {
     walk.settle(1);
@@ -145,7 +138,7 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
     square_m4 += area_m2 * area_m2 / kWeighed;
     count_plateaus(chain, start.readings, sum.readings);
     const OutlineProfile& profile = chain.profile();
-    if (profile.lean) leans.add(*profile.lean, log_density_of_lean(profile, start.prior));
+    if (profile.lean) leans.add(*profile.lean, log_density(*profile.lean));
     if (!profile.core) continue;
     cores.add(numbers_of(*profile.core), log_density(*profile.core, start.prior));
     if (profile.core->beside > kLevel) sum.level += 1.0 / kWeighed;

@@ -20,7 +20,6 @@ constexpr double kSigmoid = 0.5;        ///< part of those whose edge is a sigmo
 constexpr double kSigmoidLogSd = 0.06;  ///< of shoulder and skirt there
 constexpr double kUnbentLogSd = 0.25;   ///< of those of any edge between plateaus
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
-constexpr double kLean = 0.3;           ///< sd of a slope's logarithm, from the middle to a side
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 constexpr int kPerLogarithm = 16;       ///< turns, whose density is a number by far
@@ -79,7 +78,7 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
                  .shoulder = std::exp(profile.log_shoulder),
                  .skirt = std::exp(profile.log_skirt),
                  .logit_fraction = logit(prior.fraction),
-                 .lean = profile.lean.value_or(Vec2::Zero()),
+                 .lean = profile.lean.value_or(Lean::Zero()),
                  .middle = prior.middle,
                  .radius_m = prior.radius_m,
                  .contrast = {},
@@ -98,8 +97,7 @@ ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
 
 double steepness_at(const ReadingLaw& law, const Vec2& place) {
   if (law.lean.isZero(0.0)) return 1.0;
-  const Vec2 off = place - law.middle;
-  return std::exp(law.lean.dot(off) / std::sqrt(off.squaredNorm() + law.radius_m * law.radius_m));
+  return std::exp(log_steepness(law.lean, place - law.middle, law.radius_m));
 }
 
 double share_at(const ReadingLaw& law, double depth_m, double steepness) {
@@ -175,11 +173,6 @@ LineKind draw_line_kind(Random& random) {
   return random.uniform() < 0.5 ? LineKind::Angular : LineKind::Polygonal;
 }
 
-Vec2 draw_lean(Random& random) {
-  const double x = random.normal(), y = random.normal();
-  return kLean * Vec2(x, y);
-}
-
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior) {
   const OutlineProfile& median = prior.median;
   double sum =
@@ -188,9 +181,7 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
       half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
       half_square((profile.turns.log_half_width - median_log_turn(profile, prior)) / kTurnLogSd) +
       half_square((profile.turns.log_bend - median.turns.log_bend) / kBendLogSd);
-  if (profile.lean)
-    sum += half_square(profile.lean->norm() / kLean) +
-           std::log(2.0 * std::numbers::pi * kLean * kLean);
+  if (profile.lean) sum -= log_density(*profile.lean);
   for (std::size_t loop = 0; loop < profile.log_spacing.size(); ++loop)
     sum += half_square((profile.log_spacing[loop] - median.log_spacing[loop]) / prior.size_log_sd) +
            std::log(prior.size_log_sd / kLeastSizeLogSd);

@@ -15,15 +15,16 @@
 /// these two as outline_residuals.h has them. Unbent, that is equation 4 of Garg et al. 2016, zero
 /// where the boundary is; bent(t) = sinh(k asinh t) / k (Jones and Pewsey 2009) is t near the
 /// boundary and goes on as t^k, with a k for each side: a round top or a sharp one, the wide skirt
-/// of something that lies deep or none. The slope may be the same on all sides, or another on each,
-/// its logarithm that in the middle + lean . x / (x^2 + radius^2)^(1/2) at x from there. Cuts take
-/// from the inside (outline_cut.h), and contrast may be less beyond a core (outline_core.h).
+/// of something that lies deep or none. The slope may be the same on all sides, or another on each
+/// (lean.h). Cuts take from the inside (outline_cut.h), and contrast may be less beyond a core
+/// (outline_core.h).
 #pragma once
 
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "certainty/lean.h"
 #include "certainty/outline_core.h"
 #include "certainty/outline_nodes.h"
 #include "certainty/outline_residuals.h"
@@ -44,7 +45,7 @@ struct OutlineProfile {
   double low = 0.0;
   double high = 0.0;
   double log_slope = 0.0;      ///< of a slope per metre, in the tumour's middle
-  std::optional<Vec2> lean{};  ///< how that rises towards a side (OutlinePrior::middle)
+  std::optional<Lean> lean{};  ///< how that differs by side, seen from OutlinePrior::middle
   double log_shoulder = 0.0;   ///< of the power with which readings rise on inside
   double log_skirt = 0.0;      ///< and fall on outside
   Turns turns{};
@@ -77,7 +78,8 @@ struct OutlinePrior {
 /// How readings come from depths, by a profile.
 struct ReadingLaw {
   double low, slope_per_m, shoulder, skirt, logit_fraction;
-  Vec2 lean, middle;
+  Lean lean;
+  Vec2 middle;
   double radius_m;
   std::vector<double> contrast;  ///< of each part
   std::vector<double> gain;      ///< of readings of each epoch
@@ -112,8 +114,6 @@ double log_length_density(const Vec2& from, const Vec2& to, double log_spacing);
 double log_shape_density(const OutlineNodes& outline, const OutlineProfile& profile);
 /// Of which kind an outline is, beforehand.
 LineKind draw_line_kind(Random& random);
-/// How a tumour's slope leans, of those that lean, beforehand.
-Vec2 draw_lean(Random& random);
 
 /// Of the profile itself. Every second tumour is as steep on all sides; of which kind its lines
 /// are counts nothing here, since kinds are proposed as often as they are so.

@@ -245,7 +245,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;
   start.profile = median;
-  start.profile.lean = Vec2::Zero();  // a sharp one is found sooner by steps than by a switch
+  start.profile.lean = Lean::Zero();  // a sharp one is found sooner by steps than by a switch
   start.profile.moved_m.assign(changes.size(), Vec2::Zero());
   start.profile.low = profile.low;
   start.profile.high = profile.high;

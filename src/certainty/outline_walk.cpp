@@ -211,11 +211,13 @@ void OutlineWalk::move_profile() {
   switch_line_kind();
   for (int i = 0; i < kOfProfile; ++i) {
     OutlineProfile profile = chain_.profile();
-    const bool leans = profile.lean.has_value();
+    double* const lean = profile.lean ? profile.lean->data() : nullptr;
     using Number = std::pair<double*, bool>;  // whether it is of turns
     const std::array<Number, kOfProfile> numbers = {{{&profile.log_slope, false},
-                                                     {leans ? &profile.lean->x() : nullptr, false},
-                                                     {leans ? &profile.lean->y() : nullptr, false},
+                                                     {lean, false},
+                                                     {lean ? lean + 1 : lean, false},
+                                                     {lean ? lean + 2 : lean, false},
+                                                     {lean ? lean + 3 : lean, false},
                                                      {&profile.log_shoulder, false},
                                                      {&profile.log_skirt, false},
                                                      {&profile.turns.log_half_width, true},

@@ -51,7 +51,7 @@ class OutlineWalk {
  private:
   /// Share of steps that are taken where they are as long as they should be, of single numbers.
   static constexpr double kOfNumbers = 0.4;
-  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 7, kOfCut = 4, kOfCore = 6;
+  static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 9, kOfCut = 4, kOfCore = 6;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres
     std::vector<std::array<double, kWhole>> of_loops;       ///< metres

@@ -37,7 +37,7 @@ OutlineReadings felt(const std::function<double(const Vec2& place)>& depth_at) {
   return readings;
 }
 
-/// Of two walks, as outlines are drawn, from a circle as large.
+/// Of walks from a circle as large, of which one in eight keeps a corner of the square cut off.
 std::vector<OutlineDraw> drawn(const OutlineReadings& readings) {
   const OutlineNodes start = regular_polygon(52, 2.0 * kHalf / std::sqrt(std::numbers::pi));
   OutlinePrior prior;
@@ -48,7 +48,7 @@ std::vector<OutlineDraw> drawn(const OutlineReadings& readings) {
                   .log_spacing = {std::log(kMm)},
                   .log_contrast = {0.0}};
   std::vector<OutlineDraw> all;
-  for (const std::uint64_t seed : {1, 2}) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
     OutlineWalk walk(readings, prior, start, prior.median, seed);
     walk.settle(400, 200);
     for (OutlineDraw& draw : walk.draws(400, 100)) all.push_back(std::move(draw));
