@@ -19,7 +19,7 @@ constexpr double kRadius_m = 0.008;
 std::vector<Palpation> felt_until(const Surface& tissue, bool is_told) {
   const Phantom phantom(tissue, {Disk{Vec3(0.0125, 0.026, 0.0), kRadius_m}},
                         {.slope_per_m = 700.0, .noise = 0.02});
-  Random random(11);
+  Random random(12);
   std::vector<Palpation> readings;
   const double end = 7.0 + 2.0 * 2.0 / 3.0;
   for (int i = 0; i < 150; ++i) {
