@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "belief/likelihood.h"
+#include "belief/noise_alone.h"
 #include "belief/sites.h"
 #include "belief/tissue.h"
 #include "palpation/base/error.h"
@@ -201,6 +202,54 @@ TEST(Learn, SeesNoFieldInNoise) {
   std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
   for (Palpation& palpation : readings) palpation.reading = 7.0 + 0.3 * random.normal();
   EXPECT_LT(learn(Prior(tissue, Metric::Chart, {}), readings, {}, {}).signal_evidence, 3.0);
+}
+
+// The scatter of readings at one place is as probable by noise alone as by noise beside a field,
+// whatever the unit.
+TEST(Learn, SeesNoFieldInNoiseThatWasFeltAgain) {
+  const Surface tissue = plane(40, 80);
+  for (const bool slopes : {false, true}) {
+    const Prior prior(tissue, Metric::Chart, {}, {}, slopes ? some_slope() : Slope{});
+    for (const double unit : {1.0, 1e-3, 1e3}) {
+      Random random(5);
+      std::vector<Palpation> readings = bumpy_readings(tissue, 40, random);
+      for (int again = 0; again < 2; ++again)
+        readings.insert(readings.end(), readings.begin(), readings.begin() + 40);
+      for (Palpation& palpation : readings)
+        palpation.reading = unit * (7.0 + 0.3 * random.normal());
+      EXPECT_LT(learn(prior, readings, {}, {}).signal_evidence, 3.0) << slopes << " " << unit;
+      readings = bumpy_readings(tissue, 40, random);
+      readings.insert(readings.end(), readings.begin(), readings.begin() + 40);
+      for (Palpation& palpation : readings)
+        palpation.reading = unit * (palpation.reading + 0.05 * random.normal());
+      EXPECT_GT(learn(prior, readings, {}, {}).signal_evidence, 20.0) << slopes << " " << unit;
+    }
+  }
+}
+
+// One site that was felt thrice is as three that lie in one place.
+TEST(NoiseAlone, CountsEachReadingOfASite) {
+  const Surface tissue = plane(20, 40);
+  Random random(6);
+  const std::vector<Palpation> readings = bumpy_readings(tissue, 12, random);
+  for (const Slope& slope : {Slope{}, some_slope()}) {
+    const Prior prior(tissue, Metric::Chart, {}, {}, slope);
+    std::vector<Site> one_by_one = gather_sites(prior, readings), together;
+    std::vector<double> values, means;
+    for (std::size_t i = 0; i < one_by_one.size(); ++i) {
+      values.push_back(readings[i].reading);
+      if (i % 3 == 0) {
+        together.push_back(one_by_one[i]);
+        means.push_back((readings[i].reading + readings[i + 1].reading + readings[i + 2].reading) /
+                        3.0);
+        continue;
+      }
+      one_by_one[i].place = together.back().place;
+      together.back().plain.push_back(readings[i].reading);
+    }
+    EXPECT_NEAR(noise_alone(prior, together, means).log_likelihood,
+                noise_alone(prior, one_by_one, values).log_likelihood, 1e-9);
+  }
 }
 
 TEST(Learn, SurvivesReadingsThatAreAllTheSame) {
