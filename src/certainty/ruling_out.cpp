@@ -30,7 +30,8 @@ std::vector<Vec3> places_of(const Layout& layout, std::span<const int> vertices)
 }
 
 /// What is lacking at each centre until a disk around it would be found, and what a touch takes
-/// away of that.
+/// away of its squares: the most where the most is lacking, so that touches spread before they come
+/// to the same places again.
 class Lack {
  public:
   Lack(std::vector<Vec3> centres, const Sought& sought, double radius_m, std::size_t readings)
@@ -43,8 +44,10 @@ class Lack {
 
   double taken_by(const Vec3& touch) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < centres_.size(); ++i)
-      sum += std::min(lack_[i], squared_rise(i, touch));
+    for (std::size_t i = 0; i < centres_.size(); ++i) {
+      const double taken = std::min(lack_[i], squared_rise(i, touch));
+      sum += taken * (2.0 * lack_[i] - taken);
+    }
     return sum;
   }
   void take(const Vec3& touch) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include "belief/tissue.h"
@@ -40,7 +41,10 @@ std::vector<int> by_definition(const Surface& tissue, std::size_t readings, cons
     double most = 1e-12;
     for (int touch = 0; touch < tissue.vertex_count(); ++touch) {
       double sum = 0.0;
-      for (int centre = 0; centre < tissue.vertex_count(); ++centre) sum += taken(touch, centre);
+      for (int centre = 0; centre < tissue.vertex_count(); ++centre) {
+        const double lacking = lack[static_cast<std::size_t>(centre)], less = taken(touch, centre);
+        sum += less * (2.0 * lacking - less);  // lacking^2 - (lacking - less)^2
+      }
       if (sum > most) {
         most = sum;
         best = touch;
@@ -61,6 +65,23 @@ TEST(TouchesToRuleOut, AreThoseOfTheDefinition) {
   const std::vector<int> all = all_of(tissue);
   EXPECT_EQ(touches_to_rule_out(tissue, {}, sought, 0.012, all, {.candidates = all, .most = 200}),
             by_definition(tissue, 30, sought, 0.012));
+}
+
+// As many touches as the fifth part of what is needed, no two in one place: else all that was not
+// come to could hide anything.
+TEST(TouchesToRuleOut, SpreadBeforeTheyComeAgain) {
+  const Surface tissue = plane(26, 51);
+  const Sought sought;
+  const std::vector<int> all = all_of(tissue);
+  const auto most = [&](std::size_t touches) {
+    return touches_to_rule_out(tissue, {}, sought, 0.009, all,
+                               {.candidates = all, .most = touches});
+  };
+  const std::size_t needed = most(1000).size();
+  const std::vector<int> first = most(needed / 5);
+  EXPECT_EQ(std::set<int>(first.begin(), first.end()).size(), first.size());
+  const std::vector<Vec3> places = places_of(tissue, most(needed / 2));
+  EXPECT_LT(diameter_ruled_out_m(tissue, places, sought).value_or(1.0), 0.020);
 }
 
 // What is needed depends a little on how many readings there are, so once more after those.
