@@ -165,6 +165,17 @@ void weigh_against_waves(Known& known) {
   if (odds.log_odds < -surprising() && odds.wave_length_m >= kSlowWave_m) known.boundary = {};
 }
 
+/// As long as readings come, to touch again is cheap: level tissue is the only rival. Noise that
+/// was touched where it read high passes for contrast more often than noise anywhere.
+void weigh_against_level(Known& known) {
+  if (!known.boundary.edge) return;
+  const double log_odds =
+      known.boundary.edge->log_evidence() - log_evidence_without_edge(known.believed.belief);
+  if (log_odds > surprising()) return;
+  known.believed.evidence.of_edge = {.log_odds = log_odds};
+  if (log_odds < -surprising()) known.boundary = {};
+}
+
 }  // namespace
 
 Known known_by(const Surface& surface, const Model& model, Believed believed) {
@@ -215,6 +226,8 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     Evidence& evidence = known.believed.evidence;
     if (known.boundary.edge && std::ranges::none_of(evidence.taken_back, has_own_moment))
       evidence.another_outline = known.boundary.edge->outline_since(evidence.taken_back);
+  } else {
+    weigh_against_level(known);
   }
   return known;
 }

@@ -117,6 +117,25 @@ TEST(Exploration, ConcludesNothingOfNoiseWhateverTheFieldIsGiven) {
   EXPECT_TRUE(over_a_disk.conclusion().level);
 }
 
+// Where it read high it is touched again and again.
+TEST(Exploration, SeesNoTumourInNoiseWhateverItIsTouchedFor) {
+  const Surface tissue = plane(26, 51);
+  const Phantom healthy(tissue, {}, {.noise = 0.05});
+  for (const double undetected_m : {0.0, 0.006}) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      Exploration exploration(tissue, {},
+                              {.batches = 9, .aim = {.undetected_diameter_m = undetected_m}});
+      Random random(seed);
+      for (auto stops = exploration.next(); !stops.empty(); stops = exploration.next()) {
+        exploration.record(
+            travel(tissue, stops, std::nullopt, probe_of(healthy, random), 0.0).palpations);
+        EXPECT_FALSE(exploration.conclusion().level)
+            << undetected_m << " " << seed << " " << exploration.batch();
+      }
+    }
+  }
+}
+
 TEST(Exploration, SeesContrastInAThousandReadingsOfAGivenField) {
   const Surface tissue = plane(26, 51);
   Random random(3);

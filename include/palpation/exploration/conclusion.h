@@ -51,9 +51,10 @@ struct Evidence {
   /// By how much an edge makes the readings more probable than healthy tissue alone that waves, or
   /// errors that last from reading to reading, whichever explains the most; asked at the end, of
   /// waves (EdgeBelief::odds_over_waves) where a smooth field explains the readings as well or some
-  /// were made on the way, kept of errors (in_lasting_errors) where they may be all. Where
-  /// an edge is clearly less probable than errors, or than waves that are slower than a tumour is
-  /// wide, there is no level: no tumour was felt.
+  /// were made on the way, kept of errors (in_lasting_errors) where they may be all. Before the
+  /// end: than level tissue, kept where that may be all. Where an edge is clearly less probable
+  /// than level tissue, errors, or waves that are slower than a tumour is wide, there is no level:
+  /// no tumour was felt.
   std::optional<EdgeOdds> of_edge{};
   /// Errors that last beside the edge, clearly; asked at the end. The outlines know of them.
   LastingErrors errors_beside_edge{};
