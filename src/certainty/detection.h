@@ -54,9 +54,10 @@ struct FurtherTouches {
 
 /// Vertices to touch, one after the other, until a disk of this diameter around any of the centres
 /// would be found as surely as sought: always the one that takes away most of the squares of what
-/// is lacking at the centres, the first of equals. Looks at two thousand centres and candidates at
-/// most. None where nothing is lacking; fewer than needed where `most` are not enough, or no
-/// candidate helps. Throws as diameter_ruled_out_m.
+/// is lacking at the centres, the first of equals. Looks at two thousand of the centres where
+/// something is lacking, and of the candidates that reach one, at most. None where nothing is
+/// lacking; fewer than needed where `most` are not enough, or no candidate helps. Throws as
+/// diameter_ruled_out_m.
 std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3> places,
                                      const Sought& sought, double diameter_m,
                                      std::span<const int> centres, const FurtherTouches& further);

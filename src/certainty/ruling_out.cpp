@@ -1,6 +1,7 @@
 // Where to touch so that no tumour of a size can hide.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "certainty/detection.h"
@@ -42,6 +43,9 @@ class Lack {
         radius_m_(radius_m),
         slope_per_m_(sought.slope_per_m) {}
 
+  bool is_any() const {
+    return std::ranges::any_of(lack_, [](double lacking) { return lacking > 0.0; });
+  }
   double taken_by(const Vec3& touch) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < centres_.size(); ++i) {
@@ -49,6 +53,10 @@ class Lack {
       sum += taken * (2.0 * lack_[i] - taken);
     }
     return sum;
+  }
+  bool reaches(const Vec3& touch) const {
+    return std::ranges::any_of(
+        centres_, [&](const Vec3& centre) { return (touch - centre).norm() <= radius_m_; });
   }
   void take(const Vec3& touch) {
     for (std::size_t i = 0; i < centres_.size(); ++i)
@@ -67,6 +75,19 @@ class Lack {
   double slope_per_m_;
 };
 
+/// Of the centres those at which a disk of this diameter would not be found.
+std::vector<int> still_lacking(const Layout& layout, std::span<const Vec3> places,
+                               const Sought& sought, double diameter_m,
+                               std::span<const int> centres) {
+  std::vector<int> lacking;
+  for (const int centre : centres) {
+    Lack lack({layout.at(centre)}, sought, 0.5 * diameter_m, places.size());
+    for (const Vec3& place : places) lack.take(place);
+    if (lack.is_any()) lacking.push_back(centre);
+  }
+  return lacking;
+}
+
 }  // namespace
 
 std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3> places,
@@ -75,9 +96,13 @@ std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3>
   check(sought, "touches_to_rule_out");
   require(std::isfinite(diameter_m) && diameter_m > 0.0, "touches_to_rule_out",
           "diameter_m = " + text_of(diameter_m), "must be positive and finite");
-  Lack lack(places_of(layout, thinned(centres)), sought, 0.5 * diameter_m, places.size());
+  Lack lack(places_of(layout, thinned(still_lacking(layout, places, sought, diameter_m, centres))),
+            sought, 0.5 * diameter_m, places.size());
   for (const Vec3& place : places) lack.take(place);
-  const std::vector<int> candidates = thinned(further.candidates);
+  std::vector<int> near;
+  std::ranges::copy_if(further.candidates, std::back_inserter(near),
+                       [&](int vertex) { return lack.reaches(layout.at(vertex)); });
+  const std::vector<int> candidates = thinned(near);
   const std::vector<Vec3> at = places_of(layout, candidates);
   std::vector<double> takes;
   for (const Vec3& place : at) takes.push_back(lack.taken_by(place));

@@ -51,7 +51,8 @@ std::string coarse_words(const Surface& surface, const Certainty& certainty, dou
   }
   if (cut_off_m2 < kMuchCutOff * certainty.expected.symmetric_difference_m2()) return "";
   return "The mesh is coarse where the outline runs, with triangles up to " +
-         fixed(widest_m * 1e3, 1) + " mm wide: they cut some " + fixed(cut_off_m2 * 1e6, 0) +
+         fixed(widest_m * 1e3, 1) + " mm wide: they cut some " +
+         fixed(cut_off_m2 * 1e6, cut_off_m2 < 1e-6 ? 1 : 0) +
          " mm2 off what is round, which the expected error does not know. Set surface.refine_mm.";
 }
 

@@ -88,15 +88,17 @@ Snapshot snapshot(const Episode& episode);
 /// without readings, where no size can be ruled out, or where something stiff is hidden by the
 /// probe's tip.
 std::optional<double> diameter_ruled_out_m(const Episode& episode);
+inline constexpr std::size_t kMostTouchesCounted = 1000;
 /// Where the scene has a goal for the search: how far it is from being reached.
 struct GoalState {
   double diameter_m = 0.0;
   double probability = 0.95;
   std::optional<double> undetected_m{};  ///< diameter_ruled_out_m with that probability
-  /// Further ones, a thousand at most, for all whose middle may be touched.
+  /// Further ones, kMostTouchesCounted at most, for all whose middle may be touched.
   std::size_t touches_needed = 0;
 
-  bool is_reached() const { return undetected_m && *undetected_m <= diameter_m; }
+  /// To twice the hundredth of a millimetre to which radii are looked for.
+  bool is_reached() const { return undetected_m && *undetected_m <= diameter_m + 2e-5; }
 };
 std::optional<GoalState> goal_state(const Episode& episode);
 /// Those that are not set aside, the trend taken off.

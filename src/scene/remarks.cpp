@@ -90,27 +90,6 @@ std::string level_outside_words(const Exploration& exploration) {
          (level > least ? "nothing" : "all of the tissue") + " counts as stiff.";
 }
 
-/// What the search was to rule out and has not.
-std::string goal_words(const Episode& episode) {
-  const std::optional<GoalState> goal = goal_state(episode);
-  if (!goal || goal->is_reached()) return "";
-  const std::string size = fixed(goal->diameter_m * 1e3, 1) + " mm",
-                    chance = percent(goal->probability);
-  if (episode.conclusion().belief.site_count() == 0) return "";
-  std::string words =
-      "The search is not done: " +
-      (goal->undetected_m ? "a tumour up to " + fixed(*goal->undetected_m * 1e3, 1) + " mm wide"
-                          : std::string("a tumour of any width")) +
-      " could still hide, and one of " + size + " was to be found with probability " + chance +
-      " (plan.goal).";
-  if (goal->touches_needed > 0)
-    words += " That takes about " + std::to_string(goal->touches_needed) +
-             (goal->touches_needed == 1 ? " more touch." : " more touches.");
-  else
-    words += " What is left of it has its middle where no touch may be made.";
-  return words;
-}
-
 std::string standing_alone_words(const Surface& surface, const std::vector<Palpation>& alone) {
   std::string words;
   for (const Palpation& one : alone) {

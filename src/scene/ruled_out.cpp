@@ -10,8 +10,6 @@
 namespace palpation::tool {
 namespace {
 
-constexpr std::size_t kMostTouchesCounted = 1000;
-
 /// Nothing that is as large as the tissue needs to be ruled out.
 std::optional<double> ruled_out_m(const Episode& episode, double probability) {
   const std::optional<double> diameter_m = diameter_ruled_out_m(episode.conclusion(), probability);

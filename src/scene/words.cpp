@@ -220,8 +220,34 @@ std::string episode_words(const Episode& episode) {
   return words;
 }
 
+std::string goal_words(const Episode& episode) {
+  const std::optional<GoalState> goal = goal_state(episode);
+  if (!goal || goal->is_reached()) return "";
+  const std::string size = fixed(goal->diameter_m * 1e3, 1) + " mm",
+                    chance = percent(goal->probability);
+  if (episode.conclusion().belief.site_count() == 0) return "";
+  std::string words =
+      "The search is not done: " +
+      (goal->undetected_m ? "a tumour up to " + fixed(*goal->undetected_m * 1e3, 1) + " mm wide"
+                          : std::string("a tumour of any width")) +
+      " could still hide, and one of " + size + " was to be found with probability " + chance +
+      " (plan.goal).";
+  if (goal->touches_needed >= kMostTouchesCounted)
+    words += " That takes a thousand more touches or more.";
+  else if (goal->touches_needed > 0)
+    words += " That takes about " + std::to_string(goal->touches_needed) +
+             (goal->touches_needed == 1 ? " more touch." : " more touches.");
+  else
+    words += " What is left of it has its middle where no touch may be made.";
+  return words;
+}
+
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m) {
-  if (stops.empty()) return "Nothing more to touch. " + stop_words(episode.stop_reason());
+  if (stops.empty()) {
+    const std::string left = goal_words(episode);
+    return "Nothing more to touch. " + stop_words(episode.stop_reason()) +
+           (left.empty() ? "" : left + "\n");
+  }
   std::string words;
   if (const std::optional<GoalState> goal = goal_state(episode);
       goal && episode.conclusion().belief.site_count() == 0)

@@ -49,7 +49,9 @@ void tell(const std::vector<std::string>& warnings);
 /// How wrong an estimate is; the sentence starts with what it is compared with.
 std::string error_words(const RegionError& error, double search_area_m2,
                         const std::string& against = "Against the truth");
-/// The next stops.
+/// What the search was to rule out and has not; empty where it has, or nothing was asked for.
+std::string goal_words(const Episode& episode);
+/// The next stops; where there are none, why, and what the search has left open.
 std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stops, double path_m);
 
 }  // namespace palpation::tool

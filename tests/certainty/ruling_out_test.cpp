@@ -105,6 +105,20 @@ TEST(TouchesToRuleOut, RuleOutWhatTheyAreFor) {
   }
 }
 
+// Every fifth vertex is looked at, until so little is lacking that every vertex is.
+TEST(TouchesToRuleOut, LeaveNothingBetweenThoseThatAreLookedAt) {
+  const Surface tissue = plane(81, 101);
+  const std::vector<int> all = all_of(tissue);
+  const Sought sought{.contrast_to_noise = 8.0};
+  std::vector<int> touched;
+  for (int round = 0; round < 6; ++round) {
+    const std::vector<int> more = touches_to_rule_out(tissue, places_of(tissue, touched), sought,
+                                                      0.008, all, {.candidates = all, .most = 500});
+    touched.insert(touched.end(), more.begin(), more.end());
+  }
+  EXPECT_LE(diameter_ruled_out_m(tissue, places_of(tissue, touched), sought).value(), 0.008 + 2e-5);
+}
+
 // Eight millimetres from every side the tissue is 25 x 50 mm: the first touch does the most where
 // no border cuts its disk, and one at a rim half of that.
 TEST(TouchesToRuleOut, DoNotBeginAtTheRim) {
