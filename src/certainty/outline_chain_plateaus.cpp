@@ -35,7 +35,9 @@ OutlineChain::Plateaus OutlineChain::plateaus() const {
   }
   const Eigen::Matrix3d products = residuals_.products(columns);
   Eigen::Matrix2d precision = products.topLeftCorner<2, 2>();
-  precision.diagonal().array() += 1.0 / (prior_->plateau_sd * prior_->plateau_sd);
+  const PlateauPrior& prior = prior_->plateaus;
+  precision(0, 0) += 1.0 / (prior.low_sd * prior.low_sd);
+  precision(1, 1) += 1.0 / (prior.high_sd * prior.high_sd);
   const Eigen::Vector2d pull = products.topRightCorner<2, 1>();
   Plateaus plateaus{.precision = precision.llt(), .mean = {}};
   plateaus.mean = plateaus.precision.solve(pull);

@@ -10,7 +10,6 @@
 namespace palpation {
 namespace {
 
-constexpr double kWildReach = 6.0;  ///< of readings that tell nothing, in plateau_sd: three ranges
 constexpr double kTurnLogSd = 1.0;  ///< of the turns' half width
 constexpr double kOfSides = 0.25;   ///< that of a polygon's sides, over that of what curves
 constexpr double kBendLogSd = 1.0;
@@ -120,7 +119,7 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
 
 ResidualPrior residual_prior(const OutlinePrior& prior) {
   return {.noise_log_sd = prior.noise_log_sd,
-          .wild_density = 1.0 / (kWildReach * prior.plateau_sd),
+          .wild_density = 1.0 / prior.plateaus.wild_reach,
           .least_log_noise = prior.least_log_noise};
 }
 
@@ -176,8 +175,8 @@ LineKind draw_line_kind(Random& random) {
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior) {
   const OutlineProfile& median = prior.median;
   double sum =
-      half_square((profile.low - median.low) / prior.plateau_sd) +
-      half_square((profile.high - median.high) / prior.plateau_sd) +
+      half_square((profile.low - median.low) / prior.plateaus.low_sd) +
+      half_square((profile.high - median.high) / prior.plateaus.high_sd) +
       half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
       half_square((profile.turns.log_half_width - median_log_turn(profile, prior)) / kTurnLogSd) +
       half_square((profile.turns.log_bend - median.turns.log_bend) / kBendLogSd);

@@ -58,10 +58,16 @@ struct OutlineProfile {
   std::vector<double> log_gain{};
 };
 
+/// In reading units.
+struct PlateauPrior {
+  double low_sd = 1.0, high_sd = 1.0;
+  double wild_reach = 6.0;  ///< of readings that tell nothing
+};
+
 /// Medians and spreads, of all that is positive in logarithms.
 struct OutlinePrior {
   OutlineProfile median;
-  double plateau_sd = 1.0;  ///< of low and high, reading units; also how far wild readings reach
+  PlateauPrior plateaus{};
   double slope_log_sd = 0.5;
   double noise_log_sd = 1.0;
   double least_log_noise = -std::numeric_limits<double>::infinity();

@@ -18,6 +18,8 @@ namespace palpation {
 namespace {
 
 constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
+constexpr double kWildReach =
+    6.0;  ///< of readings that tell nothing, in sd of a plateau: three ranges
 /// Of how large an outline is: what nobody knows is within e times as wide or as narrow.
 constexpr double kMostSizeLogSd = 1.0;
 /// Of a noise that is given: edges are no perfect sigmoids.
@@ -194,6 +196,15 @@ double size_log_sd(const std::vector<Vec2>& line, double radius_m,
   return std::clamp(*middle / radius_m, kLeastSizeLogSd, kMostSizeLogSd);
 }
 
+/// Where a sensor's range ended, as much again as was felt may lie beyond.
+PlateauPrior plateau_prior(const Belief& belief, const OutlineReadings& readings, double felt) {
+  const double sd = plateau_sd(belief, felt);
+  const auto sd_where_ends = [&](Bound end) {
+    return std::ranges::count(readings.bounds, end) > 0 ? std::max(sd, felt) : sd;
+  };
+  return {sd_where_ends(Bound::AtMost), sd_where_ends(Bound::AtLeast), kWildReach * sd};
+}
+
 }  // namespace
 
 void begin_with(const OutlineNodes& outline, OutlineStart& start) {
@@ -240,7 +251,7 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
     start.prior.changes.push_back(change.kind);
     start.prior.gain_log_sd.push_back(change.session > 0 ? kSessionGainLogSd : kGainLogSd);
   }
-  start.prior.plateau_sd = plateau_sd(belief, median.high - median.low);
+  start.prior.plateaus = plateau_prior(belief, start.readings, median.high - median.low);
   start.prior.slope_log_sd = shape.slope_log_sd;
   start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;

@@ -72,7 +72,7 @@ FarOff far_off() {
   median.turns.log_half_width = std::log(0.12);
   median.log_spacing = {std::log(kMm)};
   median.log_contrast = {0.0};
-  far.prior.plateau_sd = 0.5;
+  far.prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5, .wild_reach = 3.0};
   far.prior.noise_log_sd = 1e-9;
   return far;
 }

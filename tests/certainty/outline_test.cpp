@@ -57,7 +57,7 @@ OutlinePrior prior_of(const OutlineNodes& outline) {
                   .turns = {.log_half_width = std::log(0.12)},
                   .log_spacing = std::vector(outline.loops.size(), std::log(kMm)),
                   .log_contrast = {0.0, 0.0}};
-  prior.plateau_sd = 0.5;
+  prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5, .wild_reach = 3.0};
   return prior;
 }
 

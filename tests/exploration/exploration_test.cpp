@@ -288,7 +288,9 @@ Exploration explored_with_tip(double tip_radius_m) {
 }
 
 TEST(RoundTip, TakesTheBoundaryInWithItsBandAndItsExpectedError) {
-  const Exploration sharp = explored_with_tip(0.0), round = explored_with_tip(0.002);
+  const Exploration sharp = explored_with_tip(0.0);
+  Exploration round(sharp.surface(), {.field = {.probe = {.indenter_radius_m = 0.002}}});
+  round.take_up(sharp.conclusion().palpations);
   EXPECT_FALSE(round.conclusion().tip_hides_all());
   const double share = 4.25 / 6.25;  // of the disk's outline, 2 mm farther in
   EXPECT_NEAR(round.conclusion().certainty->expected.symmetric_difference_m2() /
