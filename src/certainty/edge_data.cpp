@@ -184,6 +184,12 @@ EdgeData with_plateaus_merged(const Layout& layout, const EdgeData& data) {
   }
 }
 
+Vec3 travel_to(const std::vector<Made>& made) {
+  Vec3 sum = Vec3::Zero();
+  for (const Made& one : made) sum += one.travel;
+  return sum / static_cast<double>(made.size());
+}
+
 double plateau_sd(const Belief& belief, double range) {
   return std::max(belief.signal_sd(), kPlateauError * range);
 }

@@ -38,6 +38,9 @@ bool measure_depths(const Layout& layout, const Field& field, double level,
 /// number.
 EdgeData with_plateaus_merged(const Layout& layout, const EdgeData& data);
 
+/// The mean direction in which the probe came to readings that are one.
+Vec3 travel_to(const std::vector<Made>& made);
+
 /// How far a plateau may lie from the least or greatest of the belief's mean, whose range this is,
 /// in reading units: noise draws the mean in, so half of the contrast, which is the field's own
 /// standard deviation.

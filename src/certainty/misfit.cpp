@@ -104,13 +104,6 @@ void weigh_changes(const ExplainedReadings& rows, const Field& depth, RivalKind&
   }
 }
 
-/// The mean direction in which the probe came to a row.
-Vec3 travel_to(const std::vector<Made>& made) {
-  Vec3 sum = Vec3::Zero();
-  for (const Made& one : made) sum += one.travel;
-  return sum / static_cast<double>(made.size());
-}
-
 /// Readings that are of where the probe was a little before.
 void weigh_lag(const ExplainedReadings& rows, const Field& depth, RivalKind& late) {
   const auto travel = [&](Eigen::Index row) {

@@ -82,7 +82,12 @@ int OutlineChain::epoch_of(std::size_t reading) const {
 /// Where it was made, as far as that is known.
 Vec2 OutlineChain::place_of(std::size_t reading) const {
   Vec2 place = readings_->places[reading];
-  for (const int change : prior_->epochs[epoch_of(reading)]) place += profile_.moved_m[change];
+  for (const int change : prior_->epochs[epoch_of(reading)]) {
+    const Vec2& moved_m = profile_.moved_m[change];
+    place += prior_->changes[change] == MisfitKind::Late
+                 ? Vec2(-moved_m.x() * readings_->travel[reading])
+                 : moved_m;
+  }
   return place;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/normal.h"
 #include "base/sigmoid.h"
+#include "palpation/belief/lag.h"
 
 namespace palpation {
 namespace {
@@ -186,8 +187,11 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
            std::log(prior.size_log_sd / kLeastSizeLogSd);
   for (std::size_t part = 1; part < profile.log_contrast.size(); ++part)
     sum += half_square(profile.log_contrast[part] / kContrastLogSd);
-  for (std::size_t change = 0; change < profile.moved_m.size(); ++change)
-    sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() / kMoveSd_m);
+  for (std::size_t change = 0; change < profile.moved_m.size(); ++change) {
+    const bool is_late = prior.changes[change] == MisfitKind::Late;
+    sum += half_square((profile.moved_m[change] - median.moved_m[change]).norm() /
+                       (is_late ? LagPrior{}.sd_m : kMoveSd_m));
+  }
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
   const double of_core =

@@ -53,7 +53,8 @@ struct OutlineProfile {
   std::vector<double> log_contrast;  ///< of each part, the first one's 0
   std::optional<OutlineCore> core{};
   /// What is left of each change once it is taken back: later readings were made so much farther on
-  /// than they are said to be, and are so many times as far from `low`.
+  /// than they are said to be, and are so many times as far from `low`. Of readings that come late
+  /// the first number, by which they come later.
   std::vector<Vec2> moved_m{};
   std::vector<double> log_gain{};
 };

@@ -212,7 +212,7 @@ std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
   std::vector<ChangeLeft> left;
   Eigen::Index step = 0;
   for (std::size_t change = 0; change < changes.size(); ++change) {
-    if (changes[change].kind == MisfitKind::Moved) continue;
+    if (is_displacement(changes[change])) continue;
     std::vector<double> steps, gains;
     for (const OutlineDraw& draw : draws) {
       steps.push_back(moves_zero(changes[change]) ? draw.steps[step] : 0.0);

@@ -19,6 +19,9 @@ struct OutlineReadings {
   BackgroundTerms background{};
   Eigen::VectorXd shares{};     ///< of the contrast, by the first outline: noise grows with them
   std::vector<Bound> bounds{};  ///< where the sensor's range ended; empty where it did nowhere
+  /// In which direction the probe came to each, at most of length one; empty where all are known
+  /// to be of where they were made.
+  std::vector<Vec2> travel{};
   std::vector<SurfacePoint> where{};  ///< on the surface, where those are of one; else none
 };
 

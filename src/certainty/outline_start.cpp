@@ -27,6 +27,7 @@ constexpr double kGivenNoiseLogSd = 0.3;
 constexpr double kLearnedNoiseLogSd = 1.0;
 constexpr double kWaves = 0.02, kDrift = 0.1,
                  kTilt = 0.2;         ///< sd of the background's, of the range
+constexpr double kTravel_m = 0.001;   ///< a direction of travel is that of so long a way
 constexpr double kStep = 0.25;        ///< sd of what is left of a zero's step, of the range
 constexpr double kSessionStep = 1.0;  ///< where another session began: it may have felt one plateau
 /// Of what is left of a gain, and of a session's, of which nothing was taken back.
@@ -107,6 +108,26 @@ Bound bound_of(const std::vector<Made>& made) {
   return Bound::None;
 }
 
+/// In the chart, from where the probe came: there it was on the tissue.
+std::vector<Vec2> travel_in_plane(const Surface& surface, std::span<const SurfacePoint> places,
+                                  std::span<const std::vector<Made>> made) {
+  std::vector<Vec2> travel;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vec3 before = surface.position(places[i]) - kTravel_m * travel_to(made[i]);
+    travel.push_back(
+        (chart_place(surface, places[i]) - chart_place(surface, surface.project(before))) /
+        kTravel_m);
+  }
+  return travel;
+}
+
+void set_heights(BackgroundTerms& background, std::span<const Misfit> changes, double range) {
+  background.step_sd = step_sd_of(changes, range);
+  background.median_sd = kWaves * range;
+  background.drift_sd = kDrift * range;
+  background.tilt_sd = kTilt * range;
+}
+
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
                                   const OutlineOptions& options, OutlinePrior& prior) {
   const std::vector<Misfit>& changes = options.changes;
@@ -158,26 +179,29 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
                                           .steps = steps_of(changes, before)});
   readings.shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), std::ssize(shares));
   readings.epoch = epochs_of(before, prior.epochs);
+  if (std::ranges::count(changes, MisfitKind::Late, &Misfit::kind) > 0)
+    readings.travel = travel_in_plane(surface, in_order, made);
   readings.where = std::move(in_order);
   if (std::ranges::count(readings.bounds, Bound::None) == std::ssize(readings.bounds))
     readings.bounds.clear();
-  readings.background.step_sd = step_sd_of(changes, range);
-  readings.background.median_sd = kWaves * range;
-  readings.background.drift_sd = kDrift * range;
-  readings.background.tilt_sd = kTilt * range;
+  set_heights(readings.background, changes, range);
   return readings;
 }
 
-/// What would take each move back again, where the tumour is deepest: of another change, nothing.
+/// What would take each move back again, where the tumour is deepest; a lag wherever it is. Of
+/// another change, nothing.
 std::vector<Vec2> unmoved(const Surface& surface, const EdgeBelief& edge,
                           std::span<const Misfit> changes) {
   Eigen::Index middle = 0;
   edge.depth().maxCoeff(&middle);
   const Vec3 place = surface.vertex(static_cast<int>(middle));
   std::vector<Vec2> all;
-  for (const Misfit& change : changes)
-    all.push_back(chart_place(surface, surface.project(place + change.moved_m)) -
-                  chart_place(surface, surface.project(place)));
+  for (const Misfit& change : changes) {
+    all.push_back(change.kind == MisfitKind::Late
+                      ? Vec2(-change.amount, 0.0)
+                      : chart_place(surface, surface.project(place + change.moved_m)) -
+                            chart_place(surface, surface.project(place)));
+  }
   return all;
 }
 

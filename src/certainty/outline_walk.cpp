@@ -13,12 +13,10 @@ namespace {
 
 /// Nodes to either side that move along with a stretch's middle.
 constexpr std::array kHalfWidths = {0, 1, 3, 7};
-constexpr double kFirst_m = 0.0003, kLeast_m = 1e-8, kMost_m = 0.008;
-constexpr double kOfNodes = 0.3;  ///< as kOfNumbers, of nodes
-constexpr double kGain = 0.3;     ///< of a length's logarithm, a step
+constexpr double kLeast_m = 1e-8;
+constexpr double kGain = 0.3;  ///< of a length's logarithm, a step
 constexpr double kSpacingStep = 0.05;
 constexpr double kNear_m = 0.003, kNothingFelt = 1e-12;
-constexpr double kTradedGain = 0.2;
 constexpr int kSizes = 4;                ///< a sweep
 constexpr double kSlopePerGrowth = 2.0;  ///< of their logarithms, how far they are tried
 constexpr int kProfileRounds = 2;
@@ -246,55 +244,6 @@ void OutlineWalk::switch_line_kind() {
   OutlineProfile profile = chain_.profile();
   profile.turns.kind = draw_line_kind(random_);
   chain_.move_profile(profile, true, random_);
-}
-
-void OutlineWalk::move_changes() {
-  for (std::size_t change = 0; change < lengths_.of_changes.size(); ++change) {
-    double& length = lengths_.of_changes[change];
-    const double step = length * random_.normal();
-    OutlineProfile profile = chain_.profile();
-    switch (chain_.prior().changes[change]) {
-      case MisfitKind::Moved: {
-        const Vec2 next = profile.moved_m[change] + step * direction_of(random_);
-        tune(length, chain_.move_tissue(static_cast<int>(change), next, random_), kOfNodes,
-             kMost_m);
-        move_with_nodes(change);
-        break;
-      }
-      case MisfitKind::Gain:
-        profile.log_gain[change] += step / kFirst_m;
-        tune(length, chain_.move_profile(profile, false, random_), kOfNumbers, kFirst_m);
-        trade_gain(change);
-        break;
-      default:
-        break;  // the background's
-    }
-  }
-}
-
-/// What was felt since lies as far from the outline there, where before it nobody felt that.
-void OutlineWalk::move_with_nodes(std::size_t change) {
-  double& length = lengths_.of_moves[change];
-  const Vec2 way = length * random_.normal() * direction_of(random_);
-  std::vector<Vec2> places = chain_.outline().place;
-  for (std::size_t node = 0; node < places.size(); ++node)
-    places[node] += felt_since_[change][node] * way;
-  const Vec2 next = chain_.profile().moved_m[change] + way;
-  tune(length, chain_.move_tissue_and_nodes(static_cast<int>(change), next, places, random_),
-       kOfNodes, kMost_m);
-}
-
-/// Of a change and the next gain: what is felt after both may tell of neither alone.
-void OutlineWalk::trade_gain(std::size_t change) {
-  const std::vector<MisfitKind>& kinds = chain_.prior().changes;
-  const auto next = std::find(kinds.begin() + static_cast<std::ptrdiff_t>(change) + 1, kinds.end(),
-                              MisfitKind::Gain);
-  if (next == kinds.end()) return;
-  const double step = kTradedGain * random_.normal();
-  OutlineProfile profile = chain_.profile();
-  profile.log_gain[change] += step;
-  profile.log_gain[static_cast<std::size_t>(next - kinds.begin())] -= step;
-  chain_.move_profile(profile, false, random_);
 }
 
 }  // namespace palpation

@@ -49,8 +49,11 @@ class OutlineWalk {
   const OutlineChain& chain() const { return chain_; }
 
  private:
-  /// Share of steps that are taken where they are as long as they should be, of single numbers.
-  static constexpr double kOfNumbers = 0.4;
+  /// Share of steps that are taken where they are as long as they should be, of single numbers and
+  /// of nodes.
+  static constexpr double kOfNumbers = 0.4, kOfNodes = 0.3;
+  /// How long steps are at first, and at most.
+  static constexpr double kFirst_m = 0.0003, kMost_m = 0.008;
   static constexpr int kWidths = 4, kWhole = 6, kOfProfile = 9, kOfCut = 4, kOfCore = 6;
   struct Lengths {
     std::vector<std::array<double, kWidths>> of_stretches;  ///< by node, metres

@@ -121,7 +121,7 @@ namespace {
 /// time.
 std::vector<Misfit> with_gains_of_sessions(std::vector<Misfit> changes) {
   // The outlines' background has the rest of a slope or waves.
-  std::erase_if(changes, is_of_all);
+  std::erase_if(changes, is_background);
   std::vector<Misfit> gains;
   std::vector<int> known;  // sessions of which a gain was taken back
   for (const Misfit& change : changes) {

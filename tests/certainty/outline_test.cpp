@@ -194,7 +194,9 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
             1);
   OutlineReadings readings = felt_around(truth, 80, random);
   OutlinePrior prior = prior_of(start);
-  add_changes({MisfitKind::Moved, MisfitKind::Gain}, readings, prior);
+  add_changes({MisfitKind::Moved, MisfitKind::Gain, MisfitKind::Late}, readings, prior);
+  for (std::size_t i = 0; i < readings.places.size(); ++i)
+    readings.travel.push_back(direction_of(random));
   readings.background = background_terms({.places = readings.places, .when = readings.reading});
   readings.background.median_sd = 0.1;
   OutlineWalk chain(readings, prior, start, prior.median, 5);
@@ -502,6 +504,34 @@ TEST(OutlineWalk, FindsWhatIsLeftOfChanges) {
   EXPECT_LT(std::sqrt(square), 0.15 * kMm);
   EXPECT_LT((mean - moved).norm(), 4.0 * std::sqrt(square));
   EXPECT_NEAR(gain, 1.2, 0.04);
+}
+
+// Readings are of places 0.7 mm farther back than was taken back, and the probe came from anywhere.
+TEST(OutlineWalk, FindsWhatIsLeftOfALag) {
+  Random random(51);
+  const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
+  OutlineReadings readings = felt_around(outline, 300, random);
+  OutlinePrior prior = prior_of(outline);
+  add_changes({MisfitKind::Late}, readings, prior);
+  prior.epochs = {{0}};
+  readings.epoch.clear();
+  constexpr double kLeft_m = 0.7 * kMm;
+  for (Vec2& place : readings.places) {
+    readings.travel.push_back(direction_of(random));
+    place += kLeft_m * readings.travel.back();
+  }
+  OutlineWalk walk(readings, prior, outline, prior.median, 52);
+  walk.settle(400);
+  double mean_m = 0.0, square = 0.0;
+  for (const OutlineDraw& draw : walk.draws(800, 100)) {
+    const Vec2& left = draw.profile.moved_m[0];
+    EXPECT_EQ(left.y(), 0.0);
+    mean_m += left.x() / 100.0;
+    square += std::pow(left.x() - kLeft_m, 2) / 100.0;
+  }
+  EXPECT_LT(std::sqrt(square), 0.2 * kMm);
+  EXPECT_GT(std::sqrt(square), 0.01 * kMm);
+  EXPECT_NEAR(mean_m, kLeft_m, 0.2 * kMm);
 }
 
 TEST(OutlineWalk, WhatIsLeftOfAMoveIsDrawnFromItsPriorWhereReadingsTellNothing) {
