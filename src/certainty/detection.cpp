@@ -17,7 +17,6 @@
 namespace palpation {
 namespace {
 
-constexpr double kResolution_m = 1e-5;
 constexpr int kMostCentres = 2000;
 /// Each a quarter wider than the one before: a disk between two of them loses a twentieth of its
 /// excess at most.
@@ -72,7 +71,7 @@ class Power {
 
 /// A disk so large is found, one of `too_small_m` is not.
 double least_radius_m(const Power& power, int vertex, double too_small_m, double enough_m) {
-  while (enough_m - too_small_m > kResolution_m) {
+  while (enough_m - too_small_m > kRadiusResolution_m) {
     const double middle = 0.5 * (too_small_m + enough_m);
     (power.suffices(vertex, middle) ? enough_m : too_small_m) = middle;
   }

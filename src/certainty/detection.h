@@ -62,6 +62,9 @@ std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3>
                                      const Sought& sought, double diameter_m,
                                      std::span<const int> centres, const FurtherTouches& further);
 
+/// To which radii are looked for.
+inline constexpr double kRadiusResolution_m = 1e-5;
+
 /// Standard deviations: what is needed for three nats of evidence after the choice among all places
 /// and widths, which costs about seven: z^2 / 2 = 10.
 inline constexpr double kNeededToFind = 4.47;

@@ -17,9 +17,8 @@
 namespace palpation {
 namespace {
 
-constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
-constexpr double kWildReach =
-    6.0;  ///< of readings that tell nothing, in sd of a plateau: three ranges
+constexpr double kTurn = 0.12;      ///< radians a piece, of the prior's median
+constexpr double kWildReach = 6.0;  ///< of wild readings, in a plateau's sd: three ranges
 /// Of how large an outline is: what nobody knows is within e times as wide or as narrow.
 constexpr double kMostSizeLogSd = 1.0;
 /// Of a noise that is given: edges are no perfect sigmoids.

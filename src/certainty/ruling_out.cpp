@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "certainty/detection.h"
@@ -43,9 +44,6 @@ class Lack {
         radius_m_(radius_m),
         slope_per_m_(sought.slope_per_m) {}
 
-  bool is_any() const {
-    return std::ranges::any_of(lack_, [](double lacking) { return lacking > 0.0; });
-  }
   double taken_by(const Vec3& touch) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < centres_.size(); ++i) {
@@ -53,6 +51,21 @@ class Lack {
       sum += taken * (2.0 * lack_[i] - taken);
     }
     return sum;
+  }
+  /// Of the centres where something is lacking, as many as are looked at.
+  void keep_some() {
+    std::vector<int> lacking;
+    for (std::size_t i = 0; i < lack_.size(); ++i) {
+      if (lack_[i] > 0.0) lacking.push_back(static_cast<int>(i));
+    }
+    std::vector<Vec3> centres;
+    std::vector<double> lack;
+    for (const int i : thinned(lacking)) {
+      centres.push_back(centres_[static_cast<std::size_t>(i)]);
+      lack.push_back(lack_[static_cast<std::size_t>(i)]);
+    }
+    centres_ = std::move(centres);
+    lack_ = std::move(lack);
   }
   bool reaches(const Vec3& touch) const {
     return std::ranges::any_of(
@@ -75,19 +88,6 @@ class Lack {
   double slope_per_m_;
 };
 
-/// Of the centres those at which a disk of this diameter would not be found.
-std::vector<int> still_lacking(const Layout& layout, std::span<const Vec3> places,
-                               const Sought& sought, double diameter_m,
-                               std::span<const int> centres) {
-  std::vector<int> lacking;
-  for (const int centre : centres) {
-    Lack lack({layout.at(centre)}, sought, 0.5 * diameter_m, places.size());
-    for (const Vec3& place : places) lack.take(place);
-    if (lack.is_any()) lacking.push_back(centre);
-  }
-  return lacking;
-}
-
 }  // namespace
 
 std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3> places,
@@ -96,9 +96,9 @@ std::vector<int> touches_to_rule_out(const Layout& layout, std::span<const Vec3>
   check(sought, "touches_to_rule_out");
   require(std::isfinite(diameter_m) && diameter_m > 0.0, "touches_to_rule_out",
           "diameter_m = " + text_of(diameter_m), "must be positive and finite");
-  Lack lack(places_of(layout, thinned(still_lacking(layout, places, sought, diameter_m, centres))),
-            sought, 0.5 * diameter_m, places.size());
+  Lack lack(places_of(layout, centres), sought, 0.5 * diameter_m, places.size());
   for (const Vec3& place : places) lack.take(place);
+  lack.keep_some();
   std::vector<int> near;
   std::ranges::copy_if(further.candidates, std::back_inserter(near),
                        [&](int vertex) { return lack.reaches(layout.at(vertex)); });

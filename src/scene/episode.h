@@ -97,8 +97,8 @@ struct GoalState {
   /// Further ones, kMostTouchesCounted at most, for all whose middle may be touched.
   std::size_t touches_needed = 0;
 
-  /// To twice the hundredth of a millimetre to which radii are looked for.
-  bool is_reached() const { return undetected_m && *undetected_m <= diameter_m + 2e-5; }
+  /// As far as diameters are looked for.
+  bool is_reached() const;
 };
 std::optional<GoalState> goal_state(const Episode& episode);
 /// Those that are not set aside, the trend taken off.

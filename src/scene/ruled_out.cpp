@@ -29,6 +29,10 @@ std::optional<double> diameter_ruled_out_m(const Episode& episode) {
   return ruled_out_m(episode, episode.band_probability());
 }
 
+bool GoalState::is_reached() const {
+  return undetected_m && *undetected_m <= diameter_m + 2.0 * kRadiusResolution_m;
+}
+
 std::optional<GoalState> goal_state(const Episode& episode) {
   const Exploration& exploration = episode.exploration;
   const Aim& aim = exploration.plan().aim;
