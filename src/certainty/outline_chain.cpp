@@ -65,7 +65,7 @@ OutlineChain::OutlineChain(const OutlineReadings& readings, const OutlinePrior& 
 std::vector<OutlineChain::Felt> OutlineChain::felt_at_start() {
   for (int which = 0; which < kCuts; ++which) taken_.stadiums[which] = taken_.cuts[which].stadium();
   std::vector<Felt> felt;
-  for (std::size_t i = 0; i < readings_->places.size(); ++i) felt.push_back(felt_anew(i));
+  for (std::size_t i = 0; i < readings_->places.size(); ++i) felt.push_back(felt_anew(place_of(i)));
   return felt;
 }
 
@@ -88,6 +88,8 @@ Vec2 OutlineChain::place_of(std::size_t reading) const {
                  ? Vec2(-moved_m.x() * readings_->travel[reading])
                  : moved_m;
   }
+  if (const Wandering& wandering = profile_.wandering; !wandering.is_none())
+    place += way_of(wandering, *readings_, static_cast<Eigen::Index>(reading));
   return place;
 }
 
@@ -95,45 +97,42 @@ int OutlineChain::part_of(const Felt& felt) const {
   return outline_.loops[outline_.loop_of[felt.nearest.piece]].part;
 }
 
-double OutlineChain::depth_of(std::size_t reading, const Felt& felt) const {
+double OutlineChain::depth_of(const Felt& felt) const {
   const double distance = std::sqrt(felt.nearest.square);
   double depth = felt.inside ? distance : -distance;
-  const Vec2 place = place_of(reading);
   for (int which = 0; which < kCuts; ++which) {
     if (taken_.cuts[which].is_present)
-      depth = std::min(depth, -taken_.stadiums[which].depth_at(place));
+      depth = std::min(depth, -taken_.stadiums[which].depth_at(felt.place));
   }
   return depth;
 }
 
 /// How far it is off the profile.
 double OutlineChain::off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
-  const double rise = law.gain[epoch_of(reading)] * law.contrast[part_of(felt)] *
-                      share_of_contrast(reading, felt, law);
+  const double rise =
+      law.gain[epoch_of(reading)] * law.contrast[part_of(felt)] * share_of_contrast(felt, law);
   return readings_->reading[reading] - law.low - rise;
 }
 
 /// Of its part's.
-double OutlineChain::share_of_contrast(std::size_t reading, const Felt& felt,
-                                       const ReadingLaw& law) const {
+double OutlineChain::share_of_contrast(const Felt& felt, const ReadingLaw& law) const {
   if (!law.has_core(part_of(felt))) return felt.share;
-  return share_by_core(law, place_of(reading), felt.depth_m, felt.share);
+  return share_by_core(law, felt.place, felt.depth_m, felt.share);
 }
 
-double OutlineChain::share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const {
-  return share_at(law, felt.depth_m, steepness_at(law, place_of(reading)));
+double OutlineChain::share_of(const Felt& felt, const ReadingLaw& law) const {
+  return share_at(law, felt.depth_m, steepness_at(law, felt.place));
 }
 
-OutlineChain::Felt OutlineChain::felt_anew(std::size_t reading) const {
-  const Vec2 place = place_of(reading);
-  return felt_at(reading, pieces_.nearest(place), pieces_.encloses(place));
+OutlineChain::Felt OutlineChain::felt_anew(const Vec2& place) const {
+  return felt_at(place, pieces_.nearest(place), pieces_.encloses(place));
 }
 
-OutlineChain::Felt OutlineChain::felt_at(std::size_t reading, NearestPiece nearest,
+OutlineChain::Felt OutlineChain::felt_at(const Vec2& place, NearestPiece nearest,
                                          bool inside) const {
-  Felt felt{.nearest = nearest, .inside = inside};
-  felt.depth_m = depth_of(reading, felt);
-  felt.share = share_of(reading, felt, law_);
+  Felt felt{.place = place, .nearest = nearest, .inside = inside};
+  felt.depth_m = depth_of(felt);
+  felt.share = share_of(felt, law_);
   return felt;
 }
 
@@ -206,15 +205,15 @@ bool OutlineChain::may_swallow(const Step& step) const {
 
 /// Neither which side it lies on nor what is nearest to it can have changed.
 bool OutlineChain::is_untouched(const Step& step, std::size_t reading) const {
-  const Vec2 place = place_of(reading);
+  const Vec2& place = felt_[reading].place;
   const NearestPiece& nearest = felt_[reading].nearest;
   return !step.moves(nearest.piece) && !step.ever.contains(place) &&
          step.now.squaredExteriorDistance(place) > nearest.square;
 }
 
 OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t reading) const {
-  const Vec2 place = place_of(reading);
-  if (step.pieces.size() > kFew) return felt_anew(reading);
+  const Vec2& place = felt_[reading].place;
+  if (step.pieces.size() > kFew) return felt_anew(place);
   auto [nearest, inside] = std::pair(felt_[reading].nearest, felt_[reading].inside);
   const bool may_flip = step.ever.contains(place);
   NearestPiece moved{.square = 1e300};
@@ -230,7 +229,7 @@ OutlineChain::Felt OutlineChain::felt_after(const Step& step, std::size_t readin
   } else if (step.moves(nearest.piece)) {
     nearest = pieces_.nearest(place);
   }
-  return felt_at(reading, nearest, inside);
+  return felt_at(place, nearest, inside);
 }
 
 OutlineChain::Step OutlineChain::step_from(int first, int moved) const {

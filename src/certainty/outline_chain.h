@@ -48,6 +48,20 @@ class OutlineChain {
   bool move_tissue_and_nodes(int change, const Vec2& moved_m, const std::vector<Vec2>& places,
                              Random& random);
 
+  /// Proposes that a reading's own way differs by so much, over the scale of such ways.
+  bool wander(std::size_t reading, const Vec2& by, Random& random);
+  /// The same of a term of ways that last.
+  bool wander_lasting(Eigen::Index term, const Vec2& by, Random& random);
+  /// Proposes that places wander so far, and all nodes move to these places, by the proposal as
+  /// likely as back.
+  bool wander_with_nodes(const Wandering& wandering, const std::vector<Vec2>& places,
+                         Random& random);
+
+  /// Other ways that last, by which places lie where they do.
+  void redraw_lasting_ways(Random& random);
+  /// Proposes other scales of ways by which places lie where they do.
+  bool rescale_wandering(const Wandering& wandering, Random& random);
+
   /// Another noise, background and other readings that tell nothing, from what they are given all
   /// else. Returns the zero's steps, drawn with them.
   Eigen::VectorXd redraw_residuals(Random& random, bool keeps_telling);
@@ -73,6 +87,7 @@ class OutlineChain {
  private:
   /// Where a reading lies to the outline.
   struct Felt {
+    Vec2 place = Vec2::Zero();  ///< where it was made, as far as that is known
     NearestPiece nearest;
     bool inside = false;
     double depth_m = 0.0;  ///< in the loops, less what cuts take
@@ -84,13 +99,13 @@ class OutlineChain {
   int epoch_of(std::size_t reading) const;
   Vec2 place_of(std::size_t reading) const;
   int part_of(const Felt& felt) const;
-  double depth_of(std::size_t reading, const Felt& felt) const;
+  double depth_of(const Felt& felt) const;
   /// Of its part's contrast, for where the core is.
-  double share_of_contrast(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
-  double share_of(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
+  double share_of_contrast(const Felt& felt, const ReadingLaw& law) const;
+  double share_of(const Felt& felt, const ReadingLaw& law) const;
   double off_from(std::size_t reading, const Felt& felt, const ReadingLaw& law) const;
-  Felt felt_anew(std::size_t reading) const;
-  Felt felt_at(std::size_t reading, NearestPiece nearest, bool inside) const;
+  Felt felt_anew(const Vec2& place) const;
+  Felt felt_at(const Vec2& place, NearestPiece nearest, bool inside) const;
   std::vector<Felt> felt_at_start();
   OutlineResiduals fresh_residuals() const;
   double log_prior() const;
@@ -108,6 +123,8 @@ class OutlineChain {
   /// Whether what is considered is taken, where the rest of the log density changes by so much;
   /// makes it so.
   bool takes(double change, Random& random);
+  bool feels_elsewhere(const OutlineProfile& profile, const std::vector<Vec2>& places,
+                       Random& random);
   bool feels_profile(const OutlineProfile& profile, double change, Random& random);
   bool try_cut(int which, const OutlineCut& cut, double change, Random& random);
   Step step_from(int first, int moved) const;

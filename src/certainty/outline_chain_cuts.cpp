@@ -14,8 +14,8 @@ bool OutlineChain::try_cut(int which, const OutlineCut& cut, double change, Rand
   const Stadium stadium_before = std::exchange(taken_.stadiums[which], cut.stadium());
   consider_none();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    if (depth_of(i, felt_[i]) != felt_[i].depth_m)
-      consider(i, felt_at(i, felt_[i].nearest, felt_[i].inside), law_);
+    const auto& [place, nearest, inside, depth_m, share] = felt_[i];
+    if (depth_of(felt_[i]) != depth_m) consider(i, felt_at(place, nearest, inside), law_);
   }
   const bool taken = takes(change, random);
   if (!taken) {

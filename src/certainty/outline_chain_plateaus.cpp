@@ -29,7 +29,7 @@ OutlineChain::Plateaus OutlineChain::plateaus() const {
     }
     const double rise = law_.gain[epoch_of(i)] *
                         std::exp(profile_.log_contrast[part_of(felt_[i])]) *
-                        share_of_contrast(i, felt_[i], law_);
+                        share_of_contrast(felt_[i], law_);
     columns.row(static_cast<Eigen::Index>(i)) << 1.0 - rise, rise,
         readings_->reading[i] - low - (high - low) * rise;
   }
@@ -62,7 +62,7 @@ bool OutlineChain::move_whatever_plateaus(const std::vector<Vec2>& places, doubl
     pieces_ = OutlinePieces(outline_);
     profile_.log_slope = log_slope;
     law_ = law_of(profile_, *prior_);
-    for (std::size_t i = 0; i < felt_.size(); ++i) felt_[i] = felt_anew(i);
+    for (std::size_t i = 0; i < felt_.size(); ++i) felt_[i] = felt_anew(felt_[i].place);
     std::vector<int> held = held_in(felt_);
     const Plateaus then = plateaus();
     taken = may_hold(held) &&

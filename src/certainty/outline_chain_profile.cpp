@@ -6,7 +6,6 @@
 #include "certainty/outline_chain.h"
 
 namespace palpation {
-
 bool OutlineChain::move_profile(const OutlineProfile& profile, bool is_of_shape, Random& random) {
   const double change =
       log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_);
@@ -36,7 +35,7 @@ bool OutlineChain::feels_profile(const OutlineProfile& profile, double change, R
   consider_none();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     Felt felt = felt_[i];
-    if (!keeps_shares) felt.share = share_of(i, felt, law);
+    if (!keeps_shares) felt.share = share_of(felt, law);
     consider(i, felt, law);
   }
   if (!takes(change, random)) return false;
@@ -51,7 +50,7 @@ bool OutlineChain::move_tissue(int change, const Vec2& moved_m, Random& random) 
   consider_none();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
     if (std::ranges::count(prior_->epochs[epoch_of(i)], change) > 0)
-      consider(i, felt_anew(i), law_);
+      consider(i, felt_anew(place_of(i)), law_);
   }
   const bool taken =
       takes(log_profile_density(profile_, *prior_) - log_profile_density(before, *prior_), random);
@@ -61,22 +60,30 @@ bool OutlineChain::move_tissue(int change, const Vec2& moved_m, Random& random) 
 
 bool OutlineChain::move_tissue_and_nodes(int change, const Vec2& moved_m,
                                          const std::vector<Vec2>& places, Random& random) {
+  OutlineProfile profile = profile_;
+  profile.moved_m[change] = moved_m;
+  return feels_elsewhere(profile, places, random);
+}
+
+/// Whether readings that were made elsewhere by this profile, and nodes that moved, are taken.
+bool OutlineChain::feels_elsewhere(const OutlineProfile& profile, const std::vector<Vec2>& places,
+                                   Random& random) {
   const OutlineNodes outline = outline_;
-  const OutlineProfile profile = profile_;
-  const double before = log_prior();
+  const OutlineProfile before = profile_;
+  const double log_prior_before = log_prior();
   outline_.place = places;
   pieces_ = OutlinePieces(outline_);
-  profile_.moved_m[change] = moved_m;
+  profile_ = profile;
   bool taken = is_simple(outline_) && is_nested_as_before();
   if (taken) {
     consider_none();
-    for (std::size_t i = 0; i < felt_.size(); ++i) consider(i, felt_anew(i), law_);
-    taken = takes(log_prior() - before, random);
+    for (std::size_t i = 0; i < felt_.size(); ++i) consider(i, felt_anew(place_of(i)), law_);
+    taken = takes(log_prior() - log_prior_before, random);
   }
   if (!taken) {
     outline_ = outline;
     pieces_ = OutlinePieces(outline_);
-    profile_ = profile;
+    profile_ = before;
   }
   return taken;
 }

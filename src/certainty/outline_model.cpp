@@ -22,7 +22,8 @@ constexpr double kUnbentLogSd = 0.25;   ///< of those of any edge between platea
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
-constexpr int kPerLogarithm = 16;       ///< turns, whose density is a number by far
+constexpr double kWanderingLogSd = 1.2;
+constexpr int kPerLogarithm = 16;  ///< turns, whose density is a number by far
 
 /// sinh(power asinh t) / power
 double bent(double t, double power) {
@@ -50,9 +51,15 @@ double log_density_of_closing(int nodes, const TurnLaw& law, double log_spacing)
 
 /// Of shoulder and skirt, where they spread so.
 double bend_density(const OutlineProfile& profile, double log_sd) {
-  return std::exp(-half_square(profile.log_shoulder / log_sd) -
-                  half_square(profile.log_skirt / log_sd)) /
+  return std::exp(-half_square(profile.log_powers.x() / log_sd) -
+                  half_square(profile.log_powers.y() / log_sd)) /
          (2.0 * std::numbers::pi * log_sd * log_sd);
+}
+
+/// Of the log density, less.
+double off_prior(const Wandering::Ways& ways, const Wandering::Ways& median) {
+  return 0.5 * ways.terms.squaredNorm() +
+         half_square((ways.log_scale - median.log_scale) / kWanderingLogSd);
 }
 
 double median_log_turn(const OutlineProfile& profile, const OutlinePrior& prior) {
@@ -75,8 +82,8 @@ struct Kinds {
 ReadingLaw law_of(const OutlineProfile& profile, const OutlinePrior& prior) {
   ReadingLaw law{.low = profile.low,
                  .slope_per_m = std::exp(profile.log_slope),
-                 .shoulder = std::exp(profile.log_shoulder),
-                 .skirt = std::exp(profile.log_skirt),
+                 .shoulder = std::exp(profile.log_powers.x()),
+                 .skirt = std::exp(profile.log_powers.y()),
                  .logit_fraction = logit(prior.fraction),
                  .lean = profile.lean.value_or(Lean::Zero()),
                  .middle = prior.middle,
@@ -116,6 +123,13 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
   const double steps = logit(share) - law.logit_fraction,
                power = steps > 0.0 ? law.shoulder : law.skirt;
   return bent(power * steps, 1.0 / power) / (law.slope_per_m * steepness * power);
+}
+
+Vec2 way_of(const Wandering& wandering, const OutlineReadings& readings, Eigen::Index reading) {
+  const auto& [of_each, lasting] = wandering;
+  return std::exp(of_each.log_scale) * of_each.terms.row(reading).transpose() +
+         std::exp(lasting.log_scale) *
+             (readings.lasting_ways.row(reading) * lasting.terms).transpose();
 }
 
 ResidualPrior residual_prior(const OutlinePrior& prior) {
@@ -194,6 +208,8 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   }
   for (std::size_t change = 0; change < profile.log_gain.size(); ++change)
     sum += half_square(profile.log_gain[change] / prior.gain_log_sd[change]);
+  sum += off_prior(profile.wandering.of_each, median.wandering.of_each) +
+         off_prior(profile.wandering.lasting, median.wandering.lasting);
   const double of_core =
       profile.core ? log_core_density(*profile.core, prior.middle, prior.radius_m, prior.fraction)
                    : 0.0;

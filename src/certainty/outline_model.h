@@ -40,14 +40,27 @@ inline constexpr double kLeastSizeLogSd = 0.3;
 /// How far tissue moves, beforehand, on each axis.
 inline constexpr double kMoveSd_m = 0.003;
 
+/// How far readings were made from where they are said to be, along x and y: each by a way of its
+/// own, and by one that lasts over some of them. No rows where places are known.
+struct Wandering {
+  struct Ways {
+    Eigen::MatrixX2d terms{};  ///< a row each, of variance one beforehand
+    double log_scale = 0.0;    ///< of metres
+  };
+  Ways of_each{};  ///< a row a reading
+  Ways lasting{};  ///< OutlineReadings::lasting_ways times these
+
+  bool is_none() const { return of_each.terms.rows() == 0; }
+};
+
 /// All but the nodes that is not known.
 struct OutlineProfile {
   double low = 0.0;
   double high = 0.0;
   double log_slope = 0.0;      ///< of a slope per metre, in the tumour's middle
   std::optional<Lean> lean{};  ///< how that differs by side, seen from OutlinePrior::middle
-  double log_shoulder = 0.0;   ///< of the power with which readings rise on inside
-  double log_skirt = 0.0;      ///< and fall on outside
+  /// With which readings rise on inside, its shoulder, and fall on outside, its skirt.
+  Vec2 log_powers = Vec2::Zero();
   Turns turns{};
   std::vector<double> log_spacing;   ///< of each loop's pieces, metres
   std::vector<double> log_contrast;  ///< of each part, the first one's 0
@@ -57,6 +70,7 @@ struct OutlineProfile {
   /// the first number, by which they come later.
   std::vector<Vec2> moved_m{};
   std::vector<double> log_gain{};
+  Wandering wandering{};
 };
 
 /// In reading units.
@@ -106,6 +120,8 @@ double share_at(const ReadingLaw& law, double depth_m, double steepness = 1.0);
 double share_by_core(const ReadingLaw& law, const Vec2& place, double depth_m, double share);
 /// The depth at which it has so much of it, which lies in (0, 1).
 double depth_where(const ReadingLaw& law, double share, double steepness = 1.0);
+/// By how much a reading was made elsewhere.
+Vec2 way_of(const Wandering& wandering, const OutlineReadings& readings, Eigen::Index reading);
 /// Of what a reading is off by that.
 ResidualPrior residual_prior(const OutlinePrior& prior);
 

@@ -8,6 +8,7 @@
 #include "certainty/outline_core_start.h"
 #include "certainty/outline_draws.h"
 #include "certainty/outline_pruning.h"
+#include "certainty/wandering.h"
 #include "palpation/base/error.h"
 #include "palpation/base/parallel.h"
 
@@ -234,6 +235,19 @@ OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const
                     options.seed);
 }
 
+/// Where places may wander, with ways; without, where these do not matter after all.
+OutlineDraws drawn_wandering(const OutlineStart& plain, const Surface& surface, const Field& mean,
+                             const OutlineOptions& options) {
+  if (do_places_wander(plain, options.seed)) {
+    OutlineStart wandering = plain;
+    let_wander(wandering);
+    OutlineDraws drawn = drawn_from(wandering, surface, mean, options);
+    drawn.misfit.wandering = wandering_by(drawn.draws, wandering.readings);
+    if (drawn.misfit.wandering->may_matter()) return drawn;
+  }
+  return drawn_from(plain, surface, mean, options);
+}
+
 }  // namespace
 
 double OutlinePosterior::band_score(double probability) const {
@@ -262,7 +276,7 @@ std::optional<OutlinePosterior> sample_outlines(const Belief& belief, const Edge
   std::optional<OutlineStart> first = outline_start(belief, mean, edge, options);
   if (!first) return std::nullopt;
   const auto [draws, misfit] =
-      drawn_from(pruned(*std::move(first), options.seed), surface, mean, options);
+      drawn_wandering(pruned(*std::move(first), options.seed), surface, mean, options);
   const auto [depths, levels, has_plateau] = boundaries_at(surface, draws);
   OutlinePosterior posterior{.depth = median_depth(depths),
                              .spread = spread_of(surface, depths),

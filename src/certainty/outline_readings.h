@@ -22,7 +22,11 @@ struct OutlineReadings {
   /// In which direction the probe came to each, at most of length one; empty where all are known
   /// to be of where they were made.
   std::vector<Vec2> travel{};
-  std::vector<SurfacePoint> where{};  ///< on the surface, where those are of one; else none
+  std::vector<SurfacePoint> where{};      ///< on the surface, where those are of one; else none
+  std::vector<std::vector<Made>> made{};  ///< each of which there may be several; else none
+  /// How far each lies elsewhere for one unit of each term of a way that lasts (wandering.h), over
+  /// that way's scale: rows are readings, columns terms. Empty where places are known.
+  Eigen::MatrixXd lasting_ways{};
 };
 
 }  // namespace palpation

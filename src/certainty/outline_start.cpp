@@ -181,6 +181,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   if (std::ranges::count(changes, MisfitKind::Late, &Misfit::kind) > 0)
     readings.travel = travel_in_plane(surface, in_order, made);
   readings.where = std::move(in_order);
+  readings.made = std::move(made);
   if (std::ranges::count(readings.bounds, Bound::None) == std::ssize(readings.bounds))
     readings.bounds.clear();
   set_heights(readings.background, changes, range);

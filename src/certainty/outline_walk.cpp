@@ -1,5 +1,6 @@
 #include "certainty/outline_walk.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -76,6 +77,11 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   lengths_.of_moves.assign(prior.changes.size(), kFirst_m);
   for (std::size_t change = 0; change < prior.changes.size(); ++change)
     felt_since_.push_back(share_since(readings, prior, static_cast<int>(change), outline));
+  lengths_.of_ways[0].assign(readings.places.size(), 1.0);
+  lengths_.of_ways[1].assign(static_cast<std::size_t>(readings.lasting_ways.cols()), 1.0);
+  if (readings.lasting_ways.cols() > 0)
+    same_way_ = readings.lasting_ways.completeOrthogonalDecomposition().solve(
+        Eigen::VectorXd::Ones(readings.lasting_ways.rows()));
   lengths_.of_profile.fill(0.1);
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
   lengths_.of_core = {kFirst_m, kFirst_m, 0.1, kFirst_m, 0.3, 0.05};
@@ -140,6 +146,7 @@ void OutlineWalk::sweep() {
     move_core();
   }
   move_changes();
+  wander();
   if (swept_++ % kResidualsEvery == 0) steps_ = chain_.redraw_residuals(random_, keeps_telling_);
   move_cuts();
 }
@@ -216,8 +223,8 @@ void OutlineWalk::move_profile() {
                                                      {lean ? lean + 1 : lean, false},
                                                      {lean ? lean + 2 : lean, false},
                                                      {lean ? lean + 3 : lean, false},
-                                                     {&profile.log_shoulder, false},
-                                                     {&profile.log_skirt, false},
+                                                     {&profile.log_powers.x(), false},
+                                                     {&profile.log_powers.y(), false},
                                                      {&profile.turns.log_half_width, true},
                                                      {&profile.turns.log_bend, true}}};
     const auto [value, is_of_turns] = numbers[i];

@@ -64,7 +64,10 @@ class OutlineWalk {
     std::array<double, kOfProfile> of_profile;
     std::array<double, kOfCut> of_cuts;
     std::array<double, kOfCore> of_core;
-    double of_size = 0.03;  ///< logarithm
+    std::array<std::vector<double>, 2> of_ways;        ///< by reading; that last, by term; of one
+    double of_size = 0.03;                             ///< logarithm
+    std::array<double, 2> of_way_scales = {0.1, 0.1};  ///< logarithm
+    double of_wandering_with_nodes = kFirst_m;
   };
 
   void sweep();
@@ -81,6 +84,9 @@ class OutlineWalk {
   void move_core();
   void move_changes();
   void move_with_nodes(std::size_t change);
+  void wander();
+  void scale_ways();
+  void wander_with_nodes();
   void trade_gain(std::size_t change);
   void move_cuts();
   void tune(double& length, bool taken, double share, double most) const;
@@ -89,7 +95,8 @@ class OutlineWalk {
   Random random_;
   Lengths lengths_;
   std::vector<std::vector<double>> felt_since_;  // by change and node, a share
-  Eigen::VectorXd steps_;                        // of the zero, as last drawn
+  Eigen::VectorXd same_way_;  // terms by which all ways that last are alike, over their scale
+  Eigen::VectorXd steps_;     // of the zero, as last drawn
   bool settling_ = false;
   bool keeps_telling_ = false;  // readings that tell, and the kind of lines
   int swept_ = 0;

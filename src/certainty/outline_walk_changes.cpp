@@ -1,5 +1,7 @@
-// How a walk moves what is left of changes: tissue, a lag, gains.
+// How a walk moves what is left of changes: tissue, a lag, gains; and places that wander.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -9,6 +11,8 @@ namespace palpation {
 namespace {
 
 constexpr double kTradedGain = 0.2;
+constexpr int kRescaled = 4;
+constexpr std::size_t kOneIn = 2;  ///< ways so many are tried a sweep
 
 }  // namespace
 
@@ -65,6 +69,60 @@ void OutlineWalk::trade_gain(std::size_t change) {
   profile.log_gain[change] += step;
   profile.log_gain[static_cast<std::size_t>(next - kinds.begin())] -= step;
   chain_.move_profile(profile, false, random_);
+}
+
+void OutlineWalk::wander() {
+  if (chain_.profile().wandering.is_none()) return;
+  auto& [of_each, lasting] = lengths_.of_ways;
+  const auto way = [&](double length) {
+    return Vec2(length * random_.normal(), length * random_.normal());
+  };
+  const auto any_of = [&](const std::vector<double>& lengths) {
+    return static_cast<std::size_t>(random_.below(static_cast<int>(lengths.size())));
+  };
+  for (std::size_t i = 0; i < of_each.size(); i += kOneIn) {
+    const std::size_t reading = any_of(of_each);
+    double& length = of_each[reading];
+    tune(length, chain_.wander(reading, way(length), random_), kOfNodes, 1.0);
+  }
+  for (std::size_t i = 0; i < lasting.size(); i += kOneIn) {
+    const std::size_t term = any_of(lasting);
+    double& length = lasting[term];
+    tune(length, chain_.wander_lasting(static_cast<Eigen::Index>(term), way(length), random_),
+         kOfNodes, 1.0);
+  }
+  chain_.redraw_lasting_ways(random_);
+  scale_ways();
+  wander_with_nodes();
+}
+
+/// With and without their readings: neither alone goes far where ways are well known, or not at all
+/// (Yu and Meng 2011).
+void OutlineWalk::scale_ways() {
+  constexpr std::array kKinds = {&Wandering::of_each, &Wandering::lasting};
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+    for (int i = 0; i < kRescaled; ++i) {
+      Wandering other = chain_.profile().wandering;
+      Wandering::Ways& ways = other.*kKinds[kind];
+      ways.log_scale += random_.normal() / std::sqrt(static_cast<double>(ways.terms.rows()));
+      chain_.rescale_wandering(other, random_);
+    }
+    Wandering other = chain_.profile().wandering;
+    (other.*kKinds[kind]).log_scale += lengths_.of_way_scales[kind] * random_.normal();
+    tune(lengths_.of_way_scales[kind],
+         chain_.wander_with_nodes(other, chain_.outline().place, random_), kOfNumbers, 1.0);
+  }
+}
+
+/// Where all places wander alike, readings tell nothing of the outline's own place.
+void OutlineWalk::wander_with_nodes() {
+  double& length = lengths_.of_wandering_with_nodes;
+  const Vec2 way = length * random_.normal() * direction_of(random_);
+  Wandering other = chain_.profile().wandering;
+  other.lasting.terms += same_way_ * way.transpose() / std::exp(other.lasting.log_scale);
+  std::vector<Vec2> places = chain_.outline().place;
+  for (Vec2& place : places) place += way;
+  tune(length, chain_.wander_with_nodes(other, places, random_), kOfNodes, kMost_m);
 }
 
 }  // namespace palpation

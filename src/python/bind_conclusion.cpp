@@ -102,6 +102,15 @@ py::object core_of(const Conclusion& all) {
                   "with_m2"_a = core.with_m2, "without_m2"_a = core.without_m2);
 }
 
+py::object wandering_of(const Conclusion& all) {
+  if (!all.outlines || !all.outlines->misfit.wandering) return py::none();
+  const WanderingPlaces& wandering = *all.outlines->misfit.wandering;
+  return py::dict("way_m"_a = wandering.way_m.mean, "lasting"_a = wandering.lasting.mean,
+                  "way_interval_m"_a = py::make_tuple(wandering.way_m.least, wandering.way_m.most),
+                  "farthest_number"_a = wandering.farthest + 1,
+                  "farthest_m"_a = wandering.farthest_m);
+}
+
 py::dict summary(const Concluded& here) {
   const Conclusion& all = here.conclusion;
   const Belief& belief = all.belief;
@@ -132,6 +141,7 @@ py::dict summary(const Concluded& here) {
     result["noise_inside"] = all.outlines->noise_inside.mean;
   }
   result["core"] = core_of(all);
+  result["wandering"] = wandering_of(all);
   result["taken_back"] = changes_of(all);
   const std::optional<Misfit>& step = all.evidence.zero_or_tissue;
   result["zero_or_tissue"] = step ? py::object(change_of(*step)) : py::none();

@@ -168,6 +168,29 @@ std::string scatter_words(const Conclusion& conclusion) {
               : ".");
 }
 
+std::string ways_words(const DrawnNumber& lasting) {
+  if (lasting.most < 0.5)
+    return "most of it each by a way of its own, as tissue that breathes faster than it is "
+           "touched, or poses that are rough, make them";
+  if (lasting.least > 0.5)
+    return "most of it by ways that last over some readings, as tissue that breathes or sags, or "
+           "an arm whose calibration drifts, makes them";
+  return "as tissue that breathes, poses that are rough, or an arm whose calibration drifts make "
+         "them";
+}
+
+/// Nothing unless they surely do.
+std::string wandering_words(const WanderingPlaces& wandering) {
+  if (!wandering.is_sure()) return "";
+  return "Readings were made " + fixed(wandering.way_m.mean * 1e3, 1) + " mm (" +
+         fixed(wandering.way_m.least * 1e3, 1) + " to " + fixed(wandering.way_m.most * 1e3, 1) +
+         ") from where they are said to be, root mean square, " + ways_words(wandering.lasting) +
+         "; number " + std::to_string(wandering.farthest + 1) + " the farthest, by " +
+         fixed(wandering.farthest_m * 1e3, 1) +
+         " mm. The outline and its band know that: what would make them sharper is tissue that "
+         "is still, and poses that are right.";
+}
+
 std::string core_words(const Surface& surface, const DrawnCore& core) {
   if (core.probability < 1.0)
     return "Whether the stiff region is of one height, " + fixed(core.without_m2 * 1e6, 0) +
@@ -251,6 +274,8 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   if (conclusion.outlines) {
     words.push_back(unheeded_words(conclusion));
     words.push_back(scatter_words(conclusion));
+    if (conclusion.outlines->misfit.wandering)
+      words.push_back(wandering_words(*conclusion.outlines->misfit.wandering));
     if (conclusion.outlines->core_matters())
       words.push_back(core_words(surface, *conclusion.outlines->core));
     if (!conclusion.outlines->misfit.do_agree())

@@ -54,6 +54,7 @@ std::vector<std::string> modelled(const Conclusion& conclusion) {
     for (const char* term : {"outlines with corners", "bent edges", "leaning edges", "waves",
                              "drift", "tilt", "wild readings"})
       terms.emplace_back(term);
+    if (conclusion.outlines->misfit.wandering) terms.emplace_back("places that wander");
   }
   if (!conclusion.certainty) return terms;
   terms.emplace_back(conclusion.outlines ? "sampled certainty"

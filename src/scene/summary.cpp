@@ -69,12 +69,21 @@ json core_json(const std::optional<DrawnCore>& core, const Surface& surface) {
           {"without_mm2", core->without_m2 * kMm2}};
 }
 
+json wandering_json(const std::optional<WanderingPlaces>& wandering) {
+  if (!wandering) return nullptr;
+  return {{"way_mm", wandering->way_m.mean * kMm},
+          {"way_interval_mm", {wandering->way_m.least * kMm, wandering->way_m.most * kMm}},
+          {"lasting", wandering->lasting.mean},
+          {"farthest_number", wandering->farthest + 1},
+          {"farthest_mm", wandering->farthest_m * kMm}};
+}
+
 /// What the band and the cut line enclose, and what is expected to be wrong; null where nothing is
 /// known of a boundary.
 void add_certainty(json& summary, const Episode& episode, double cut_risk) {
-  for (const char* key :
-       {"certainty", "area_interval_mm2", "plateau_probability", "noise_inside", "core",
-        "expected_missed_mm2", "expected_extra_mm2", "expected_untouched_mm2", "band", "cut"})
+  for (const char* key : {"certainty", "area_interval_mm2", "plateau_probability", "noise_inside",
+                          "core", "wandering", "expected_missed_mm2", "expected_extra_mm2",
+                          "expected_untouched_mm2", "band", "cut"})
     summary[key] = nullptr;
   if (!episode.conclusion().model.band) summary["certainty"] = "off";
   const std::optional<Certainty>& certainty = episode.conclusion().certainty;
@@ -88,6 +97,7 @@ void add_certainty(json& summary, const Episode& episode, double cut_risk) {
     summary["plateau_probability"] = outlines->plateau_probability;
     summary["noise_inside"] = outlines->noise_inside.mean;
     summary["core"] = core_json(outlines->core, surface);
+    summary["wandering"] = wandering_json(outlines->misfit.wandering);
   }
   const double q = certainty->band_score, cut = Certainty::cut_score(cut_risk);
   summary["expected_missed_mm2"] = certainty->expected.missed_m2 * kMm2;

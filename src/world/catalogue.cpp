@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "palpation/base/error.h"
@@ -158,6 +159,14 @@ std::vector<Recipe> sensors() {
          add_blob(d);
          const double far_m = d.between(0.002, 0.005);
          d.world.change = {.after_stops = kChangeAfter, .moved_m = far_m * d.direction()};
+       }},
+      {{"tissue-breathes", "sensor", "a blob; the tissue goes to and fro by 1 to 3 mm"},
+       [](Draft& d) {
+         add_blob(d);
+         const double far_m = d.between(0.001, 0.003);
+         d.world.faults.breath = {.by_m = far_m * d.direction(),
+                                  .readings = std::exp(d.between(std::log(3.0), std::log(60.0))),
+                                  .phase = d.between(0.0, 2.0 * std::numbers::pi)};
        }},
   };
 }

@@ -1,6 +1,7 @@
 #include "palpation/world/sensor.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "palpation/base/error.h"
 
@@ -27,14 +28,21 @@ FaultySensor::FaultySensor(const SensorFaults& faults, const SensorChange& chang
   need(std::isfinite(faults.wild_ranges) && faults.wild_ranges >= 0.0, "wild ranges",
        faults.wild_ranges, "must be finite and not negative");
   need(std::isfinite(faults.drift), "drift", faults.drift, "must be finite");
+  require(faults.breath.by_m.allFinite(), "FaultySensor", "breath", "must be finite");
+  need(faults.breath.readings > 0.0, "breath", faults.breath.readings,
+       "must last for more than no reading");
   need(std::isfinite(change.zero), "zero", change.zero, "must be finite");
   need(std::isfinite(change.gain), "gain", change.gain, "must be finite");
   require(change.moved_m.allFinite(), "FaultySensor", "moved", "must be finite");
 }
 
 SurfacePoint FaultySensor::feels_at(const Surface& surface, const SurfacePoint& where) const {
-  if (!has_changed() || change_.moved_m.isZero(0.0)) return where;
-  return surface.project(surface.position(where) + change_.moved_m);
+  const Breath& breath = faults_.breath;
+  Vec3 off_m =
+      std::sin(2.0 * std::numbers::pi * readings_ / breath.readings + breath.phase) * breath.by_m;
+  if (has_changed()) off_m += change_.moved_m;
+  if (off_m.isZero(0.0)) return where;
+  return surface.project(surface.position(where) + off_m);
 }
 
 double FaultySensor::reported(double reading, Random& random, TouchKind kind) {

@@ -4,10 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "certainty/errors_in_turn.h"
 #include "certainty/outline_chain.h"
 #include "certainty/outline_walk.h"
 
@@ -82,8 +84,7 @@ ReadingLaw bent_law(double log_shoulder, double log_skirt) {
   const OutlineProfile profile{.low = 7.0,
                                .high = 9.0,
                                .log_slope = std::log(1200.0),
-                               .log_shoulder = log_shoulder,
-                               .log_skirt = log_skirt,
+                               .log_powers = {log_shoulder, log_skirt},
                                .log_spacing = {std::log(kMm)},
                                .log_contrast = {0.0}};
   return law_of(profile, prior);
@@ -136,9 +137,9 @@ TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheLessItIsBent) {
   const double sigmoid = 1.0 / (0.06 * 0.06), unbent = 1.0 / (0.25 * 0.25),
                bent = 1.0 / (0.5 * 0.5);
   EXPECT_NEAR(plateau_probability(profile), (sigmoid + unbent) / (sigmoid + unbent + bent), 1e-12);
-  profile.log_shoulder = 0.5;  // over 8 sd of a sigmoid's
+  profile.log_powers.x() = 0.5;  // over 8 sd of a sigmoid's
   EXPECT_NEAR(plateau_probability(profile), unbent / (unbent + bent * std::exp(1.5)), 1e-12);
-  profile.log_skirt = -1.0;
+  profile.log_powers.y() = -1.0;
   EXPECT_LT(plateau_probability(profile), 0.01);
 }
 
@@ -186,6 +187,17 @@ void add_changes(const std::vector<MisfitKind>& kinds, OutlineReadings& readings
   prior.gain_log_sd.assign(kinds.size(), 0.2);
 }
 
+/// Each by a way of its own, and by one that lasts over ten readings, in their order.
+void let_wander(OutlineReadings& readings, OutlinePrior& prior) {
+  for (std::size_t i = 0; i < readings.places.size(); ++i) readings.made.push_back({{.number = i}});
+  readings.lasting_ways = terms_of_errors(readings.made, 10.0, 400);
+  const auto no_ways = [](Eigen::Index count) {
+    return Wandering::Ways{Eigen::MatrixX2d::Zero(count, 2), std::log(0.5 * kMm)};
+  };
+  prior.median.wandering = {no_ways(std::ssize(readings.places)),
+                            no_ways(readings.lasting_ways.cols())};
+}
+
 TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
   Random random(3);
   const OutlineNodes truth = rectangle(8 * kMm, 8 * kMm, 32);
@@ -199,9 +211,12 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
     readings.travel.push_back(direction_of(random));
   readings.background = background_terms({.places = readings.places, .when = readings.reading});
   readings.background.median_sd = 0.1;
+  let_wander(readings, prior);
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
   EXPECT_NE(chain.chain().residuals().log_noise(), 0.0);
+  EXPECT_GT(chain.chain().profile().wandering.of_each.terms.norm(), 1.0);
+  EXPECT_GT(chain.chain().profile().wandering.lasting.terms.norm(), 1.0);
   const OutlineChain fresh(readings, prior, chain.chain().outline(), chain.chain().profile(),
                            chain.chain().cuts(), &chain.chain().residuals());
   // Some 20,000 steps were taken: each adds and removes the same numbers.
@@ -545,6 +560,45 @@ TEST(OutlineWalk, WhatIsLeftOfAMoveIsDrawnFromItsPriorWhereReadingsTellNothing) 
   // Of two directions, 3 mm in each. Draws are correlated over some ten: a standard error of a
   // tenth.
   EXPECT_NEAR(std::sqrt(0.5 * square), 3 * kMm, 0.45 * kMm);
+}
+
+// About an outline that stays: where that goes anywhere, it holds readings the more often the
+// farther those may lie.
+TEST(OutlineChain, WanderingIsDrawnFromItsPriorWhereReadingsTellNothing) {
+  auto [outline, readings, prior] = TellingNothing(27);
+  let_wander(readings, prior);
+  OutlineChain chain(readings, prior, outline, prior.median);
+  Random random(28);
+  constexpr int kSteps = 10'000;
+  constexpr std::array kKinds = {&Wandering::of_each, &Wandering::lasting};
+  std::array<double, 2> mean{}, square{}, norm{};
+  for (int i = 0; i < kSteps; ++i) {
+    const auto any = [&] { return Vec2(random.normal(), random.normal()); };
+    for (int step = 0; step < 4; ++step) {
+      chain.wander(static_cast<std::size_t>(random.below(40)), any(), random);
+      chain.wander_lasting(random.below(static_cast<int>(readings.lasting_ways.cols())), any(),
+                           random);
+    }
+    chain.redraw_lasting_ways(random);
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+      Wandering other = chain.profile().wandering;
+      (other.*kKinds[kind]).log_scale += 0.15 * random.normal();
+      chain.rescale_wandering(other, random);
+      other = chain.profile().wandering;
+      (other.*kKinds[kind]).log_scale += random.normal();
+      chain.wander_with_nodes(other, outline.place, random);
+      const Wandering::Ways& ways = chain.profile().wandering.*kKinds[kind];
+      const double off = ways.log_scale - std::log(0.5 * kMm);
+      mean[kind] += off / kSteps;
+      square[kind] += off * off / kSteps;
+      norm[kind] += ways.terms.squaredNorm() / static_cast<double>(ways.terms.size()) / kSteps;
+    }
+  }
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+    EXPECT_NEAR(mean[kind], 0.0, 0.1);
+    EXPECT_NEAR(std::sqrt(square[kind]), 1.2, 0.08);
+    EXPECT_NEAR(norm[kind], 1.0, 0.02);
+  }
 }
 
 // Beyond the readings none contradicts it: steps into any direction would be taken.

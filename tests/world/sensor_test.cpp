@@ -80,7 +80,22 @@ TEST(FaultySensor, FeelsWhereTheTissueWentOnceItMoved) {
               0.0, 1e-12);
 }
 
+TEST(FaultySensor, FeelsTissueThatBreathesWithEveryReading) {
+  const Surface surface = sheet(0.024, 0.048, 0.001);
+  FaultySensor sensor({.breath = {.by_m = Vec3(0.0, 0.002, 0.0), .readings = 4.0}}, {}, 7.0, 9.0);
+  const SurfacePoint where = surface.at_vertex(surface.nearest_vertex(Vec3(0.012, 0.024, 0.0)));
+  Random random(8);
+  for (const double off_m : {0.0, 0.002, 0.0, -0.002, 0.0}) {
+    EXPECT_NEAR(
+        (surface.position(sensor.feels_at(surface, where)) - Vec3(0.012, 0.024 + off_m, 0.0))
+            .norm(),
+        0.0, 1e-12);
+    sensor.reported(7.0, random, TouchKind::Way);
+  }
+}
+
 TEST(FaultySensor, RefusesPartsThatAreNone) {
+  EXPECT_THROW(FaultySensor({.breath = {.readings = 0.0}}, {}, 7.0, 9.0), InvalidInput);
   EXPECT_THROW(FaultySensor({.lost = 1.5}, {}, 7.0, 9.0), InvalidInput);
   EXPECT_THROW(FaultySensor({}, {.gain = std::numeric_limits<double>::infinity()}, 7.0, 9.0),
                InvalidInput);

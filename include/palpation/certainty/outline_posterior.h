@@ -7,6 +7,7 @@
 /// concluded are figures of the draws: no constant was fitted to any tumour.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -68,7 +69,23 @@ struct DrawnCore {
   double probability = 1.0;
 };
 
-/// What speaks against the draws.
+/// Readings that were made elsewhere than they are said to be, each by a way of its own, and by one
+/// that lasts over some of them, in the order in which they were made: tissue that breathes, a
+/// calibration that drifts.
+struct WanderingPlaces {
+  DrawnNumber way_m;    ///< root mean square over the readings
+  DrawnNumber lasting;  ///< part of the ways' variance that lasts
+  /// How many were made before that whose way is the longest, on average over the draws.
+  std::size_t farthest = 0;
+  double farthest_m = 0.0;
+
+  static constexpr double kMatters_m = 0.00025;  ///< a quarter of an outline's piece
+  /// Whether that is more than can matter to an outline, as likely as not, and surely.
+  bool may_matter() const { return way_m.mean > kMatters_m; }
+  bool is_sure() const { return way_m.least > kMatters_m; }
+};
+
+/// What speaks against the draws, and against where readings were made.
 struct OutlineMisfit {
   /// Between the chains' mean depths along the outline that they began with, over their draws'
   /// standard deviation: above 1 they have not come to the same answer, and the draws say too
@@ -76,6 +93,8 @@ struct OutlineMisfit {
   double disagreement = 0.0;
   /// Where readings lie that tell nothing in more than half of the draws.
   std::vector<SurfacePoint> unheeded{};
+  /// Where readings tell that places wander, by more than can matter: the draws know it.
+  std::optional<WanderingPlaces> wandering{};
 
   bool do_agree() const { return disagreement < 1.0; }
 };

@@ -7,6 +7,13 @@
 
 namespace palpation {
 
+/// Tissue that goes to and fro, as a sine of the readings that were made.
+struct Breath {
+  Vec3 by_m = Vec3::Zero();  ///< at most, to either side
+  double readings = 4.0;     ///< from one time that it lies there to the next
+  double phase = 0.0;        ///< radians, at the first reading
+};
+
 /// Parts are of all readings, each struck by itself. Ranges are in units of the contrast, high -
 /// low.
 struct SensorFaults {
@@ -15,6 +22,7 @@ struct SensorFaults {
   double wild_ranges = 5.0;  ///< ... within so many ranges of the middle
   double jammed = 0.0;       ///< part that repeats the reading before
   double drift = 0.0;        ///< ranges that the zero moves in a hundred readings
+  Breath breath{};           ///< of the tissue
 };
 
 /// Something that changes once and for all, as when a sensor is fastened anew or the tissue slips.

@@ -1,0 +1,74 @@
+// How a chain moves the ways by which places wander.
+#include <cmath>
+
+#include "certainty/outline_chain.h"
+
+namespace palpation {
+
+bool OutlineChain::wander(std::size_t reading, const Vec2& by, Random& random) {
+  Wandering::Ways& ways = profile_.wandering.of_each;
+  auto term = ways.terms.row(static_cast<Eigen::Index>(reading));
+  const Vec2 before = term.transpose(), after = before + by;
+  consider_none();
+  consider(reading, felt_anew(felt_[reading].place + std::exp(ways.log_scale) * by), law_);
+  const bool taken = takes(0.5 * (before.squaredNorm() - after.squaredNorm()), random);
+  if (taken) term = after.transpose();
+  return taken;
+}
+
+bool OutlineChain::wander_lasting(Eigen::Index term, const Vec2& by, Random& random) {
+  Wandering::Ways& ways = profile_.wandering.lasting;
+  const Vec2 before = ways.terms.row(term).transpose(), after = before + by,
+             by_m = std::exp(ways.log_scale) * by;
+  consider_none();
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    const double share = readings_->lasting_ways(static_cast<Eigen::Index>(i), term);
+    if (share != 0.0) consider(i, felt_anew(felt_[i].place + share * by_m), law_);
+  }
+  const bool taken = takes(0.5 * (before.squaredNorm() - after.squaredNorm()), random);
+  if (taken) ways.terms.row(term) = after.transpose();
+  return taken;
+}
+
+bool OutlineChain::wander_with_nodes(const Wandering& wandering, const std::vector<Vec2>& places,
+                                     Random& random) {
+  OutlineProfile profile = profile_;
+  profile.wandering = wandering;
+  return feels_elsewhere(profile, places, random);
+}
+
+/// No reading feels it.
+bool OutlineChain::rescale_wandering(const Wandering& wandering, Random& random) {
+  OutlineProfile profile = profile_;
+  double change = -log_profile_density(profile, *prior_);
+  for (const auto ways : {&Wandering::of_each, &Wandering::lasting}) {
+    Wandering::Ways& one = profile.wandering.*ways;
+    const double log_scale = (wandering.*ways).log_scale, log_growth = log_scale - one.log_scale;
+    one.log_scale = log_scale;
+    one.terms *= std::exp(-log_growth);
+    change -= static_cast<double>(one.terms.size()) * log_growth;
+  }
+  change += log_profile_density(profile, *prior_);
+  consider_none();
+  const bool taken = takes(change, random);
+  if (taken) profile_ = profile;
+  return taken;
+}
+
+/// Given all others, a term is normal: places are sums of both kinds of ways, each of them so.
+void OutlineChain::redraw_lasting_ways(Random& random) {
+  auto& [of_each, lasting] = profile_.wandering;
+  const double times = std::exp(lasting.log_scale - of_each.log_scale);
+  for (Eigen::Index term = 0; term < lasting.terms.rows(); ++term) {
+    const Eigen::VectorXd shares = times * readings_->lasting_ways.col(term);
+    const double precision = 1.0 + shares.squaredNorm();
+    const Eigen::RowVector2d mean = (shares.transpose() * of_each.terms - lasting.terms.row(term)) /
+                                    precision,
+                             normal(random.normal(), random.normal()),
+                             by = mean + normal / std::sqrt(precision);
+    lasting.terms.row(term) += by;
+    of_each.terms -= shares * by;
+  }
+}
+
+}  // namespace palpation

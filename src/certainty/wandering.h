@@ -1,0 +1,29 @@
+/// Places that wander: tissue that breathes or sags, an arm whose calibration drifts. Each reading
+/// was made elsewhere than it is said to be, by a way of its own, and by one that lasts over some
+/// readings, in the order in which they were made.
+///
+/// To first order nothing of that shows: an edge is no wider than tissue breathes, and an outline
+/// follows its readings. So ways are drawn with outlines, by walks as short as tell whether there
+/// are any: how far places wander is among the unknown, down to nothing that matters.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "certainty/outline_start.h"
+#include "certainty/outline_walk.h"
+
+namespace palpation {
+
+/// From here on places wander; how far is learned.
+void let_wander(OutlineStart& start);
+
+/// Whether one of two walks in which places wander is sure that they do, by more than can matter:
+/// it costs little to draw ways that are none.
+bool do_places_wander(OutlineStart start, std::uint64_t seed);
+
+/// By draws in which they do.
+WanderingPlaces wandering_by(const std::vector<OutlineDraw>& draws,
+                             const OutlineReadings& readings);
+
+}  // namespace palpation
