@@ -21,14 +21,14 @@ Surface tissue() {
   return Surface(make_plane({.size_m = {0.035, 0.035}, .columns = 51, .rows = 51}, random));
 }
 
-/// By so much to either side, once in 45 of 160 readings.
+/// By so much to either side, once in 40 of 120 readings.
 Conclusion concluded(double by_m, std::uint64_t seed) {
   Random random(seed);
   const Surface surface = tissue();
   std::vector<Palpation> felt;
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const Vec3 place(0.0005 + 0.034 * random.uniform(), 0.0005 + 0.034 * random.uniform(), 0.0),
-        lies = kMiddle + by_m * std::sin(2.0 * std::numbers::pi * i / 45.0) * Vec3(0.6, -0.8, 0.0);
+        lies = kMiddle + by_m * std::sin(2.0 * std::numbers::pi * i / 40.0) * Vec3(0.6, -0.8, 0.0);
     const double depth_m = kRadius_m - (place - lies).norm();
     felt.push_back(
         {.where = surface.project(place),
