@@ -61,7 +61,10 @@ Eigen::VectorXd mean_in_turn(const Eigen::VectorXd& of_each,
 Eigen::MatrixXd terms_of_errors(std::span<const std::vector<Made>> made, double readings,
                                 Eigen::Index most) {
   for (;; readings *= kLonger) {
-    FewTerms few = few_terms(errors_in_turn(made, readings), {.most = most});
+    const Eigen::MatrixXd errors = errors_in_turn(made, readings);
+    FewTermsOptions options{.most = most};
+    if (errors.size() > 0) errors.diagonal().maxCoeff(&options.first_pivot);
+    FewTerms few = few_terms(errors, options);
     if (few.is_whole) return std::move(few.terms);
   }
 }

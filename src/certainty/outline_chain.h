@@ -59,8 +59,8 @@ class OutlineChain {
 
   /// Other ways that last, by which places lie where they do.
   void redraw_lasting_ways(Random& random);
-  /// Proposes other scales of ways by which places lie where they do.
-  bool rescale_wandering(const Wandering& wandering, Random& random);
+  /// Proposes another scale of a kind of ways, by which places lie where they do.
+  bool rescale_ways(Wandering::Ways Wandering::*kind, double log_growth, Random& random);
 
   /// Another noise, background and other readings that tell nothing, from what they are given all
   /// else. Returns the zero's steps, drawn with them.

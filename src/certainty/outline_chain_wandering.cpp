@@ -7,10 +7,12 @@ namespace palpation {
 
 bool OutlineChain::wander(std::size_t reading, const Vec2& by, Random& random) {
   Wandering::Ways& ways = profile_.wandering.of_each;
-  auto term = ways.terms.row(static_cast<Eigen::Index>(reading));
+  const auto row = static_cast<Eigen::Index>(reading);
+  const double scale_m = std::exp(ways.log_scale) * readings_->own_ways[row];
+  auto term = ways.terms.row(row);
   const Vec2 before = term.transpose(), after = before + by;
   consider_none();
-  consider(reading, felt_anew(felt_[reading].place + std::exp(ways.log_scale) * by), law_);
+  consider(reading, felt_anew(felt_[reading].place + scale_m * by), law_);
   const bool taken = takes(0.5 * (before.squaredNorm() - after.squaredNorm()), random);
   if (taken) term = after.transpose();
   return taken;
@@ -38,19 +40,17 @@ bool OutlineChain::wander_with_nodes(const Wandering& wandering, const std::vect
 }
 
 /// No reading feels it.
-bool OutlineChain::rescale_wandering(const Wandering& wandering, Random& random) {
+bool OutlineChain::rescale_ways(Wandering::Ways Wandering::*kind, double log_growth,
+                                Random& random) {
   OutlineProfile profile = profile_;
-  double change = -log_profile_density(profile, *prior_);
-  for (const auto ways : {&Wandering::of_each, &Wandering::lasting}) {
-    Wandering::Ways& one = profile.wandering.*ways;
-    const double log_scale = (wandering.*ways).log_scale, log_growth = log_scale - one.log_scale;
-    one.log_scale = log_scale;
-    one.terms *= std::exp(-log_growth);
-    change -= static_cast<double>(one.terms.size()) * log_growth;
-  }
-  change += log_profile_density(profile, *prior_);
+  Wandering::Ways& ways = profile.wandering.*kind;
+  ways.log_scale += log_growth;
+  ways.terms *= std::exp(-log_growth);
   consider_none();
-  const bool taken = takes(change, random);
+  const bool taken =
+      takes(log_profile_density(profile, *prior_) - log_profile_density(profile_, *prior_) -
+                static_cast<double>(ways.terms.size()) * log_growth,
+            random);
   if (taken) profile_ = profile;
   return taken;
 }
@@ -60,7 +60,8 @@ void OutlineChain::redraw_lasting_ways(Random& random) {
   auto& [of_each, lasting] = profile_.wandering;
   const double times = std::exp(lasting.log_scale - of_each.log_scale);
   for (Eigen::Index term = 0; term < lasting.terms.rows(); ++term) {
-    const Eigen::VectorXd shares = times * readings_->lasting_ways.col(term);
+    const Eigen::VectorXd shares =
+        times * readings_->lasting_ways.col(term).cwiseQuotient(readings_->own_ways);
     const double precision = 1.0 + shares.squaredNorm();
     const Eigen::RowVector2d mean = (shares.transpose() * of_each.terms - lasting.terms.row(term)) /
                                     precision,

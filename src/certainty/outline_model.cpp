@@ -127,7 +127,8 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
 
 Vec2 way_of(const Wandering& wandering, const OutlineReadings& readings, Eigen::Index reading) {
   const auto& [of_each, lasting] = wandering;
-  return std::exp(of_each.log_scale) * of_each.terms.row(reading).transpose() +
+  return std::exp(of_each.log_scale) * readings.own_ways[reading] *
+             of_each.terms.row(reading).transpose() +
          std::exp(lasting.log_scale) *
              (readings.lasting_ways.row(reading) * lasting.terms).transpose();
 }

@@ -226,9 +226,8 @@ std::vector<ChangeLeft> left_of(const std::vector<Misfit>& changes,
 }
 
 /// A core that is not the same however one comes to it is not all that is drawn.
-OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const Field& mean,
+OutlineDraws drawn_from(const ChainStarts& starts, const OutlineStart& plain,
                         const OutlineOptions& options) {
-  const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
   OutlineDraws drawn = draws_from(starts, options.draws, options.seed);
   if (!starts.of.front().profile.core || drawn.misfit.do_agree()) return drawn;
   return draws_from({{plain, starts.of.front()}, starts.least_area_m2}, options.draws,
@@ -238,14 +237,17 @@ OutlineDraws drawn_from(const OutlineStart& plain, const Surface& surface, const
 /// Where places may wander, with ways; without, where these do not matter after all.
 OutlineDraws drawn_wandering(const OutlineStart& plain, const Surface& surface, const Field& mean,
                              const OutlineOptions& options) {
-  if (do_places_wander(plain, options.seed)) {
-    OutlineStart wandering = plain;
-    let_wander(wandering);
-    OutlineDraws drawn = drawn_from(wandering, surface, mean, options);
-    drawn.misfit.wandering = wandering_by(drawn.draws, wandering.readings);
+  const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
+  if (do_places_wander(starts.of.front(), options.seed)) {
+    ChainStarts wandering = starts;
+    for (OutlineStart& start : wandering.of) let_wander(start);
+    OutlineStart plain_wandering = plain;
+    let_wander(plain_wandering);
+    OutlineDraws drawn = drawn_from(wandering, plain_wandering, options);
+    drawn.misfit.wandering = wandering_by(drawn.draws, plain_wandering.readings);
     if (drawn.misfit.wandering->may_matter()) return drawn;
   }
-  return drawn_from(plain, surface, mean, options);
+  return drawn_from(starts, plain, options);
 }
 
 }  // namespace

@@ -24,7 +24,10 @@ struct OutlineReadings {
   std::vector<Vec2> travel{};
   std::vector<SurfacePoint> where{};      ///< on the surface, where those are of one; else none
   std::vector<std::vector<Made>> made{};  ///< each of which there may be several; else none
-  /// How far each lies elsewhere for one unit of each term of a way that lasts (wandering.h), over
+  /// How far each lies elsewhere for one unit of its own way, over the scale of such ways: means of
+  /// several less. Empty where places are known.
+  Eigen::VectorXd own_ways{};
+  /// The same for one unit of each term of a way that lasts (wandering.h), over
   /// that way's scale: rows are readings, columns terms. Empty where places are known.
   Eigen::MatrixXd lasting_ways{};
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTradedGain = 0.2;
 constexpr int kRescaled = 4;
-constexpr std::size_t kOneIn = 2;  ///< ways so many are tried a sweep
+constexpr std::size_t kOneIn = 2;  ///< one way in so many is tried a sweep
 
 }  // namespace
 
@@ -101,11 +101,10 @@ void OutlineWalk::wander() {
 void OutlineWalk::scale_ways() {
   constexpr std::array kKinds = {&Wandering::of_each, &Wandering::lasting};
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+    if (lengths_.of_ways[kind].empty()) continue;
     for (int i = 0; i < kRescaled; ++i) {
-      Wandering other = chain_.profile().wandering;
-      Wandering::Ways& ways = other.*kKinds[kind];
-      ways.log_scale += random_.normal() / std::sqrt(static_cast<double>(ways.terms.rows()));
-      chain_.rescale_wandering(other, random_);
+      const auto terms = static_cast<double>(lengths_.of_ways[kind].size());
+      chain_.rescale_ways(kKinds[kind], random_.normal() / std::sqrt(terms), random_);
     }
     Wandering other = chain_.profile().wandering;
     (other.*kKinds[kind]).log_scale += lengths_.of_way_scales[kind] * random_.normal();

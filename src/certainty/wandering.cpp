@@ -11,9 +11,9 @@
 namespace palpation {
 namespace {
 
-constexpr double kLasting = 10.0;      ///< readings: over a breath
-constexpr double kMatters_m = 0.0002;  ///< on each axis: a fifth of an outline's piece
-constexpr double kMedian_m = 0.0005;   ///< of either kind of way, beforehand
+constexpr double kLasting = 10.0;         ///< readings: over a breath
+constexpr double kLeastScale_m = 0.0002;  ///< on each axis: half of the prior lies below
+constexpr double kMedian_m = 0.0001;      ///< of either kind of way, beforehand
 constexpr Eigen::Index kMostTerms = 400;
 constexpr double kNothing = 1e-3;                            ///< of a way
 constexpr int kWalks = 2, kUnwatched = 300, kWatched = 200;  ///< sweeps
@@ -39,7 +39,15 @@ double least_scale(const OutlineStart& start, std::uint64_t seed) {
 
 void let_wander(OutlineStart& start) {
   OutlineReadings& readings = start.readings;
-  const Eigen::MatrixXd terms = terms_of_errors(readings.made, kLasting, kMostTerms);
+  double all = 0.0;
+  readings.own_ways.resize(std::ssize(readings.made));
+  for (Eigen::Index row = 0; row < readings.own_ways.size(); ++row) {
+    const auto made = static_cast<double>(readings.made[static_cast<std::size_t>(row)].size());
+    readings.own_ways[row] = 1.0 / std::sqrt(made);
+    all += made;
+  }
+  const double lasting = kLasting * std::max(1.0, all / static_cast<double>(kMostTerms));
+  const Eigen::MatrixXd terms = terms_of_errors(readings.made, lasting, kMostTerms);
   readings.lasting_ways = (terms.array().abs() < kNothing).select(0.0, terms);
   const auto no_ways = [](Eigen::Index count) {
     return Wandering::Ways{Eigen::MatrixX2d::Zero(count, 2), std::log(kMedian_m)};
@@ -48,15 +56,16 @@ void let_wander(OutlineStart& start) {
   start.prior.median.wandering = start.profile.wandering;
 }
 
+/// Walks that see the prior alone fall below the least, too.
 bool do_places_wander(OutlineStart start, std::uint64_t seed) {
   if (start.readings.made.empty()) return false;
   let_wander(start);
   std::array<double, kWalks> least{};
   for_ranges(kWalks, 1, [&](int first, int last) {
     for (int walk = first; walk < last; ++walk)
-      least[walk] = least_scale(start, kWalks * seed + static_cast<std::uint64_t>(walk));
+      least[walk] = least_scale(start, kWalks * ~seed + static_cast<std::uint64_t>(walk));
   });
-  return std::ranges::max(least) > kMatters_m;
+  return std::ranges::max(least) > kLeastScale_m;
 }
 
 WanderingPlaces wandering_by(const std::vector<OutlineDraw>& draws,
@@ -74,8 +83,13 @@ WanderingPlaces wandering_by(const std::vector<OutlineDraw>& draws,
                       std::pow(scale_of(wandering), 2));
     mean += ways / static_cast<double>(draws.size());
   }
+  // Of a row of several readings nobody knows which.
+  Eigen::VectorXd squares = mean.rowwise().squaredNorm();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (readings.made[static_cast<std::size_t>(i)].size() > 1) squares[i] = 0.0;
+  }
   Eigen::Index row = 0;
-  const double square = mean.rowwise().squaredNorm().maxCoeff(&row);
+  const double square = squares.maxCoeff(&row);
   return {.way_m = summed_up(std::move(sizes)),
           .lasting = summed_up(std::move(lasting)),
           .farthest = readings.made[static_cast<std::size_t>(row)].front().number,

@@ -3,8 +3,9 @@
 /// readings, in the order in which they were made.
 ///
 /// To first order nothing of that shows: an edge is no wider than tissue breathes, and an outline
-/// follows its readings. So ways are drawn with outlines, by walks as short as tell whether there
-/// are any: how far places wander is among the unknown, down to nothing that matters.
+/// follows its readings. So ways are drawn with outlines, and how far places wander is among the
+/// unknown, down to nothing that matters: short walks tell whether it is more. In another order
+/// readings tell of other ways.
 #pragma once
 
 #include <cstdint>

@@ -28,6 +28,7 @@ FaultySensor::FaultySensor(const SensorFaults& faults, const SensorChange& chang
   need(std::isfinite(faults.wild_ranges) && faults.wild_ranges >= 0.0, "wild ranges",
        faults.wild_ranges, "must be finite and not negative");
   need(std::isfinite(faults.drift), "drift", faults.drift, "must be finite");
+  need(std::isfinite(faults.breath.phase), "breath's phase", faults.breath.phase, "must be finite");
   require(faults.breath.by_m.allFinite(), "FaultySensor", "breath", "must be finite");
   need(faults.breath.readings > 0.0, "breath", faults.breath.readings,
        "must last for more than no reading");

@@ -40,6 +40,13 @@ TEST(ErrorsInTurn, OfEachReadingAreWithThoseThatWereMade) {
   EXPECT_EQ(mean_in_turn(of_each, made), Eigen::Vector2d(4.5, 9.0));
 }
 
+// Of means of many readings here and there next to nothing is left: they are not where terms begin.
+TEST(ErrorsInTurn, HaveTermsWhateverIsKnownFirst) {
+  std::vector<std::vector<Made>> made = made_in_turn(200);
+  for (std::size_t number = 0; number < 4000; number += 80) made[0].push_back({.number = number});
+  EXPECT_GT(terms_of_errors(made, 10.0, 400).cols(), 50);
+}
+
 TEST(ErrorsInTurn, LastLongerWhereTheyWouldNeedTooManyTerms) {
   const std::vector<std::vector<Made>> made = made_in_turn(300);
   EXPECT_GT(terms_of_errors(made, 3.0, 300).cols(), 200);

@@ -190,6 +190,8 @@ void add_changes(const std::vector<MisfitKind>& kinds, OutlineReadings& readings
 /// Each by a way of its own, and by one that lasts over ten readings, in their order.
 void let_wander(OutlineReadings& readings, OutlinePrior& prior) {
   for (std::size_t i = 0; i < readings.places.size(); ++i) readings.made.push_back({{.number = i}});
+  readings.own_ways = Eigen::VectorXd::Ones(std::ssize(readings.places));
+  readings.own_ways[0] = 0.5;
   readings.lasting_ways = terms_of_errors(readings.made, 10.0, 400);
   const auto no_ways = [](Eigen::Index count) {
     return Wandering::Ways{Eigen::MatrixX2d::Zero(count, 2), std::log(0.5 * kMm)};
@@ -581,10 +583,8 @@ TEST(OutlineChain, WanderingIsDrawnFromItsPriorWhereReadingsTellNothing) {
     }
     chain.redraw_lasting_ways(random);
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+      chain.rescale_ways(kKinds[kind], 0.15 * random.normal(), random);
       Wandering other = chain.profile().wandering;
-      (other.*kKinds[kind]).log_scale += 0.15 * random.normal();
-      chain.rescale_wandering(other, random);
-      other = chain.profile().wandering;
       (other.*kKinds[kind]).log_scale += random.normal();
       chain.wander_with_nodes(other, outline.place, random);
       const Wandering::Ways& ways = chain.profile().wandering.*kKinds[kind];

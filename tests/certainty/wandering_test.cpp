@@ -28,17 +28,18 @@ Way each_elsewhere(std::uint64_t seed) {
 }
 
 /// Of a disk that is felt at random places of 24 by 24 mm about it.
-OutlineStart start_of(const Way& way, std::uint64_t seed) {
+OutlineStart start_of(const Way& way, std::uint64_t seed, int count = kCount,
+                      double noise = kNoise) {
   OutlineStart start;
   Random random(seed);
   OutlineReadings& readings = start.readings;
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < count; ++i) {
     const Vec2 place = 24 * kMm * Vec2(random.uniform() - 0.5, random.uniform() - 0.5);
     const double depth_m = kRadius_m - (place - way(i)).norm();
     readings.places.push_back(place);
     readings.reading.push_back(7.0 + 2.0 / (1.0 + std::exp(-1400.0 * depth_m)) +
-                               kNoise * random.normal());
-    readings.variance.push_back(kNoise * kNoise);
+                               noise * random.normal());
+    readings.variance.push_back(noise * noise);
     readings.made.push_back({{.number = static_cast<std::size_t>(i)}});
   }
   std::vector<Vec2> circle;
@@ -69,6 +70,25 @@ std::vector<OutlineDraw> draws_of(const OutlineStart& start, std::uint64_t seed)
 TEST(Wandering, IsNotFoundWhereTissueRests) {
   for (const std::uint64_t seed : {1, 2})
     EXPECT_FALSE(do_places_wander(start_of(at_rest, seed), seed)) << seed;
+}
+
+// Beforehand places may wander by millimetres; few or noisy readings leave that as it is.
+TEST(Wandering, IsNotFoundWhereReadingsTellNothingOfIt) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    EXPECT_FALSE(do_places_wander(start_of(at_rest, seed, 15, 0.4), seed)) << seed;
+    EXPECT_FALSE(do_places_wander(start_of(at_rest, seed, 40, 1e6), seed)) << seed;
+  }
+}
+
+// A place that was touched four times is known twice as well, as far as each touch errs for itself.
+TEST(Wandering, MeansOfSeveralReadingsWanderLess) {
+  OutlineStart start = start_of(at_rest, 6, 30);
+  start.readings.made[0] = {{.number = 0}, {.number = 30}, {.number = 31}, {.number = 32}};
+  let_wander(start);
+  EXPECT_EQ(start.readings.own_ways[0], 0.5);
+  EXPECT_EQ(start.readings.own_ways[1], 1.0);
+  EXPECT_LT(start.readings.lasting_ways.row(0).squaredNorm(), 0.6);
+  EXPECT_GT(start.readings.lasting_ways.row(1).squaredNorm(), 0.9);
 }
 
 TEST(Wandering, IsFoundWhereTissueBreathes) {

@@ -96,6 +96,9 @@ TEST(FaultySensor, FeelsTissueThatBreathesWithEveryReading) {
 
 TEST(FaultySensor, RefusesPartsThatAreNone) {
   EXPECT_THROW(FaultySensor({.breath = {.readings = 0.0}}, {}, 7.0, 9.0), InvalidInput);
+  EXPECT_THROW(
+      FaultySensor({.breath = {.phase = std::numeric_limits<double>::quiet_NaN()}}, {}, 7.0, 9.0),
+      InvalidInput);
   EXPECT_THROW(FaultySensor({.lost = 1.5}, {}, 7.0, 9.0), InvalidInput);
   EXPECT_THROW(FaultySensor({}, {.gain = std::numeric_limits<double>::infinity()}, 7.0, 9.0),
                InvalidInput);

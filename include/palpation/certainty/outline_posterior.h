@@ -74,13 +74,13 @@ struct DrawnCore {
 /// calibration that drifts.
 struct WanderingPlaces {
   DrawnNumber way_m;    ///< root mean square over the readings
-  DrawnNumber lasting;  ///< part of the ways' variance that lasts
+  DrawnNumber lasting;  ///< part of the ways' variance, by their scales, that lasts
   /// How many were made before that whose way is the longest, on average over the draws.
   std::size_t farthest = 0;
   double farthest_m = 0.0;
 
   static constexpr double kMatters_m = 0.00025;  ///< a quarter of an outline's piece
-  /// Whether that is more than can matter to an outline, as likely as not, and surely.
+  /// Whether that is more than can matter to an outline, on average, and surely.
   bool may_matter() const { return way_m.mean > kMatters_m; }
   bool is_sure() const { return way_m.least > kMatters_m; }
 };
