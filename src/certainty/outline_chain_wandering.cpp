@@ -8,7 +8,7 @@ namespace palpation {
 bool OutlineChain::wander(std::size_t reading, const Vec2& by, Random& random) {
   Wandering::Ways& ways = profile_.wandering.of_each;
   const auto row = static_cast<Eigen::Index>(reading);
-  const double scale_m = std::exp(ways.log_scale) * readings_->own_ways[row];
+  const double scale_m = std::exp(ways.log_scale) * readings_->ways.own[row];
   auto term = ways.terms.row(row);
   const Vec2 before = term.transpose(), after = before + by;
   consider_none();
@@ -24,7 +24,7 @@ bool OutlineChain::wander_lasting(Eigen::Index term, const Vec2& by, Random& ran
              by_m = std::exp(ways.log_scale) * by;
   consider_none();
   for (std::size_t i = 0; i < felt_.size(); ++i) {
-    const double share = readings_->lasting_ways(static_cast<Eigen::Index>(i), term);
+    const double share = readings_->ways.lasting(static_cast<Eigen::Index>(i), term);
     if (share != 0.0) consider(i, felt_anew(felt_[i].place + share * by_m), law_);
   }
   const bool taken = takes(0.5 * (before.squaredNorm() - after.squaredNorm()), random);
@@ -61,7 +61,7 @@ void OutlineChain::redraw_lasting_ways(Random& random) {
   const double times = std::exp(lasting.log_scale - of_each.log_scale);
   for (Eigen::Index term = 0; term < lasting.terms.rows(); ++term) {
     const Eigen::VectorXd shares =
-        times * readings_->lasting_ways.col(term).cwiseQuotient(readings_->own_ways);
+        times * readings_->ways.lasting.col(term).cwiseQuotient(readings_->ways.own);
     const double precision = 1.0 + shares.squaredNorm();
     const Eigen::RowVector2d mean = (shares.transpose() * of_each.terms - lasting.terms.row(term)) /
                                     precision,

@@ -127,10 +127,10 @@ double depth_where(const ReadingLaw& law, double share, double steepness) {
 
 Vec2 way_of(const Wandering& wandering, const OutlineReadings& readings, Eigen::Index reading) {
   const auto& [of_each, lasting] = wandering;
-  return std::exp(of_each.log_scale) * readings.own_ways[reading] *
+  return std::exp(of_each.log_scale) * readings.ways.own[reading] *
              of_each.terms.row(reading).transpose() +
          std::exp(lasting.log_scale) *
-             (readings.lasting_ways.row(reading) * lasting.terms).transpose();
+             (readings.ways.lasting.row(reading) * lasting.terms).transpose();
 }
 
 ResidualPrior residual_prior(const OutlinePrior& prior) {

@@ -48,7 +48,7 @@ struct Wandering {
     double log_scale = 0.0;    ///< of metres
   };
   Ways of_each{};  ///< a row a reading
-  Ways lasting{};  ///< OutlineReadings::lasting_ways times these
+  Ways lasting{};  ///< ReadingWays::lasting times these
 
   bool is_none() const { return of_each.terms.rows() == 0; }
 };

@@ -238,11 +238,12 @@ OutlineDraws drawn_from(const ChainStarts& starts, const OutlineStart& plain,
 OutlineDraws drawn_wandering(const OutlineStart& plain, const Surface& surface, const Field& mean,
                              const OutlineOptions& options) {
   const ChainStarts starts = with_core_if_paid(plain, surface, mean, options.seed);
-  if (do_places_wander(starts.of.front(), options.seed)) {
-    ChainStarts wandering = starts;
-    for (OutlineStart& start : wandering.of) let_wander(start);
+  const ReadingWays ways = ways_of(plain.readings.made);
+  ChainStarts wandering = starts;
+  for (OutlineStart& start : wandering.of) let_wander(ways, start);
+  if (do_places_wander(wandering.of.front(), options.seed)) {
     OutlineStart plain_wandering = plain;
-    let_wander(plain_wandering);
+    let_wander(ways, plain_wandering);
     OutlineDraws drawn = drawn_from(wandering, plain_wandering, options);
     drawn.misfit.wandering = wandering_by(drawn.draws, plain_wandering.readings);
     if (drawn.misfit.wandering->may_matter()) return drawn;

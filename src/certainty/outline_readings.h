@@ -9,6 +9,13 @@
 
 namespace palpation {
 
+/// How far readings lie elsewhere for one unit of each term of their ways (wandering.h), over the
+/// scale of such ways.
+struct ReadingWays {
+  Eigen::VectorXd own{};      ///< of each reading by its own way: of means of several less
+  Eigen::MatrixXd lasting{};  ///< by ways that last: rows are readings, columns terms
+};
+
 /// The readings, one per place, in the chart's plane.
 struct OutlineReadings {
   std::vector<Vec2> places;
@@ -24,12 +31,7 @@ struct OutlineReadings {
   std::vector<Vec2> travel{};
   std::vector<SurfacePoint> where{};      ///< on the surface, where those are of one; else none
   std::vector<std::vector<Made>> made{};  ///< each of which there may be several; else none
-  /// How far each lies elsewhere for one unit of its own way, over the scale of such ways: means of
-  /// several less. Empty where places are known.
-  Eigen::VectorXd own_ways{};
-  /// The same for one unit of each term of a way that lasts (wandering.h), over
-  /// that way's scale: rows are readings, columns terms. Empty where places are known.
-  Eigen::MatrixXd lasting_ways{};
+  ReadingWays ways{};                     ///< none where places are known
 };
 
 }  // namespace palpation

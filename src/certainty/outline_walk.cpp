@@ -78,10 +78,10 @@ OutlineWalk::OutlineWalk(const OutlineReadings& readings, const OutlinePrior& pr
   for (std::size_t change = 0; change < prior.changes.size(); ++change)
     felt_since_.push_back(share_since(readings, prior, static_cast<int>(change), outline));
   lengths_.of_ways[0].assign(readings.places.size(), 1.0);
-  lengths_.of_ways[1].assign(static_cast<std::size_t>(readings.lasting_ways.cols()), 1.0);
-  if (readings.lasting_ways.cols() > 0)
-    same_way_ = readings.lasting_ways.completeOrthogonalDecomposition().solve(
-        Eigen::VectorXd::Ones(readings.lasting_ways.rows()));
+  lengths_.of_ways[1].assign(static_cast<std::size_t>(readings.ways.lasting.cols()), 1.0);
+  if (readings.ways.lasting.cols() > 0)
+    same_way_ = readings.ways.lasting.completeOrthogonalDecomposition().solve(
+        Eigen::VectorXd::Ones(readings.ways.lasting.rows()));
   lengths_.of_profile.fill(0.1);
   lengths_.of_cuts = {0.3, 0.2, 0.001, 0.5};
   lengths_.of_core = {kFirst_m, kFirst_m, 0.1, kFirst_m, 0.3, 0.05};

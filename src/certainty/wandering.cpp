@@ -37,33 +37,36 @@ double least_scale(const OutlineStart& start, std::uint64_t seed) {
 
 }  // namespace
 
-void let_wander(OutlineStart& start) {
-  OutlineReadings& readings = start.readings;
+ReadingWays ways_of(std::span<const std::vector<Made>> made) {
+  ReadingWays ways{.own = Eigen::VectorXd(std::ssize(made))};
   double all = 0.0;
-  readings.own_ways.resize(std::ssize(readings.made));
-  for (Eigen::Index row = 0; row < readings.own_ways.size(); ++row) {
-    const auto made = static_cast<double>(readings.made[static_cast<std::size_t>(row)].size());
-    readings.own_ways[row] = 1.0 / std::sqrt(made);
-    all += made;
+  for (Eigen::Index row = 0; row < ways.own.size(); ++row) {
+    const auto count = static_cast<double>(made[static_cast<std::size_t>(row)].size());
+    ways.own[row] = 1.0 / std::sqrt(count);
+    all += count;
   }
   const double lasting = kLasting * std::max(1.0, all / static_cast<double>(kMostTerms));
-  const Eigen::MatrixXd terms = terms_of_errors(readings.made, lasting, kMostTerms);
-  readings.lasting_ways = (terms.array().abs() < kNothing).select(0.0, terms);
+  const Eigen::MatrixXd terms = terms_of_errors(made, lasting, kMostTerms);
+  ways.lasting = (terms.array().abs() < kNothing).select(0.0, terms);
+  return ways;
+}
+
+void let_wander(const ReadingWays& ways, OutlineStart& start) {
+  start.readings.ways = ways;
   const auto no_ways = [](Eigen::Index count) {
     return Wandering::Ways{Eigen::MatrixX2d::Zero(count, 2), std::log(kMedian_m)};
   };
-  start.profile.wandering = {no_ways(std::ssize(readings.places)), no_ways(terms.cols())};
+  start.profile.wandering = {no_ways(ways.own.size()), no_ways(ways.lasting.cols())};
   start.prior.median.wandering = start.profile.wandering;
 }
 
 /// Walks that see the prior alone fall below the least, too.
-bool do_places_wander(OutlineStart start, std::uint64_t seed) {
-  if (start.readings.made.empty()) return false;
-  let_wander(start);
+bool do_places_wander(const OutlineStart& wandering, std::uint64_t seed) {
+  if (wandering.profile.wandering.is_none()) return false;
   std::array<double, kWalks> least{};
   for_ranges(kWalks, 1, [&](int first, int last) {
     for (int walk = first; walk < last; ++walk)
-      least[walk] = least_scale(start, kWalks * ~seed + static_cast<std::uint64_t>(walk));
+      least[walk] = least_scale(wandering, kWalks * ~seed + static_cast<std::uint64_t>(walk));
   });
   return std::ranges::max(least) > kLeastScale_m;
 }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "certainty/outline_start.h"
@@ -16,12 +17,15 @@
 
 namespace palpation {
 
-/// From here on places wander; how far is learned.
-void let_wander(OutlineStart& start);
+/// Of readings that were made in this order.
+ReadingWays ways_of(std::span<const std::vector<Made>> made);
 
-/// Whether one of two walks in which places wander is sure that they do, by more than can matter:
-/// it costs little to draw ways that are none.
-bool do_places_wander(OutlineStart start, std::uint64_t seed);
+/// From here on places wander by these ways; how far is learned.
+void let_wander(const ReadingWays& ways, OutlineStart& start);
+
+/// Whether one of two walks from there is sure that they do, by more than can matter: it costs
+/// little to draw ways that are none.
+bool do_places_wander(const OutlineStart& wandering, std::uint64_t seed);
 
 /// By draws in which they do.
 WanderingPlaces wandering_by(const std::vector<OutlineDraw>& draws,

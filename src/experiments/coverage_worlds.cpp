@@ -106,7 +106,7 @@ void add_reliability(const Surface& surface, const World& world, const Field& pr
   row.set("area_by_p", list_text(area)).set("tumour_by_p", list_text(tumour));
 }
 
-/// What surprised, and by how many nats.
+/// What surprised, and by how many nats; and by how many millimetres places wander.
 std::string misfit_text(const Conclusion& conclusion) {
   std::string text;
   for (const Misfit& one : conclusion.evidence.taken_back)
@@ -115,6 +115,9 @@ std::string misfit_text(const Conclusion& conclusion) {
   for (const Misfit& one : misfits(conclusion))
     text +=
         (text.empty() ? "" : " ") + std::string(name_of(one.kind)) + "=" + fixed(one.evidence, 1);
+  if (conclusion.outlines && conclusion.outlines->misfit.wandering)
+    text += (text.empty() ? "" : " ") +
+            ("wandering-mm=" + fixed(conclusion.outlines->misfit.wandering->way_m.mean * 1e3, 2));
   return text;
 }
 

@@ -9,9 +9,9 @@
 #include <functional>
 #include <numbers>
 
-#include "certainty/errors_in_turn.h"
 #include "certainty/outline_chain.h"
 #include "certainty/outline_walk.h"
+#include "certainty/wandering.h"
 
 namespace palpation {
 namespace {
@@ -187,17 +187,14 @@ void add_changes(const std::vector<MisfitKind>& kinds, OutlineReadings& readings
   prior.gain_log_sd.assign(kinds.size(), 0.2);
 }
 
-/// Each by a way of its own, and by one that lasts over ten readings, in their order.
-void let_wander(OutlineReadings& readings, OutlinePrior& prior) {
+/// As the product has it, in their order; the first is the mean of four.
+void wander(OutlineReadings& readings, OutlinePrior& prior) {
   for (std::size_t i = 0; i < readings.places.size(); ++i) readings.made.push_back({{.number = i}});
-  readings.own_ways = Eigen::VectorXd::Ones(std::ssize(readings.places));
-  readings.own_ways[0] = 0.5;
-  readings.lasting_ways = terms_of_errors(readings.made, 10.0, 400);
-  const auto no_ways = [](Eigen::Index count) {
-    return Wandering::Ways{Eigen::MatrixX2d::Zero(count, 2), std::log(0.5 * kMm)};
-  };
-  prior.median.wandering = {no_ways(std::ssize(readings.places)),
-                            no_ways(readings.lasting_ways.cols())};
+  readings.made.front().resize(4, {.number = 0});
+  OutlineStart start{readings, prior, {}, prior.median};
+  let_wander(ways_of(readings.made), start);
+  readings = start.readings;
+  prior = start.prior;
 }
 
 TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
@@ -213,7 +210,7 @@ TEST(OutlineChain, AfterAnySteppingItsDensityIsThatOfTheWhole) {
     readings.travel.push_back(direction_of(random));
   readings.background = background_terms({.places = readings.places, .when = readings.reading});
   readings.background.median_sd = 0.1;
-  let_wander(readings, prior);
+  wander(readings, prior);
   OutlineWalk chain(readings, prior, start, prior.median, 5);
   chain.settle(60);
   EXPECT_NE(chain.chain().residuals().log_noise(), 0.0);
@@ -568,7 +565,7 @@ TEST(OutlineWalk, WhatIsLeftOfAMoveIsDrawnFromItsPriorWhereReadingsTellNothing) 
 // farther those may lie.
 TEST(OutlineChain, WanderingIsDrawnFromItsPriorWhereReadingsTellNothing) {
   auto [outline, readings, prior] = TellingNothing(27);
-  let_wander(readings, prior);
+  wander(readings, prior);
   OutlineChain chain(readings, prior, outline, prior.median);
   Random random(28);
   constexpr int kSteps = 10'000;
@@ -578,7 +575,7 @@ TEST(OutlineChain, WanderingIsDrawnFromItsPriorWhereReadingsTellNothing) {
     const auto any = [&] { return Vec2(random.normal(), random.normal()); };
     for (int step = 0; step < 4; ++step) {
       chain.wander(static_cast<std::size_t>(random.below(40)), any(), random);
-      chain.wander_lasting(random.below(static_cast<int>(readings.lasting_ways.cols())), any(),
+      chain.wander_lasting(random.below(static_cast<int>(readings.ways.lasting.cols())), any(),
                            random);
     }
     chain.redraw_lasting_ways(random);
@@ -588,7 +585,7 @@ TEST(OutlineChain, WanderingIsDrawnFromItsPriorWhereReadingsTellNothing) {
       (other.*kKinds[kind]).log_scale += random.normal();
       chain.wander_with_nodes(other, outline.place, random);
       const Wandering::Ways& ways = chain.profile().wandering.*kKinds[kind];
-      const double off = ways.log_scale - std::log(0.5 * kMm);
+      const double off = ways.log_scale - (prior.median.wandering.*kKinds[kind]).log_scale;
       mean[kind] += off / kSteps;
       square[kind] += off * off / kSteps;
       norm[kind] += ways.terms.squaredNorm() / static_cast<double>(ways.terms.size()) / kSteps;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 namespace palpation {
 namespace {
@@ -61,6 +62,11 @@ OutlineStart start_of(const Way& way, std::uint64_t seed, int count = kCount,
   return start;
 }
 
+OutlineStart wandering(OutlineStart start) {
+  let_wander(ways_of(start.readings.made), start);
+  return start;
+}
+
 std::vector<OutlineDraw> draws_of(const OutlineStart& start, std::uint64_t seed) {
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, seed);
   walk.settle(400);
@@ -69,14 +75,14 @@ std::vector<OutlineDraw> draws_of(const OutlineStart& start, std::uint64_t seed)
 
 TEST(Wandering, IsNotFoundWhereTissueRests) {
   for (const std::uint64_t seed : {1, 2})
-    EXPECT_FALSE(do_places_wander(start_of(at_rest, seed), seed)) << seed;
+    EXPECT_FALSE(do_places_wander(wandering(start_of(at_rest, seed)), seed)) << seed;
 }
 
 // Beforehand places may wander by millimetres; few or noisy readings leave that as it is.
 TEST(Wandering, IsNotFoundWhereReadingsTellNothingOfIt) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    EXPECT_FALSE(do_places_wander(start_of(at_rest, seed, 15, 0.4), seed)) << seed;
-    EXPECT_FALSE(do_places_wander(start_of(at_rest, seed, 40, 1e6), seed)) << seed;
+    EXPECT_FALSE(do_places_wander(wandering(start_of(at_rest, seed, 15, 0.4)), seed)) << seed;
+    EXPECT_FALSE(do_places_wander(wandering(start_of(at_rest, seed, 40, 1e6)), seed)) << seed;
   }
 }
 
@@ -84,27 +90,27 @@ TEST(Wandering, IsNotFoundWhereReadingsTellNothingOfIt) {
 TEST(Wandering, MeansOfSeveralReadingsWanderLess) {
   OutlineStart start = start_of(at_rest, 6, 30);
   start.readings.made[0] = {{.number = 0}, {.number = 30}, {.number = 31}, {.number = 32}};
-  let_wander(start);
-  EXPECT_EQ(start.readings.own_ways[0], 0.5);
-  EXPECT_EQ(start.readings.own_ways[1], 1.0);
-  EXPECT_LT(start.readings.lasting_ways.row(0).squaredNorm(), 0.6);
-  EXPECT_GT(start.readings.lasting_ways.row(1).squaredNorm(), 0.9);
+  start = wandering(std::move(start));
+  EXPECT_EQ(start.readings.ways.own[0], 0.5);
+  EXPECT_EQ(start.readings.ways.own[1], 1.0);
+  EXPECT_LT(start.readings.ways.lasting.row(0).squaredNorm(), 0.6);
+  EXPECT_GT(start.readings.ways.lasting.row(1).squaredNorm(), 0.9);
 }
 
 TEST(Wandering, IsFoundWhereTissueBreathes) {
   for (const std::uint64_t seed : {1, 2})
-    EXPECT_TRUE(do_places_wander(start_of(breathing, seed), seed)) << seed;
+    EXPECT_TRUE(do_places_wander(wandering(start_of(breathing, seed)), seed)) << seed;
 }
 
 TEST(Wandering, IsFoundWhereEachPlaceIsOff) {
   for (const std::uint64_t seed : {1, 2})
-    EXPECT_TRUE(do_places_wander(start_of(each_elsewhere(100 * seed), seed), seed)) << seed;
+    EXPECT_TRUE(do_places_wander(wandering(start_of(each_elsewhere(100 * seed), seed)), seed))
+        << seed;
 }
 
 // Ways are known up to one that all have, which is the outline's own place.
 TEST(Wandering, DrawsTheWaysThatTissueWent) {
-  OutlineStart start = start_of(breathing, 3);
-  let_wander(start);
+  const OutlineStart start = wandering(start_of(breathing, 3));
   const std::vector<OutlineDraw> draws = draws_of(start, 3);
   const WanderingPlaces found = wandering_by(draws, start.readings);
   EXPECT_TRUE(found.is_sure());
@@ -126,16 +132,14 @@ TEST(Wandering, DrawsTheWaysThatTissueWent) {
 }
 
 TEST(Wandering, TellsWaysThatLastFromThoseOfEach) {
-  OutlineStart start = start_of(each_elsewhere(500), 5);
-  let_wander(start);
+  const OutlineStart start = wandering(start_of(each_elsewhere(500), 5));
   const WanderingPlaces found = wandering_by(draws_of(start, 5), start.readings);
   EXPECT_TRUE(found.is_sure());
   EXPECT_LT(found.lasting.mean, 0.5);
 }
 
 TEST(Wandering, IsLessThanMattersWhereTissueRests) {
-  OutlineStart start = start_of(at_rest, 4);
-  let_wander(start);
+  const OutlineStart start = wandering(start_of(at_rest, 4));
   const WanderingPlaces found = wandering_by(draws_of(start, 4), start.readings);
   EXPECT_LT(found.way_m.mean, 0.3 * kMm);
   EXPECT_FALSE(found.is_sure());
