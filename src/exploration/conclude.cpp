@@ -7,10 +7,8 @@
 #include "exploration/change_search.h"
 #include "exploration/doubtful_parts.h"
 #include "exploration/likelier_scale.h"
-#include "exploration/soft_spot.h"
 #include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
-#include "palpation/base/error.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
 #include "readings/lost_contact.h"
@@ -57,16 +55,6 @@ std::vector<Palpation> bounded(const Surface& surface, std::vector<Palpation> fe
   return felt;
 }
 
-Model on_scale(ReadingScale scale, Model model) {
-  if (model.level.known) {
-    require(scale == ReadingScale::Raw || *model.level.known > 0.0, "Model",
-            "level = " + text_of(*model.level.known),
-            "must be positive where readings are taken by their logarithm");
-    model.level.known = on_scale(scale, *model.level.known);
-  }
-  return model;
-}
-
 /// Whether errors or waves alone make the readings about as probable as the edge does, or more so.
 bool may_be_no_tumour(const Evidence& evidence) {
   return evidence.of_edge && evidence.of_edge->log_odds < surprising();
@@ -104,15 +92,14 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   if (cache == nullptr) cache = &own;
   std::vector<Palpation> felt =
       bounded(surface, live(surface, felt_among(surface, readings, model)));
-  const ReadingScale scale =
-      model.contrast.scale ? *model.contrast.scale : likelier_scale(surface, model, felt, *cache);
-  const Model scaled = on_scale(scale, model);
   // Equations (1) and (2), and whether they show more than noise.
   // The level (section V.3, equation 4) and its level set.
-  std::vector<Palpation> modelled = on_scale(scale, felt);
-  auto [believed, marginals, component, boundary] =
-      known_beside_soft_spot(surface, scaled, modelled, *cache, sampling_seed.has_value());
+  auto [likelier, other] = on_likelier_scale(surface, model, felt, *cache, sampling_seed);
+  auto& [scale, modelled, known] = likelier;
+  auto& [believed, marginals, component, boundary] = known;
+  const Model scaled = on_scale(scale, model);
   believed.evidence.scale = scale;
+  believed.evidence.scale_is_open = other.has_value();
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
   if (sampling_seed) draw_outlines(boundary, scaled, believed, *sampling_seed);
@@ -125,6 +112,11 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   if (certainty && believed.evidence.zero_or_tissue)
     certainty =
         doubted_by_step(*std::move(certainty), surface, scaled, modelled, believed.evidence);
+  if (certainty && other)
+    certainty = as_likely_another(*std::move(certainty), surface,
+                                  certainty_of(surface, model, other->known.believed,
+                                               other->known.component, other->known.boundary)
+                                      .score);
   if (certainty && may_be_no_tumour(believed.evidence))
     certainty = as_likely_another(*std::move(certainty), surface, std::nullopt);
 

@@ -152,6 +152,17 @@ Eigen::VectorXd drift_among(const std::vector<Misfit>& changes) {
 
 }  // namespace
 
+OutlineOptions outline_options(const Model& model, const Believed& believed, std::uint64_t seed) {
+  return {.fraction = model.level.fraction,
+          .noise_log_sd = noise_log_sd_of(model, believed.belief),
+          .seed = seed,
+          .one_by_one = believed.one_by_one,
+          .changes = with_gains_of_sessions(believed.evidence.taken_back),
+          .background = {slow_waves_among(believed.evidence.taken_back),
+                         believed.evidence.errors_beside_edge,
+                         drift_among(believed.evidence.taken_back)}};
+}
+
 void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
                    std::uint64_t seed) {
   if (!boundary.edge) {
@@ -162,15 +173,7 @@ void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& be
     return;
   }
   boundary.outlines =
-      sample_outlines(believed.belief, *boundary.edge,
-                      {.fraction = model.level.fraction,
-                       .noise_log_sd = noise_log_sd_of(model, believed.belief),
-                       .seed = seed,
-                       .one_by_one = believed.one_by_one,
-                       .changes = with_gains_of_sessions(believed.evidence.taken_back),
-                       .background = {slow_waves_among(believed.evidence.taken_back),
-                                      believed.evidence.errors_beside_edge,
-                                      drift_among(believed.evidence.taken_back)}});
+      sample_outlines(believed.belief, *boundary.edge, outline_options(model, believed, seed));
   if (boundary.outlines) boundary.level = boundary.outlines->level;
 }
 

@@ -31,6 +31,9 @@ std::optional<EdgeBelief> edge_around(const Model& model, const Belief& belief,
                                       const Marginals& component,
                                       const std::vector<double>& first_levels);
 
+/// How the boundary's outlines are drawn.
+OutlineOptions outline_options(const Model& model, const Believed& believed, std::uint64_t seed);
+
 /// Adds outlines, and takes the level from them, where the boundary has an edge.
 void draw_outlines(BoundaryFit& boundary, const Model& model, const Believed& believed,
                    std::uint64_t seed);

@@ -1,18 +1,37 @@
 /// Whether readings are told better by their logarithms.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "palpation/exploration/conclusion.h"
+#include "exploration/as_if_unchanged.h"
 
 namespace palpation {
 
-/// Logarithms, where an edge between two plateaus, with noise about it that is alike on both, makes
-/// the readings more probable by them than as they are, by more than chance (misfit.h): a field's
-/// own evidence would prefer logarithms of any plateaus. As they are where a reading is not
-/// positive, no edge is found on both scales, or other readings count on one than on the other.
-/// What was tried on either is remembered.
-ReadingScale likelier_scale(const Surface& surface, const Model& model,
-                            const std::vector<Palpation>& felt, ConclusionCache& cache);
+/// As the scale has it.
+Model on_scale(ReadingScale scale, Model model);
+
+struct KnownOnScale {
+  ReadingScale scale = ReadingScale::Raw;
+  std::vector<Palpation> felt;  ///< on that scale
+  Known known;                  ///< known_beside_soft_spot
+};
+
+struct LikelierScale {
+  KnownOnScale likelier;
+  /// On the other one, where readings do not tell which.
+  std::optional<KnownOnScale> other{};
+};
+
+/// On the model's scale; where that is open, on that which makes the readings more probable by an
+/// edge between two plateaus, with even noise about it: a field's own evidence would prefer
+/// logarithms of any plateaus. While touches are planned the edge tells, and is surprised by
+/// logarithms or there are none; with a seed outlines tell, and may leave it open. Readings are as
+/// they are where a value of the model is in their unit, more than a few have no logarithm, none is
+/// twice as high as another of its session, or no edge is found on both scales.
+LikelierScale on_likelier_scale(const Surface& surface, const Model& model,
+                                const std::vector<Palpation>& felt, ConclusionCache& cache,
+                                std::optional<std::uint64_t> sampling_seed);
 
 }  // namespace palpation

@@ -25,8 +25,6 @@ void check(const Model& model) {
           "band.place_sd_m = " + text_of(band.place_sd_m), "must be finite and not negative");
   const Contrast& contrast = model.contrast;
   if (!contrast.least) return;
-  require(contrast.scale.has_value(), "Contrast", "least = " + text_of(*contrast.least),
-          "is a difference or a factor: give the scale, too");
   const bool is_factor = contrast.scale == ReadingScale::Log;
   require(std::isfinite(*contrast.least) && *contrast.least > (is_factor ? 1.0 : 0.0), "Contrast",
           "least = " + text_of(*contrast.least),

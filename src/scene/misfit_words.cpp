@@ -5,6 +5,7 @@
 #include <span>
 
 #include "scene/background_words.h"
+#include "scene/scatter_words.h"
 #include "scene/session_words.h"
 #include "scene/words.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr std::size_t kReadingsTold = 3;
 constexpr double kSamePlace_m = 1e-9;
-constexpr double kMoreScatter = 1.1;  // times, surely
 
 std::string apart_words(double disagreement) {
   return "Two samplings of the outline have not come to one answer: they lie " +
@@ -157,17 +157,6 @@ std::string zero_or_tissue_words(ReadingScale scale, const Misfit& step) {
          "where you touched before.";
 }
 
-/// Nothing unless it surely does.
-std::string scatter_words(const Conclusion& conclusion) {
-  const DrawnNumber& inside = conclusion.outlines->noise_inside;
-  if (inside.least < kMoreScatter) return "";
-  return "Readings scatter " + fixed(inside.mean, 1) + " times as much (" + fixed(inside.least, 1) +
-         " to " + fixed(inside.most, 1) + ") on the tumour as beside it, and count for less there" +
-         (conclusion.model.contrast.scale == ReadingScale::Raw
-              ? ": field.transform auto asks whether their logarithms fit better."
-              : ".");
-}
-
 std::string ways_words(const DrawnNumber& lasting) {
   if (lasting.most < 0.5)
     return "most of it each by a way of its own, as tissue that breathes faster than it is "
@@ -258,6 +247,7 @@ std::string unheeded_words(const Conclusion& conclusion) {
 std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   const Surface& surface = conclusion.belief.prior().surface();
   std::vector<std::string> words = session_words(conclusion);
+  words.push_back(scale_words(conclusion));
   for (const Misfit& change : other_changes(conclusion)) {
     words.push_back(taken_back_words(conclusion, change));
     if (change.kind == MisfitKind::Tilted && !session_changes(conclusion).empty())
@@ -273,7 +263,7 @@ std::vector<std::string> misfit_words(const Conclusion& conclusion) {
   for (const Misfit& misfit : misfits(conclusion)) words.push_back(words_of(conclusion, misfit));
   if (conclusion.outlines) {
     words.push_back(unheeded_words(conclusion));
-    words.push_back(scatter_words(conclusion));
+    words.push_back(more_scatter_words(conclusion));
     if (conclusion.outlines->misfit.wandering)
       words.push_back(wandering_words(*conclusion.outlines->misfit.wandering));
     if (conclusion.outlines->core_matters())

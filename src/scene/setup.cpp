@@ -109,20 +109,16 @@ void check_certainty(const Scene& scene, const Plan& plan) {
 
 /// Values in the reading's unit have no meaning beside logarithms.
 void check_logarithms(const Scene& scene, const Model& model) {
-  if (model.contrast.scale == ReadingScale::Raw) return;
+  if (model.contrast.scale != ReadingScale::Log) return;
   for (const char* key : {"field.signal_sd", "field.noise"}) {
     if (scene.word(key) != "learn")
       scene.refuse(
           key,
-          "is in the reading's unit, which logarithms (field.transform log or auto) do not "
-          "have: set it to learn");
+          "is in the reading's unit, which logarithms (field.transform log) do not have: set it to "
+          "learn");
   }
-  if (model.contrast.least && !model.contrast.scale)
-    scene.refuse("plan.min_contrast",
-                 "is a difference where field.transform is none, and a factor where it is log: set "
-                 "that to either, not to auto");
   if (model.level.known && *model.level.known <= 0.0)
-    scene.refuse_value("level.value", "above 0, where field.transform is log or auto");
+    scene.refuse_value("level.value", "above 0, where field.transform is log");
   if (model.contrast.least && *model.contrast.least <= 1.0)
     scene.refuse_value("plan.min_contrast", "above 1: where field.transform is log it is a factor");
 }

@@ -2,6 +2,7 @@
 // may be, and how large a tumour of it may go undetected.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -92,6 +93,53 @@ TEST(Transform, IsToldByTheReadings) {
   EXPECT_EQ(scale_of([](double felt) { return 0.2 + 2.0 * felt; }), ReadingScale::Raw);
   EXPECT_EQ(scale_of([](double felt) { return std::exp(2.0 * felt) - 1.2; }), ReadingScale::Raw)
       << "not positive";
+}
+
+// At the end outlines tell, whose profile may be bent: an edge alone is a sigmoid, which even noise
+// of a hundredth on readings that are thrice as high looks like on logarithms.
+TEST(Transform, IsToldByOutlinesAtTheEnd) {
+  const Surface tissue = plane(51, 101);
+  const Phantom sharp(tissue, {Disk{kStrong, 0.006}}, {.low = 0.0, .high = 1.0, .noise = 0.01});
+  const auto concluded = [&](const std::function<double(double)>& change) {
+    const std::vector<Palpation> all = felt_everywhere(tissue, sharp, change);
+    std::vector<Palpation> every_second;
+    for (std::size_t i = 0; i < all.size(); i += 2) every_second.push_back(all[i]);
+    return conclude(tissue, {}, every_second, nullptr, 3);
+  };
+  const Conclusion even = concluded([](double felt) { return 0.2 + 0.4 * felt; });
+  EXPECT_EQ(even.scale(), ReadingScale::Raw);
+  const Conclusion in_proportion =
+      concluded([](double felt) { return 0.2 * std::exp(2.0 * felt); });
+  EXPECT_TRUE(in_proportion.scale() == ReadingScale::Log || in_proportion.evidence.scale_is_open);
+}
+
+TEST(Transform, IsNoneWhereAValueIsInTheReadingsUnit) {
+  const Surface tissue = plane(51, 101);
+  const std::vector<Palpation> skewed = felt_everywhere(
+      tissue, one_disk(tissue), [](double felt) { return 0.2 * std::exp(2.0 * felt); });
+  EXPECT_EQ(conclude(tissue, {}, skewed).scale(), ReadingScale::Log);
+  EXPECT_EQ(conclude(tissue, {.contrast = {.least = 0.1}}, skewed).scale(), ReadingScale::Raw);
+  Model noise_given;
+  noise_given.field.noise.sd = 0.05;
+  EXPECT_EQ(conclude(tissue, noise_given, skewed).scale(), ReadingScale::Raw);
+}
+
+// As a real phantom of two nodules reads, five to fifteen times as much as what lies beside them
+// and one place in one of them twice that: by readings as they are nothing else stands out.
+TEST(Transform, LetsNoHighReadingHideNodules) {
+  const Surface tissue = plane(51, 101);
+  PhantomDesign design{.model = {.low = 0.0, .high = 1.0, .noise = 0.05}};
+  design.lumps.resize(2);
+  design.lumps[0].outline = Disk{kStrong, 0.005};
+  design.lumps[1].outline = Disk{kWeak, 0.005};
+  design.lumps[1].contrast = 0.6;
+  std::vector<Palpation> readings = felt_everywhere(
+      tissue, Phantom(tissue, design), [](double felt) { return 0.17 * std::exp(2.3 * felt); });
+  std::ranges::max_element(readings, {}, &Palpation::reading)->reading = 4.66;
+  const Conclusion conclusion = conclude(tissue, {}, readings);
+  ASSERT_TRUE(conclusion.contour);
+  for (const Vec3& nodule : {kStrong, kWeak})
+    EXPECT_GE(conclusion.contour->field[tissue.nearest_vertex(nodule)], conclusion.contour->level);
 }
 
 TEST(Transform, TakesNoLevelThatHasNoLogarithm) {

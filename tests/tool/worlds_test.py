@@ -112,10 +112,13 @@ class Worlds(InFolder):
         skewed = self.raster(24, lambda x, y: 0.2 * math.exp(disk(x, y, 30, 6, 2) + random.gauss(0, 0.04)))
         arguments = ("--measurements", skewed)
         log = self.summary("boundary", self.scene(field={"transform": "log"}), *arguments)
-        raw = self.summary("boundary", self.scene(), *arguments)
+        raw = self.summary("boundary", self.scene(field={"transform": "none"}), *arguments)
         self.assertEqual((log["transform"], raw["transform"]), ("log", "none"))
         self.assertAlmostEqual(log["level"], 0.2 * math.e, delta=0.05)  # half way between logarithms
         self.assertGreater(raw["level"], log["level"] + 0.1)
+        by_itself = self.summary("boundary", self.scene(), *arguments)
+        self.assertTrue(by_itself["transform"] == "log" or by_itself["transform_is_open"])
+        self.assertTrue(any("logarithms" in words for words in by_itself["warnings"]), by_itself["warnings"])
         self.refused(self.scene(field={"transform": "log", "noise": 0.1}), "field.noise")
         self.refused(self.scene(field={"transform": "log"}, plan={"min_contrast": 1.0}), "plan.min_contrast")
 
