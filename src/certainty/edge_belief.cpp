@@ -157,7 +157,7 @@ std::optional<EdgeBelief> EdgeBelief::fitted(const Task& task, const OwnParts& p
   EdgeData all = gathered_for_edge(belief);
   const double least = task.field.minCoeff(), range = task.field.maxCoeff() - least;
   if (all.places.empty() || !(range > 0.0)) return std::nullopt;
-  const double profile_error = profile_error_variance(range);
+  const double profile_error = std::pow(shape.profile_error * range, 2);
   const double touch_variance = std::max(belief.noise_variance(), profile_error);
   all.variance = all.variance.cwiseMax(profile_error);
 

@@ -18,7 +18,6 @@ namespace {
 /// four fifths of its height.
 constexpr double kPlateauError = 0.25;
 
-constexpr double kProfileError = 0.01;  ///< of the range
 constexpr double kRounding = 1e-13;
 constexpr double kLeastVariance = 1e-300;  // has an inverse
 constexpr double kDeep_m = 0.008;
@@ -105,8 +104,6 @@ EdgeData summed_up(const EdgeData& data, std::span<const std::vector<std::size_t
 }
 
 }  // namespace
-
-double profile_error_variance(double range) { return std::pow(kProfileError * range, 2); }
 
 EdgeData gathered_for_edge(const Belief& belief) {
   return gathered_for_edge(belief, belief.palpations());

@@ -11,10 +11,6 @@ namespace palpation {
 /// at 500 per metre).
 inline constexpr Eigen::Index kMany = 300;
 
-/// Edges are no perfect sigmoids: readings without noise, whose mean has this range, still scatter
-/// about the profile.
-double profile_error_variance(double range);
-
 /// One reading per place, of those that are used; depths are still to be measured.
 EdgeData gathered_for_edge(const Belief& belief);
 /// The same of the belief's readings `one_by_one`, where it knows some of them together.

@@ -1,7 +1,6 @@
 #include "certainty/outline_evidence.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -13,20 +12,18 @@
 namespace palpation {
 namespace {
 
-/// An outline's profile is never exact, but what it is off by is no noise.
-const double kLessNoise = std::log(10.0);
 /// One is off by five to ten nats.
 constexpr int kWalks = 2;
 
 }  // namespace
 
 std::optional<OutlineEvidence> outline_evidence(const Belief& belief, const EdgeBelief& edge,
-                                                const OutlineOptions& options) {
+                                                const OutlineOptions& options,
+                                                double profile_error) {
   if (!belief.prior().surface().has_chart()) return std::nullopt;
   std::optional<OutlineStart> start =
-      outline_start(belief, belief.at_vertices(Part::Detrended).mean, edge, options);
+      outline_start(belief, belief.at_vertices(Part::Detrended).mean, edge, options, profile_error);
   if (!start) return std::nullopt;
-  start->prior.least_log_noise -= kLessNoise;
   const OutlineStart begin = pruned(*std::move(start), options.seed);
   std::array<double, kWalks> log_densities{};
   for_ranges(kWalks, 1, [&](int first, int last) {
@@ -35,7 +32,7 @@ std::optional<OutlineEvidence> outline_evidence(const Belief& belief, const Edge
           settled(begin, kWalks * options.seed + static_cast<std::uint64_t>(walk)).log_odds;
   });
   return OutlineEvidence{std::accumulate(log_densities.begin(), log_densities.end(), 0.0) / kWalks,
-                         begin.readings.places.size()};
+                         begin.readings.made};
 }
 
 }  // namespace palpation

@@ -128,7 +128,8 @@ void set_heights(BackgroundTerms& background, std::span<const Misfit> changes, d
 }
 
 OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, double range,
-                                  const OutlineOptions& options, OutlinePrior& prior) {
+                                  const OutlineOptions& options, double profile_error,
+                                  OutlinePrior& prior) {
   const std::vector<Misfit>& changes = options.changes;
   const Surface& surface = belief.prior().surface();
   const Layout layout(belief.prior());
@@ -137,9 +138,8 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
   const SeenBackground& seen = options.background;
   if (seen.errors_in_turn.readings > 0.0 && seen.drift.size() > 0)
     data.reading += mean_in_turn(seen.drift, data.made);
-  data.variance = data.variance.cwiseMax(profile_error_variance(range));
-  const double least_variance =
-      std::max(profile_error_variance(range), rounding_variance(belief.palpations()));
+  data.variance = data.variance.cwiseMax(profile_error);
+  const double least_variance = std::max(profile_error, rounding_variance(belief.palpations()));
   prior.least_log_noise = 0.5 * std::log(least_variance / data.variance.minCoeff());
   Eigen::VectorXd of_vertices;
   if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
@@ -250,7 +250,8 @@ bool moves_zero(const Misfit& change) {
 }
 
 std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mean,
-                                          const EdgeBelief& edge, const OutlineOptions& options) {
+                                          const EdgeBelief& edge, const OutlineOptions& options,
+                                          double profile_error) {
   const Surface& surface = belief.prior().surface();
   const EdgeProfile& profile = edge.profile();
   const double range = profile.high - profile.low;
@@ -258,7 +259,8 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
   const std::vector<std::vector<Vec2>> lines = lines_of(surface, edge.depth());
   if (lines.empty() || !(range > 0.0)) return std::nullopt;
   OutlineStart start;
-  start.readings = readings_in_plane(belief, edge, range, options, start.prior);
+  start.readings = readings_in_plane(belief, edge, range, options,
+                                     std::pow(profile_error * range, 2), start.prior);
   const OutlineNodes outline = outline_from(lines, start.readings.places);
   if (outline.loops.empty()) return std::nullopt;
   const ShapePrior shape;

@@ -24,8 +24,10 @@ bool moves_zero(const Misfit& change);
 void begin_with(const OutlineNodes& outline, OutlineStart& start);
 
 /// Nothing where there is no boundary. The readings are sorted, so that their order tells nothing.
-/// `mean`: the belief's at the vertices, without a trend.
+/// `mean`: the belief's at the vertices, without a trend. `profile_error`: as ShapePrior has it; no
+/// noise is less.
 std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mean,
-                                          const EdgeBelief& edge, const OutlineOptions& options);
+                                          const EdgeBelief& edge, const OutlineOptions& options,
+                                          double profile_error = ShapePrior{}.profile_error);
 
 }  // namespace palpation

@@ -60,6 +60,11 @@ bool may_be_no_tumour(const Evidence& evidence) {
   return evidence.of_edge && evidence.of_edge->log_odds < surprising();
 }
 
+/// Another's, where its band is as wide as it is by itself.
+Field score_beside(const Certainty& certainty, const Certainty& other) {
+  return certainty.band_score / other.band_score * other.score;
+}
+
 /// The step that tissue or the zero may have made is taken for tissue; were it the zero's, nothing
 /// or another outline is left.
 Certainty doubted_by_step(Certainty certainty, const Surface& surface, const Model& model,
@@ -73,7 +78,18 @@ Certainty doubted_by_step(Certainty certainty, const Surface& surface, const Mod
               with_changes_taken_back(surface, readings, {&*evidence.zero_or_tissue, 1}), apart));
   std::optional<Field> score;
   if (other.boundary.edge)
-    score = certainty_of(surface, model, other.believed, other.component, other.boundary).score;
+    score = score_beside(
+        certainty, certainty_of(surface, model, other.believed, other.component, other.boundary));
+  return as_likely_another(std::move(certainty), surface, score);
+}
+
+/// The scale that readings are even on is not known.
+Certainty doubted_by_scale(Certainty certainty, const Surface& surface, const Model& model,
+                           KnownOnScale other, std::uint64_t seed) {
+  auto& [believed, marginals, component, boundary] = other.known;
+  draw_outlines(boundary, model, believed, seed);
+  const std::optional<Field> score =
+      score_beside(certainty, certainty_of(surface, model, believed, component, boundary));
   return as_likely_another(std::move(certainty), surface, score);
 }
 
@@ -113,10 +129,8 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
     certainty =
         doubted_by_step(*std::move(certainty), surface, scaled, modelled, believed.evidence);
   if (certainty && other)
-    certainty = as_likely_another(*std::move(certainty), surface,
-                                  certainty_of(surface, model, other->known.believed,
-                                               other->known.component, other->known.boundary)
-                                      .score);
+    certainty =
+        doubted_by_scale(*std::move(certainty), surface, model, *std::move(other), *sampling_seed);
   if (certainty && may_be_no_tumour(believed.evidence))
     certainty = as_likely_another(*std::move(certainty), surface, std::nullopt);
 

@@ -8,7 +8,7 @@
 namespace palpation {
 namespace {
 
-constexpr std::size_t kScales = 2;
+constexpr std::size_t kRemembered = 4;
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
@@ -89,7 +89,7 @@ std::shared_ptr<const TriedBackgrounds> ConclusionCache::tried(
 
 void ConclusionCache::remember(std::shared_ptr<const TriedBackgrounds> tried) {
   tried_.insert(tried_.begin(), std::move(tried));
-  if (tried_.size() > kScales) tried_.pop_back();
+  if (tried_.size() > kRemembered) tried_.pop_back();
 }
 
 }  // namespace palpation

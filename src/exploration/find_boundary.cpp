@@ -98,8 +98,9 @@ const Field* BoundaryFit::offset_sd() const {
 
 std::optional<EdgeBelief> edge_around(const Model& model, const Belief& belief,
                                       const Marginals& component,
-                                      const std::vector<double>& first_levels) {
-  return EdgeBelief::around(belief, component, first_levels, model.level.fraction, {},
+                                      const std::vector<double>& first_levels,
+                                      const ShapePrior& shape) {
+  return EdgeBelief::around(belief, component, first_levels, model.level.fraction, shape,
                             noise_log_sd_of(model, belief));
 }
 

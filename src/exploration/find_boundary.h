@@ -29,7 +29,8 @@ BoundaryFit find_boundary(const Surface& surface, const Model& model, const Beli
 /// EdgeBelief::around, as a model has it.
 std::optional<EdgeBelief> edge_around(const Model& model, const Belief& belief,
                                       const Marginals& component,
-                                      const std::vector<double>& first_levels);
+                                      const std::vector<double>& first_levels,
+                                      const ShapePrior& shape = {});
 
 /// How the boundary's outlines are drawn.
 OutlineOptions outline_options(const Model& model, const Believed& believed, std::uint64_t seed);

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <optional>
-#include <span>
+#include <numbers>
 #include <utility>
-#include <vector>
 
+#include "certainty/edge_data.h"
 #include "certainty/outline_evidence.h"
 #include "exploration/find_boundary.h"
 #include "exploration/soft_spot.h"
 #include "palpation/base/error.h"
-#include "palpation/certainty/misfit.h"
+#include "palpation/readings/screening.h"
 #include "readings/readings.h"
 
 namespace palpation {
@@ -26,36 +26,42 @@ constexpr std::size_t kOneInWithout = 20;
 constexpr double kWild = 0.01, kWildRange = 3.0;
 /// By odds of a thousand to one: walks of outlines know them to a half of that.
 const double kRuledOut = std::log(1000.0);
+/// What a profile is off by, of the range, is no noise: taken for some, it would make even noise
+/// that is less look like noise in proportion.
+constexpr double kLeastError = 0.001;
+const double kLogTwoPi = std::log(2.0 * std::numbers::pi);
+
+/// Values in the readings' unit have no meaning beside logarithms.
+bool is_open(const Model& model) {
+  const FieldModel& field = model.field;
+  return !model.contrast.scale && !model.contrast.least && model.level.is_of_edge() &&
+         field.kernel.signal_sd.is_learned() && field.noise.sd.is_learned() &&
+         field.trend.constant.sd == Constant{}.sd;
+}
 
 /// Whether some readings of a session are so many times as high as others of it, and nearly all
-/// are positive.
-bool are_skewed(std::span<const Palpation> felt) {
+/// are positive. Where the sensor's range ended they tell of no noise.
+bool are_skewed(std::span<const Palpation> felt, std::span<const Palpation> used) {
   std::map<int, std::pair<double, double>> ranges;  // least and greatest of each session
   std::size_t count = 0, without_logarithm = 0;
-  for (const Palpation& one : felt) {
-    if (!counts(one)) continue;
+  for (std::size_t i = 0; i < felt.size(); ++i) {
+    if (!counts(felt[i]) || used[i].set_aside == kNoContact) continue;
+    if (felt[i].is_bound()) return false;
+    const double reading = felt[i].reading;
     ++count;
-    if (!(one.reading > 0.0)) {
+    if (!(reading > 0.0)) {
       ++without_logarithm;
       continue;
     }
-    auto& [least, greatest] =
-        ranges.try_emplace(one.session, one.reading, one.reading).first->second;
-    least = std::min(least, one.reading);
-    greatest = std::max(greatest, one.reading);
+    auto& [least, greatest] = ranges.try_emplace(felt[i].session, reading, reading).first->second;
+    least = std::min(least, reading);
+    greatest = std::max(greatest, reading);
   }
   return kOneInWithout * without_logarithm <= count &&
          std::ranges::any_of(ranges, [](const auto& session) {
            const auto& [least, greatest] = session.second;
            return greatest >= kSkewed * least;
          });
-}
-
-/// Values in the readings' unit have no meaning beside logarithms.
-bool is_open(const Model& model) {
-  const FieldModel& field = model.field;
-  return !model.contrast.scale && !model.contrast.least && model.level.is_of_edge() &&
-         field.kernel.signal_sd.is_learned() && field.noise.sd.is_learned();
 }
 
 KnownOnScale known_on(ReadingScale scale, const Surface& surface, const Model& model,
@@ -65,52 +71,114 @@ KnownOnScale known_on(ReadingScale scale, const Surface& surface, const Model& m
   return {scale, std::move(scaled), std::move(known)};
 }
 
-/// Of one that tells on that scale, on average; nothing where no outline is found.
-std::optional<double> log_density_of_one(const KnownOnScale& on, const Model& model,
-                                         std::optional<std::uint64_t> sampling_seed) {
-  const Believed& believed = on.known.believed;
-  const EdgeBelief& edge = *on.known.boundary.edge;
-  if (!sampling_seed) return edge.log_evidence() / believed.belief.site_count();
-  const std::optional<OutlineEvidence> by_outlines =
-      outline_evidence(believed.belief, edge, outline_options(model, believed, *sampling_seed));
-  if (!by_outlines) return std::nullopt;
-  return by_outlines->log_density / static_cast<double>(by_outlines->readings);
+/// Of the belief's rows, on its scale.
+struct Told {
+  double log_density = 0.0;  ///< nats
+  std::vector<std::vector<Made>> rows{};
+};
+
+std::optional<Told> told_by_edge(const KnownOnScale& on, const Model& model) {
+  const Belief& belief = on.known.believed.belief;
+  const std::optional<EdgeBelief> edge =
+      edge_around(model, belief, on.known.component, {on.known.boundary.edge->level().value},
+                  {.profile_error = kLeastError});
+  if (!edge) return std::nullopt;
+  Told told{edge->log_evidence(), gathered_for_edge(belief).made};
+  told.log_density -= 0.5 * kLogTwoPi * static_cast<double>(told.rows.size());
+  return told;
 }
 
-/// Nats, of readings as the sensor makes them. What is set aside on a scale may be anything there.
-class DensityOfReadings {
+std::optional<Told> told_by_outlines(const KnownOnScale& on, const Model& model,
+                                     std::uint64_t seed) {
+  const Believed& believed = on.known.believed;
+  std::optional<OutlineEvidence> by_outlines =
+      outline_evidence(believed.belief, *on.known.boundary.edge,
+                       outline_options(model, believed, seed), kLeastError);
+  if (!by_outlines) return std::nullopt;
+  return Told{by_outlines->log_density, std::move(by_outlines->rows)};
+}
+
+/// How probable readings are as the sensor makes them, whatever scale they are told on.
+class DensityAsRead {
  public:
-  DensityOfReadings(std::span<const Palpation> felt, const KnownOnScale& raw) : felt_(felt) {
-    const std::vector<double> used = used_readings(raw.known.believed.palpations);
-    const auto [least, greatest] = std::ranges::minmax(used);
-    wild_ = std::log(kWild / (kWildRange * (greatest - least)));
+  DensityAsRead(std::span<const Palpation> felt, const KnownOnScale& raw)
+      : felt_(felt), before_(readings_before_each(felt)) {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (std::size_t i = 0; i < felt.size(); ++i) {
+      if (!counts(raw.known.believed.palpations[i])) continue;
+      least = std::min(least, felt[i].reading);
+      greatest = std::max(greatest, felt[i].reading);
+    }
+    log_wild_ = std::log(kWild / (kWildRange * (greatest - least)));
+    log_row_ = -0.5 * (kLogTwoPi + std::log(raw.known.believed.belief.noise_variance()) + 1.0);
   }
 
-  double of(const KnownOnScale& on, double log_density_of_one) const {
-    const std::vector<Palpation>& used = on.known.believed.palpations;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < felt_.size(); ++i) {
-      if (!counts(felt_[i])) continue;
-      sum += counts(used[i]) ? log_density_of_one : wild_;
-      if (counts(used[i]) && on.scale == ReadingScale::Log) sum -= std::log(felt_[i].reading);
+  /// Nats, over as many rows of noise alone. What is set aside on a scale may be anything.
+  double of(const KnownOnScale& on, const Told& told) const {
+    const Believed& believed = on.known.believed;
+    double sum = told.log_density - log_row_ * static_cast<double>(told.rows.size());
+    for (const std::vector<Made>& row : told.rows) {
+      for (const Made& one : row)
+        sum += log_stretch(on.scale, believed.evidence.taken_back, one) /
+               static_cast<double>(row.size());
     }
+    for (std::size_t i = 0; i < felt_.size(); ++i)
+      sum += counts(felt_[i]) && !counts(believed.palpations[i]) ? log_wild_ - log_row_ : 0.0;
     return sum;
   }
 
  private:
+  /// By how much what is told of a reading changes with it.
+  double log_stretch(ReadingScale scale, const std::vector<Misfit>& taken_back,
+                     const Made& one) const {
+    const auto after = std::ranges::upper_bound(before_, one.number);
+    const Palpation& felt = felt_[static_cast<std::size_t>(after - before_.begin()) - 1];
+    double sum = scale == ReadingScale::Log ? -std::log(felt.reading) : 0.0;
+    for (const Misfit& change : taken_back) {
+      if (change.kind == MisfitKind::Gain && is_since(change, one))
+        sum -= std::log1p(change.amount);
+    }
+    return sum;
+  }
+
   std::span<const Palpation> felt_;
-  double wild_ = 0.0;
+  std::vector<std::size_t> before_;
+  double log_wild_ = 0.0;
+  double log_row_ = 0.0;
 };
 
-/// By how much logarithms are more probable, nats; nothing where outlines do not tell.
-std::optional<double> gained_by(const KnownOnScale& log, const KnownOnScale& raw,
-                                std::span<const Palpation> felt, const Model& model,
-                                std::optional<std::uint64_t> sampling_seed) {
-  const std::optional<double> one_by_log = log_density_of_one(log, model, sampling_seed),
-                              one_by_raw = log_density_of_one(raw, model, sampling_seed);
-  if (!one_by_log || !one_by_raw) return std::nullopt;
-  const DensityOfReadings density(felt, raw);
-  return density.of(log, *one_by_log) - density.of(raw, *one_by_raw);
+/// By how much logarithms are more probable, nats; none where it is not told.
+struct Gained {
+  std::optional<double> by_edge{};
+  std::optional<double> by_outlines{};
+};
+Gained gained_by(const KnownOnScale& log, const KnownOnScale& raw, std::span<const Palpation> felt,
+                 const Model& model, std::optional<std::uint64_t> sampling_seed) {
+  const DensityAsRead density(felt, raw);
+  const auto gained = [&](const auto& told_on) -> std::optional<double> {
+    const std::optional<Told> by_log = told_on(log), by_raw = told_on(raw);
+    if (!by_log || !by_raw) return std::nullopt;
+    return density.of(log, *by_log) - density.of(raw, *by_raw);
+  };
+  Gained all{.by_edge = gained([&](const auto& on) { return told_by_edge(on, model); })};
+  if (sampling_seed)
+    all.by_outlines =
+        gained([&](const auto& on) { return told_by_outlines(on, model, *sampling_seed); });
+  return all;
+}
+
+enum class Scales { Raw, RawOrLog, LogOrRaw, Log };
+
+/// An edge is a sigmoid with even noise, and takes all else for noise. Outlines may be bent and
+/// scatter more inside, but follow readings at the edge, the more the less noise those have: where
+/// the two do not agree, it is open.
+Scales scales_by(const Gained& gained) {
+  const double by_edge = gained.by_edge.value_or(0.0);
+  if (!gained.by_outlines) return by_edge > surprising() ? Scales::Log : Scales::Raw;
+  const double by_outlines = *gained.by_outlines;
+  if (by_outlines > kRuledOut && by_edge > 0.0) return Scales::Log;
+  if (by_outlines < -kRuledOut && by_edge < 0.0) return Scales::Raw;
+  return by_edge + by_outlines > 0.0 ? Scales::LogOrRaw : Scales::RawOrLog;
 }
 
 }  // namespace
@@ -131,18 +199,23 @@ LikelierScale on_likelier_scale(const Surface& surface, const Model& model,
   const bool is_last = sampling_seed.has_value();
   KnownOnScale one = known_on(model.contrast.scale.value_or(ReadingScale::Raw), surface, model,
                               felt, cache, is_last);
-  if (!is_open(model) || !are_skewed(felt) || !one.known.boundary.edge) return {std::move(one)};
+  if (!is_open(model) || !are_skewed(felt, one.known.believed.palpations)) return {std::move(one)};
   ConclusionCache apart;  // beliefs on another scale do not grow from those on this one
   apart.remember_tried_by(cache);
   KnownOnScale log = known_on(ReadingScale::Log, surface, model, felt, apart, is_last);
   cache.remember_tried_by(apart);
   if (!log.known.boundary.edge) return {std::move(one)};
-  const std::optional<double> gained = gained_by(log, one, felt, model, sampling_seed);
-  const double clearly = is_last ? kRuledOut : surprising();
-  if (!gained || *gained < (is_last ? -clearly : clearly)) return {std::move(one)};
-  if (*gained > clearly) return {std::move(log)};
-  if (*gained > 0.0) std::swap(one, log);
-  return {std::move(one), std::move(log)};
+  if (!one.known.boundary.edge) return {std::move(log)};
+  switch (scales_by(gained_by(log, one, felt, model, sampling_seed))) {
+    case Scales::Raw:
+      return {std::move(one)};
+    case Scales::RawOrLog:
+      return {std::move(one), std::move(log)};
+    case Scales::LogOrRaw:
+      return {std::move(log), std::move(one)};
+    default:
+      return {std::move(log)};
+  }
 }
 
 }  // namespace palpation

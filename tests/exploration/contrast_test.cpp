@@ -102,9 +102,9 @@ TEST(Transform, IsToldByOutlinesAtTheEnd) {
   const Phantom sharp(tissue, {Disk{kStrong, 0.006}}, {.low = 0.0, .high = 1.0, .noise = 0.01});
   const auto concluded = [&](const std::function<double(double)>& change) {
     const std::vector<Palpation> all = felt_everywhere(tissue, sharp, change);
-    std::vector<Palpation> every_second;
-    for (std::size_t i = 0; i < all.size(); i += 2) every_second.push_back(all[i]);
-    return conclude(tissue, {}, every_second, nullptr, 3);
+    std::vector<Palpation> every_third;
+    for (std::size_t i = 0; i < all.size(); i += 3) every_third.push_back(all[i]);
+    return conclude(tissue, {}, every_third, nullptr, 3);
   };
   const Conclusion even = concluded([](double felt) { return 0.2 + 0.4 * felt; });
   EXPECT_EQ(even.scale(), ReadingScale::Raw);

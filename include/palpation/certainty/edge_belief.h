@@ -40,6 +40,9 @@ struct ShapePrior {
   double slope_per_m = 1200.0;         ///< median of the edge's steepness ...
   double slope_log_sd = 0.5;           ///< ... and the spread of its logarithm
   double own_contrast_sd = 0.5;        ///< of a part beside the strongest, of its contrast
+  /// Of the range of the readings' mean: edges are no perfect sigmoids, and readings without noise
+  /// still scatter by so much about the profile.
+  double profile_error = 0.01;
 };
 
 /// In nats, what freedom to lie where it fits costs a loop of such a length: Schwarz's half log of

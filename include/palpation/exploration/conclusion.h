@@ -169,7 +169,7 @@ class ConclusionCache {
   /// What was tried on such readings; nothing where it is not remembered.
   std::shared_ptr<const TriedBackgrounds> tried(const Surface& surface, const Model& model,
                                                 std::span<const Palpation> felt) const;
-  /// The two last are remembered: readings have two scales.
+  /// The four last are remembered: readings have two scales, and may have a soft spot.
   void remember(std::shared_ptr<const TriedBackgrounds> tried);
   void remember_tried_by(const ConclusionCache& other) { tried_ = other.tried_; }
 

@@ -111,9 +111,10 @@ struct LevelRule {
 
 /// What counts as a tumour's contrast.
 struct Contrast {
-  /// Of the readings, before a field is fitted to them. Nothing: logarithms where they make an edge
-  /// and the noise about it more probable (Evidence::scale); never where `least`, signal or noise
-  /// are given, which are in the readings' unit then.
+  /// Of the readings, before a field is fitted to them. Nothing: logarithms where some readings are
+  /// twice as high as others and an edge, and the noise about it, are more probable that way
+  /// (Evidence::scale); never where level, `least`, signal, noise or the trend's constant are
+  /// given, which are in the readings' unit then.
   std::optional<ReadingScale> scale{};
   /// Above healthy tissue, in the readings' unit (with ReadingScale::Log a factor): what surely
   /// stands out by less is texture, a vessel, a slow wave, and no tumour. Nothing: whatever stands
