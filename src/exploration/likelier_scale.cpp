@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "certainty/edge_data.h"
@@ -40,12 +41,13 @@ bool is_open(const Model& model) {
 }
 
 /// Whether some readings of a session are so many times as high as others of it, and nearly all
-/// are positive. Where the sensor's range ended they tell of no noise.
+/// are positive, faults apart. Where the sensor's range ended they tell of no noise.
 bool are_skewed(std::span<const Palpation> felt, std::span<const Palpation> used) {
   std::map<int, std::pair<double, double>> ranges;  // least and greatest of each session
   std::size_t count = 0, without_logarithm = 0;
   for (std::size_t i = 0; i < felt.size(); ++i) {
-    if (!counts(felt[i]) || used[i].set_aside == kNoContact) continue;
+    const std::string& fault = used[i].set_aside;
+    if (!counts(felt[i]) || fault == kNoContact || fault == kOutlier) continue;
     if (felt[i].is_bound()) return false;
     const double reading = felt[i].reading;
     ++count;
