@@ -206,10 +206,9 @@ std::vector<SceneKey> make_scene_keys() {
           "field.transform",
           "log: a field of the readings' logarithms, for readings that are positive and skewed, "
           "as real tissue's often are; the level's fraction is then of the way between logarithms; "
-          "auto: where some are twice as high as others, an edge makes them more probable that "
-          "way, "
-          "and no value is given in the reading's unit (plan.min_contrast, field.signal_sd, "
-          "field.noise, level.value)"),
+          "auto: where readings differ twofold, an edge makes logarithms more probable, and no "
+          "value is given in the reading's unit (plan.min_contrast, field.signal_sd, field.noise, "
+          "field.constant_sd, level.value)"),
       bound_word("field.precision",
                  "single: half the memory of the field's model and less time, the field off by a "
                  "ten-thousandth of the signal at most; for noise "
