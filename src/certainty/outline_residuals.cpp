@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/normal.h"
+#include "certainty/wild_readings.h"
 
 namespace palpation {
 namespace {
@@ -45,7 +46,7 @@ OutlineResiduals::OutlineResiduals(const OutlineReadings& readings, std::vector<
       information_(information_of(readings.background, readings.variance)),
       scales_{.log_noise = std::max(log_noise, prior.least_log_noise),
               .log_sd = std::vector(terms().waves.size(), 0.0),
-              .wild = static_cast<double>(kWild) / (kWild + kTelling),
+              .wild = kWildPart,
               .has = std::vector(terms().waves.size() + kDriftAndTilt, true)} {
   factor();
 }
@@ -88,8 +89,8 @@ void OutlineResiduals::forget() {
 OutlineResiduals::Told OutlineResiduals::told() const {
   Told told{.information = information_,
             .weighed = Eigen::VectorXd::Zero(information_.rows()),
-            .log_constant =
-                (kWild - 1) * std::log(scales_.wild) + (kTelling - 1) * std::log1p(-scales_.wild)};
+            .log_constant = (kWildBefore - 1) * std::log(scales_.wild) +
+                            (kTellingBefore - 1) * std::log1p(-scales_.wild)};
   told.log_constant += log_growth_density(scales_.growth);
   for (std::size_t i = 0; i < off_.size(); ++i) {
     if (tells(i)) {

@@ -84,9 +84,6 @@ class OutlineResiduals {
   double log_density() const;
 
  private:
-  /// Part of the readings that tell nothing: Beta's law, with so many of each kind beforehand.
-  static constexpr int kWild = 1, kTelling = 99;
-
   struct Told;
   struct Marginal;
 

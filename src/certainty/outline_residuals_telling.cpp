@@ -5,6 +5,7 @@
 
 #include "base/normal.h"
 #include "certainty/outline_residuals.h"
+#include "certainty/wild_readings.h"
 
 namespace palpation {
 namespace {
@@ -73,7 +74,7 @@ void OutlineResiduals::redraw_telling(const Eigen::VectorXd& noise, Random& rand
   }
   const int wild = static_cast<int>(std::ranges::count(scatter_.precision, 0.0)),
             telling = static_cast<int>(scatter_.precision.size()) - wild;
-  scales_.wild = beta_draw(kWild + wild, kTelling + telling, random);
+  scales_.wild = beta_draw(kWildBefore + wild, kTellingBefore + telling, random);
 }
 
 /// How far each that tells is off, of what is bounded.

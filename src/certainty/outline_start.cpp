@@ -11,14 +11,14 @@
 #include "certainty/errors_in_turn.h"
 #include "certainty/outline_lines.h"
 #include "certainty/slow_waves.h"
+#include "certainty/wild_readings.h"
 #include "palpation/geometry/chart_place.h"
 #include "readings/rounding.h"
 
 namespace palpation {
 namespace {
 
-constexpr double kTurn = 0.12;      ///< radians a piece, of the prior's median
-constexpr double kWildReach = 6.0;  ///< of wild readings, in a plateau's sd: three ranges
+constexpr double kTurn = 0.12;  ///< radians a piece, of the prior's median
 /// Of how large an outline is: what nobody knows is within e times as wide or as narrow.
 constexpr double kMostSizeLogSd = 1.0;
 /// Of a noise that is given: edges are no perfect sigmoids.
@@ -226,7 +226,7 @@ PlateauPrior plateau_prior(const Belief& belief, const OutlineReadings& readings
   const auto sd_where_ends = [&](Bound end) {
     return std::ranges::count(readings.bounds, end) > 0 ? std::max(sd, felt) : sd;
   };
-  return {sd_where_ends(Bound::AtMost), sd_where_ends(Bound::AtLeast), kWildReach * sd};
+  return {sd_where_ends(Bound::AtMost), sd_where_ends(Bound::AtLeast), 2.0 * kWildRanges * sd};
 }
 
 }  // namespace

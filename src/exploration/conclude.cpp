@@ -9,6 +9,7 @@
 #include "exploration/likelier_scale.h"
 #include "exploration/taken_back.h"
 #include "exploration/weak_parts.h"
+#include "palpation/boundary/level_set.h"
 #include "palpation/exploration/conclusion.h"
 #include "palpation/readings/screening.h"
 #include "readings/lost_contact.h"
@@ -85,11 +86,9 @@ Certainty doubted_by_step(Certainty certainty, const Surface& surface, const Mod
 
 /// The scale that readings are even on is not known.
 Certainty doubted_by_scale(Certainty certainty, const Surface& surface, const Model& model,
-                           KnownOnScale other, std::uint64_t seed) {
-  auto& [believed, marginals, component, boundary] = other.known;
-  draw_outlines(boundary, model, believed, seed);
-  const std::optional<Field> score =
-      score_beside(certainty, certainty_of(surface, model, believed, component, boundary));
+                           const Known& other) {
+  const Field score = score_beside(
+      certainty, certainty_of(surface, model, other.believed, other.component, other.boundary));
   return as_likely_another(std::move(certainty), surface, score);
 }
 
@@ -115,10 +114,14 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   auto& [believed, marginals, component, boundary] = known;
   const Model scaled = on_scale(scale, model);
   believed.evidence.scale = scale;
-  believed.evidence.scale_is_open = other.has_value();
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
   if (sampling_seed) draw_outlines(boundary, scaled, believed, *sampling_seed);
+  if (other) {
+    draw_outlines(other->known.boundary, model, other->known.believed, *sampling_seed);
+    believed.evidence.area_by_logarithms_m2 =
+        superlevel_area(surface, *other->known.boundary.depth(), 0.0);
+  }
   std::optional<Certainty> certainty;
   if (scaled.band && boundary.level && believed.belief.site_count() > 0)
     certainty = certainty_of(surface, scaled, believed, component, boundary);
@@ -129,8 +132,7 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
     certainty =
         doubted_by_step(*std::move(certainty), surface, scaled, modelled, believed.evidence);
   if (certainty && other)
-    certainty =
-        doubted_by_scale(*std::move(certainty), surface, model, *std::move(other), *sampling_seed);
+    certainty = doubted_by_scale(*std::move(certainty), surface, model, other->known);
   if (certainty && may_be_no_tumour(believed.evidence))
     certainty = as_likely_another(*std::move(certainty), surface, std::nullopt);
 

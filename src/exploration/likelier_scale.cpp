@@ -10,6 +10,7 @@
 
 #include "certainty/edge_data.h"
 #include "certainty/outline_evidence.h"
+#include "certainty/wild_readings.h"
 #include "exploration/find_boundary.h"
 #include "exploration/soft_spot.h"
 #include "palpation/base/error.h"
@@ -23,8 +24,6 @@ namespace {
 constexpr double kSkewed = 2.0;
 /// Of so many readings at most one has no logarithm: contact that was lost, a fault.
 constexpr std::size_t kOneInWithout = 20;
-/// Of readings that tell nothing, beforehand; over so many times the range of the others.
-constexpr double kWild = 0.01, kWildRange = 3.0;
 /// By odds of a thousand to one: walks of outlines know them to a half of that.
 const double kRuledOut = std::log(1000.0);
 /// What a profile is off by, of the range, is no noise: taken for some, it would make even noise
@@ -111,7 +110,7 @@ class DensityAsRead {
       least = std::min(least, felt[i].reading);
       greatest = std::max(greatest, felt[i].reading);
     }
-    log_wild_ = std::log(kWild / (kWildRange * (greatest - least)));
+    log_wild_ = std::log(kWildPart / (kWildRanges * (greatest - least)));
     log_row_ = -0.5 * (kLogTwoPi + std::log(raw.known.believed.belief.noise_variance()) + 1.0);
   }
 
@@ -149,42 +148,25 @@ class DensityAsRead {
   double log_row_ = 0.0;
 };
 
-/// By how much logarithms are more probable, nats; none where it is not told.
-struct Gained {
-  std::optional<double> by_edge{};
-  std::optional<double> by_outlines{};
-};
-Gained gained_by(const KnownOnScale& log, const KnownOnScale& raw, std::span<const Palpation> felt,
-                 const Model& model, std::optional<std::uint64_t> sampling_seed) {
+/// By how much logarithms are more probable, nats, if that is told on both scales.
+template <typename ToldOn>
+std::optional<double> gained_by(const ToldOn& told_on, const KnownOnScale& log,
+                                const KnownOnScale& raw, std::span<const Palpation> felt) {
+  const std::optional<Told> by_log = told_on(log), by_raw = told_on(raw);
+  if (!by_log || !by_raw) return std::nullopt;
   const DensityAsRead density(felt, raw);
-  const auto gained = [&](const auto& told_on) -> std::optional<double> {
-    const std::optional<Told> by_log = told_on(log), by_raw = told_on(raw);
-    if (!by_log || !by_raw) return std::nullopt;
-    return density.of(log, *by_log) - density.of(raw, *by_raw);
-  };
-  Gained all{.by_edge = gained([&](const auto& on) { return told_by_edge(on, model); })};
-  if (sampling_seed)
-    all.by_outlines =
-        gained([&](const auto& on) { return told_by_outlines(on, model, *sampling_seed); });
-  return all;
+  return density.of(log, *by_log) - density.of(raw, *by_raw);
 }
 
-enum class Scales { Raw, RawOrLog, LogOrRaw, Log };
-
-/// An edge is a sigmoid with even noise, and takes all else for noise. Outlines may be bent and
-/// scatter more inside, but follow readings at the edge, the more the less noise those have: where
-/// the two do not agree, it is open.
-Scales scales_by(const Gained& gained) {
-  const double by_edge = gained.by_edge.value_or(0.0);
-  if (!gained.by_outlines) return by_edge > surprising() ? Scales::Log : Scales::Raw;
-  const double by_outlines = *gained.by_outlines;
-  if (by_outlines > kRuledOut && by_edge > 0.0) return Scales::Log;
-  if (by_outlines < -kRuledOut && by_edge < 0.0) return Scales::Raw;
-  return by_edge + by_outlines > 0.0 ? Scales::LogOrRaw : Scales::RawOrLog;
+/// By an edge.
+double gained_by_edge(const KnownOnScale& log, const KnownOnScale& raw, const Model& model,
+                      std::span<const Palpation> felt) {
+  return gained_by([&](const auto& on) { return told_by_edge(on, model); }, log, raw, felt)
+      .value_or(0.0);
 }
 
-/// By how much logarithms are more probable, nats, by an edge without a background, which would
-/// take seconds to search: most readings are as they are, and ask again after each batch.
+/// By an edge without a background in the logarithms, which would take seconds to search: most
+/// readings are as they are, and ask again after each batch.
 double gained_at_first(const Surface& surface, const Model& model, const KnownOnScale& raw,
                        const std::vector<Palpation>& felt, ConclusionCache& apart) {
   std::vector<Palpation> scaled = on_scale(ReadingScale::Log, felt);
@@ -193,7 +175,19 @@ double gained_at_first(const Surface& surface, const Model& model, const KnownOn
   constexpr double kAll = std::numeric_limits<double>::infinity();
   if (!log.known.boundary.edge) return -kAll;
   if (!raw.known.boundary.edge) return kAll;
-  return gained_by(log, raw, felt, model, std::nullopt).by_edge.value_or(0.0);
+  return gained_by_edge(log, raw, model, felt);
+}
+
+enum class Scales { Raw, Open, Log };
+
+/// An edge is a sigmoid with even noise, and takes all else for noise. Outlines may be bent and
+/// scatter more inside, but follow readings at the edge, the more the less noise those have: where
+/// the two do not agree, it is open.
+Scales scales_by(double by_edge, std::optional<double> by_outlines) {
+  if (!by_outlines) return by_edge > surprising() ? Scales::Log : Scales::Raw;
+  if (*by_outlines > kRuledOut && by_edge > 0.0) return Scales::Log;
+  if (*by_outlines < -kRuledOut && by_edge < 0.0) return Scales::Raw;
+  return Scales::Open;
 }
 
 }  // namespace
@@ -212,26 +206,31 @@ LikelierScale on_likelier_scale(const Surface& surface, const Model& model,
                                 const std::vector<Palpation>& felt, ConclusionCache& cache,
                                 std::optional<std::uint64_t> sampling_seed) {
   const bool is_last = sampling_seed.has_value();
-  KnownOnScale one = known_on(model.contrast.scale.value_or(ReadingScale::Raw), surface, model,
-                              felt, cache, is_last);
-  if (!is_open(model) || !are_skewed(felt, one.known.believed.palpations)) return {std::move(one)};
+  const auto known = [&](ReadingScale scale, ConclusionCache& grown) {
+    return known_on(scale, surface, model, felt, grown, is_last);
+  };
+  if (!is_open(model)) return {known(model.contrast.scale.value_or(ReadingScale::Raw), cache)};
+  KnownOnScale raw = known(ReadingScale::Raw, cache);
+  if (!are_skewed(felt, raw.known.believed.palpations)) return {std::move(raw)};
   ConclusionCache apart;  // beliefs on another scale do not grow from those on this one
   apart.remember_tried_by(cache);
-  if (gained_at_first(surface, model, one, felt, apart) < (is_last ? -kRuledOut : surprising()))
-    return {std::move(one)};
-  KnownOnScale log = known_on(ReadingScale::Log, surface, model, felt, apart, is_last);
+  if (gained_at_first(surface, model, raw, felt, apart) < (is_last ? -kRuledOut : surprising()))
+    return {std::move(raw)};
+  KnownOnScale log = known(ReadingScale::Log, apart);
   cache.remember_tried_by(apart);
-  if (!log.known.boundary.edge) return {std::move(one)};
-  if (!one.known.boundary.edge) return {std::move(log)};
-  switch (scales_by(gained_by(log, one, felt, model, sampling_seed))) {
-    case Scales::Raw:
-      return {std::move(one)};
-    case Scales::RawOrLog:
-      return {std::move(one), std::move(log)};
-    case Scales::LogOrRaw:
-      return {std::move(log), std::move(one)};
-    default:
+  if (!log.known.boundary.edge) return {std::move(raw)};
+  if (!is_last || !raw.known.boundary.edge) return {std::move(log)};
+  const auto by_outlines = [&](const auto& on) {
+    return told_by_outlines(on, model, *sampling_seed);
+  };
+  switch (
+      scales_by(gained_by_edge(log, raw, model, felt), gained_by(by_outlines, log, raw, felt))) {
+    case Scales::Log:
       return {std::move(log)};
+    case Scales::Open:
+      return {std::move(raw), std::move(log)};
+    default:
+      return {std::move(raw)};
   }
 }
 

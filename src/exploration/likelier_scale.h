@@ -20,7 +20,7 @@ struct KnownOnScale {
 
 struct LikelierScale {
   KnownOnScale likelier;
-  /// On the other one, where readings do not tell which.
+  /// By logarithms, where readings do not tell which: those as they are move nothing.
   std::optional<KnownOnScale> other{};
 };
 

@@ -122,11 +122,12 @@ py::dict summary(const Concluded& here) {
       "level"_a = level ? py::object(py::float_(level->value)) : py::none(),
       "level_sd"_a = level ? maybe(level->stddev) : py::none(),
       "transform"_a = all.scale() == ReadingScale::Log ? "log" : "none",
-      "transform_is_open"_a = all.evidence.scale_is_open, "tip_hides_all"_a = all.tip_hides_all(),
-      "expected_error_m2"_a = py::none(), "expected_missed_m2"_a = py::none(),
-      "expected_extra_m2"_a = py::none(), "expected_untouched_m2"_a = py::none(),
-      "plateau_probability"_a = py::none(), "noise_inside"_a = py::none(),
-      "band_probability"_a = py::none(), "band_half_width_m"_a = py::none());
+      "transform_is_open"_a = all.evidence.area_by_logarithms_m2.has_value(),
+      "tip_hides_all"_a = all.tip_hides_all(), "expected_error_m2"_a = py::none(),
+      "expected_missed_m2"_a = py::none(), "expected_extra_m2"_a = py::none(),
+      "expected_untouched_m2"_a = py::none(), "plateau_probability"_a = py::none(),
+      "noise_inside"_a = py::none(), "band_probability"_a = py::none(),
+      "band_half_width_m"_a = py::none());
   if (all.certainty && !all.tip_hides_all()) {
     const Certainty& certainty = *all.certainty;
     result["expected_error_m2"] = certainty.expected.symmetric_difference_m2();

@@ -10,14 +10,12 @@ constexpr double kMoreScatter = 1.1;  // times, surely
 }  // namespace
 
 std::string scale_words(const Conclusion& conclusion) {
-  const bool is_log = conclusion.scale() == ReadingScale::Log;
-  if (conclusion.evidence.scale_is_open)
-    return std::string(
-               "Whether readings scatter evenly about an edge, or their logarithms do, these "
-               "do not tell: the outline lies between plateaus of ") +
-           (is_log ? "logarithms" : "readings") +
-           ", and the band holds the other one, too. field.transform log or none decides it.";
-  if (!is_log || conclusion.model.contrast.scale) return "";
+  if (conclusion.evidence.area_by_logarithms_m2)
+    return "Whether readings or their logarithms are level beside an edge, these do not tell. By "
+           "logarithms, with field.transform log, the outline would hold " +
+           fixed(*conclusion.evidence.area_by_logarithms_m2 * 1e6, 0) +
+           " mm2; the band holds both outlines.";
+  if (conclusion.scale() != ReadingScale::Log || conclusion.model.contrast.scale) return "";
   return "It is the readings' logarithms that scatter evenly: the outline lies between their "
          "plateaus. With field.transform none it lies farther in.";
 }

@@ -220,7 +220,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
         {"signal_sd", episode.conclusion().belief.signal_sd()},
         {"noise_sd", std::sqrt(episode.conclusion().belief.noise_variance())}}},
       {"transform", episode.conclusion().scale() == ReadingScale::Log ? "log" : "none"},
-      {"transform_is_open", episode.conclusion().evidence.scale_is_open},
+      {"transform_is_open", episode.conclusion().evidence.area_by_logarithms_m2.has_value()},
       {"precision", episode.conclusion().belief.options().single_precision ? "single" : "double"},
       {"reduced_rank", reduced_rank_json(episode.conclusion().belief)},
       {"warnings", warnings},

@@ -108,9 +108,12 @@ TEST(Transform, IsToldByOutlinesAtTheEnd) {
   };
   const Conclusion even = concluded([](double felt) { return 0.2 + 0.4 * felt; });
   EXPECT_EQ(even.scale(), ReadingScale::Raw);
+  EXPECT_FALSE(even.evidence.area_by_logarithms_m2);
   const Conclusion in_proportion =
       concluded([](double felt) { return 0.2 * std::exp(2.0 * felt); });
-  EXPECT_TRUE(in_proportion.scale() == ReadingScale::Log || in_proportion.evidence.scale_is_open);
+  ASSERT_TRUE(in_proportion.evidence.area_by_logarithms_m2);
+  EXPECT_NEAR(*in_proportion.evidence.area_by_logarithms_m2 * 1e6, 113.1, 4.0);
+  EXPECT_EQ(in_proportion.scale(), ReadingScale::Raw) << "what is not told moves nothing";
 }
 
 TEST(Transform, IsNoneWhereAValueIsInTheReadingsUnit) {

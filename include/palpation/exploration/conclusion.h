@@ -48,8 +48,10 @@ struct DoubtfulPart {
 struct Evidence {
   bool contrast_seen = false;
   ReadingScale scale = ReadingScale::Raw;  ///< on which the readings are modelled
-  /// They do not tell which scale they are even on: the band holds the outline on the other, too.
-  bool scale_is_open = false;
+  /// Where readings do not tell whether they are even about an edge or their logarithms are: the
+  /// area within the outline by logarithms. The one drawn is of readings as they are; the band
+  /// holds both.
+  std::optional<double> area_by_logarithms_m2{};
   /// By how much an edge makes the readings more probable than healthy tissue alone that waves, or
   /// errors that last from reading to reading, whichever explains the most; asked at the end, of
   /// waves (EdgeBelief::odds_over_waves) where a smooth field explains the readings as well or some
