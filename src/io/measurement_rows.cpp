@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "io/landing.h"
@@ -101,6 +102,26 @@ void check_reading_unit(const CsvTable& table, const std::string& unit) {
                        (unit.empty() ? " in the rows above" : ", the scene's reading_unit") +
                        ": readings of one tissue have one");
   }
+}
+
+void check_times(const CsvTable& table, std::vector<std::string>& warnings) {
+  const std::optional<std::size_t> column = find_column(table, "t");
+  if (!column) return;
+  std::map<std::string_view, double> latest;  // in each session
+  std::size_t count = 0, first = 0;
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    const std::optional<double> time = number_at(table, row, *column);
+    if (!time || std::isnan(*time)) continue;
+    const auto [before, is_first] = latest.try_emplace(word_at(table, row, "session"), *time);
+    if (!is_first && *time < before->second && count++ == 0) first = row;
+    before->second = *time;
+  }
+  if (count == 0) return;
+  warnings.push_back(table.name() + ": t falls " +
+                     (count == 1 ? "once" : std::to_string(count) + " times") + ", first in line " +
+                     std::to_string(table.line(first)) +
+                     ", but rows count as made in their order: what drifted, moved or came late "
+                     "is looked for in that. If t is right, sort the rows by it.");
 }
 
 }  // namespace palpation

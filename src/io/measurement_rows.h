@@ -1,5 +1,5 @@
 /// Rows of measurements that do not count: off the tissue, or taken back; and whether all are in
-/// one unit.
+/// one unit and in the order in which they were made.
 #pragma once
 
 #include <string>
@@ -24,5 +24,9 @@ std::string set_aside_at(const CsvTable& table, std::size_t row);
 
 /// Throws IoError where the column reading_unit names two, or another than `unit` (empty: any).
 void check_reading_unit(const CsvTable& table, const std::string& unit);
+
+/// Throws IoError where the column t holds no number. Where it falls within a session, as in a file
+/// that was sorted by place, a warning: rows count as made in their order.
+void check_times(const CsvTable& table, std::vector<std::string>& warnings);
 
 }  // namespace palpation

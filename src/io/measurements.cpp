@@ -144,6 +144,7 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
   file.palpations.reserve(table.row_count());
   std::size_t farthest_row = 0;
   check_reading_unit(table, rules.reading_unit);
+  check_times(table, file.warnings);
   const std::vector<bool> is_off = rules.leave_out_off_tissue
                                        ? rows_off_tissue(table, surface, file.warnings)
                                        : std::vector<bool>(table.row_count(), false);

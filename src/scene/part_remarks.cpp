@@ -11,7 +11,6 @@ namespace {
 
 /// A tumour seldom lies along so much of it.
 constexpr double kMuchBorder = 1.0 / 3.0;
-constexpr std::size_t kPartsTold = 4;
 
 std::string reaching_words(const std::vector<TumourPart>& parts) {
   const auto at_border = std::ranges::count_if(parts, &TumourPart::touches_border);
@@ -37,21 +36,26 @@ std::string beside_words(const std::vector<TumourPart>& parts) {
          "not told apart from it.";
 }
 
-/// One by one, or in a line where these are many.
-std::vector<std::string> unsure_words(const std::vector<TumourPart>& parts) {
-  std::vector<std::string> words;
+/// In a line, however many: which is how probable stands beside each part.
+std::string unsure_words(const std::vector<TumourPart>& parts) {
+  std::size_t count = 0, last = 0;
   double least = 1.0, most = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!parts[i].probability || *parts[i].probability >= kSure) continue;
+    last = i;
+    ++count;
     least = std::min(least, *parts[i].probability);
     most = std::max(most, *parts[i].probability);
-    words.push_back("Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
-                    " is tumour with probability " + percent(*parts[i].probability) + " only.");
   }
-  if (words.size() <= kPartsTold) return words;
-  return {std::to_string(words.size()) + " of " + std::to_string(parts.size()) +
-          " parts are tumour with a probability of " + percent(least) + " to " + percent(most) +
-          " only, each."};
+  if (count == 0) return "";
+  const std::string of_all = " of " + std::to_string(parts.size());
+  if (count == 1)
+    return "Part " + std::to_string(last + 1) + of_all + " is tumour with probability " +
+           percent(least) + " only.";
+  const std::string range =
+      percent(least) + (percent(most) == percent(least) ? "" : " to " + percent(most));
+  return std::to_string(count) + of_all + " parts are tumour with probability " + range +
+         " only, each.";
 }
 
 /// What is soft inside of a tumour, and what it grew around, read alike.
@@ -75,9 +79,8 @@ std::string hole_words(const std::vector<TumourPart>& parts, const Surface& surf
 
 std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts,
                                       const Surface& surface) {
-  std::vector<std::string> remarks = unsure_words(parts);
-  for (std::string words : {reaching_words(parts), beside_words(parts), hole_words(parts, surface)})
-    remarks.push_back(std::move(words));
+  std::vector<std::string> remarks = {unsure_words(parts), reaching_words(parts),
+                                      beside_words(parts), hole_words(parts, surface)};
   std::erase(remarks, "");
   return remarks;
 }

@@ -259,11 +259,12 @@ void add_values(Cases& cases) {
                    1,
                    {"line 3 repeats line 2"}});
   cases.push_back({"S17",
-                   "times are not looked at",
+                   "times order nothing: that they fall is told",
                    "t,x,y,z,reading\n9,0.01,0.012,0,7\n-1e99,0.01,0.013,0,7\nnan,0.01,0.014,0,7\n",
                    {},
                    3,
-                   3});
+                   3,
+                   {"t falls once, first in line 3"}});
   cases.push_back({"S19", "no row", table(""), {}, 0, 0});
   cases.push_back(
       {"S19", "no row that counts", "x,y,z,reading,set_aside\n0.01,0.012,0,7,jammed\n", {}, 1, 0});

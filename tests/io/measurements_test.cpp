@@ -111,6 +111,23 @@ TEST(ReadMeasurements, SetsAsideWhatAPersonTookBack) {
   EXPECT_EQ(palpations[4].set_aside, "jammed");
 }
 
+TEST(ReadMeasurements, TellsWhereTimeDoesNotRise) {
+  const TemporaryFolder folder;
+  const auto warnings = [&](const std::string& rows) {
+    return read_measurements(folder.file("m.csv", "x,y,z,reading,t,session\n" + rows), square())
+        .warnings;
+  };
+  EXPECT_TRUE(warnings("0,0,0,1,0.5,a\n0.01,0,0,2,,a\n0,0.01,0,3,7,a\n0.01,0.01,0,4,3,b\n").empty())
+      << "each session has a clock of its own";
+  const std::vector<std::string> sorted_by_place =
+      warnings("0,0,0,1,5,a\n0.01,0,0,2,4,a\n0,0.01,0,3,7,a\n0.01,0.01,0,4,3,a\n");
+  ASSERT_EQ(sorted_by_place.size(), 1u);
+  EXPECT_TRUE(contains(sorted_by_place[0], "t falls 2 times, first in line 3"))
+      << sorted_by_place[0];
+  EXPECT_TRUE(
+      contains(io_error_of([&] { warnings("0,0,0,1,noon,a\n"); }), ":2: column t: \"noon\""));
+}
+
 TEST(ReadMeasurements, LeavesOutWhatLiesOffTheTissueWhereAsked) {
   const TemporaryFolder folder;
   const MeasurementRules rules{.leave_out_off_tissue = true};

@@ -45,8 +45,9 @@ struct MeasurementsFile {
 
 /// A row whose column withdrawn is neither empty, 0, no nor false was taken back by a person: it is
 /// set aside, with that word as its reason. Where a column reading_unit says what readings are in,
-/// all agree. Column t may say when a reading was made, and session in which session: rows of many
-/// lie in one file, and each may have a zero and a gain of its own (Palpation::session).
+/// all agree. Column t may say when a reading was made, in seconds that rise within a session, and
+/// session in which: rows of many lie in one file, and each may have a zero and a gain of its own
+/// (Palpation::session).
 struct MeasurementRules {
   bool empty_noise_is_none = false;   ///< the field has no noise, so that repeats must agree even
                                       ///< where a row does not say so
