@@ -2,13 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "certainty/edge_data.h"
 #include "certainty/outline_model.h"
 #include "exploration/comparable_evidence.h"
+#include "exploration/felt_since.h"
 #include "exploration/lag_fit.h"
 #include "exploration/taken_back.h"
 #include "exploration/zero_changes.h"
@@ -19,9 +19,6 @@ namespace palpation {
 namespace {
 
 using Readings = std::vector<Palpation>;
-
-/// Of readings in the tumour, and of others.
-constexpr int kFewestAtEdge = 3;
 
 /// Less of a move is left to the outlines' sampling (outline_model.cpp).
 constexpr double kLeastMove_m = 0.0005;
@@ -36,18 +33,6 @@ constexpr double kLeastGain = 0.1;
 
 bool is_change(const Misfit& misfit) {
   return misfit.kind != MisfitKind::WeakerPart && !is_background(misfit);
-}
-
-/// Whether those before it and those since feel an edge: of healthy tissue alone nothing tells
-/// where it lies.
-bool is_felt_on_both_sides(const Misfit& move, double level, std::span<const Palpation> readings) {
-  std::array<std::array<int, 2>, 2> felt{};  // since or before, above the level or below
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const Palpation& one = readings[i];
-    if (counts(one)) ++felt[is_since(move, {one.batch, i, one.session})][one.reading >= level];
-  }
-  return std::ranges::all_of(
-      felt, [](const auto& side) { return std::ranges::min(side) >= kFewestAtEdge; });
 }
 
 /// Of versions of the same readings, those alone that count in all.
@@ -127,7 +112,8 @@ std::vector<Misfit> all_misfits(const Model& model, const std::optional<EdgeBeli
     found.erase(by_edge);
   }
   if (move && move->amount >= kLeastMove_m && move->amount <= kFarthestMove_m &&
-      is_felt_on_both_sides(*move, edge->level().value, readings))
+      is_felt_on_both_sides(*move, edge->level().value, readings) &&
+      is_felt_again(*move, belief.prior().surface(), readings))
     found.push_back(*move);
   std::ranges::stable_sort(found, std::greater{}, &Misfit::evidence);
   return found;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/common_shift.h"
 #include "io/landing.h"
 #include "io/measurement_checks.h"
 #include "io/measurement_columns.h"
@@ -126,6 +127,14 @@ SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& ta
   return *place;
 }
 
+std::string off_surface_words(const CsvTable& table, const Landing& landing,
+                              std::size_t farthest_row) {
+  return table.name() + ": " + std::to_string(landing.moved()) + " of " +
+         std::to_string(table.row_count()) + " positions lay off the surface, by up to " +
+         length_text(landing.farthest_m()) + " m in line " +
+         std::to_string(table.line(farthest_row)) + ", and were taken to its closest points.";
+}
+
 }  // namespace
 
 MeasurementsFile read_measurements(const std::filesystem::path& path, const Surface& surface,
@@ -142,6 +151,8 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
   MeasurementsFile file;
   file.has_batches = columns.batch.has_value();
   file.palpations.reserve(table.row_count());
+  std::vector<Vec3> positions;
+  std::vector<SurfacePoint> landed;
   std::size_t farthest_row = 0;
   check_reading_unit(table, rules.reading_unit);
   check_times(table, file.warnings);
@@ -165,6 +176,8 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
     if (counts(palpation))
       palpation.session = sessions.number_of(word_at(table, row, columns.session));
     if (landing.farthest_m() > farthest_m) farthest_row = row;
+    positions.push_back(position);
+    landed.push_back(palpation.where);
     if (counts(palpation)) {
       const bool exact = palpation.noise_variance == 0.0 ||
                          (rules.empty_noise_is_none && std::isnan(palpation.noise_variance));
@@ -177,13 +190,9 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
   set_aside_copies(table, surface, file.palpations, file.warnings);
   file.places = static_cast<int>(repeats.places());
   file.foreign = foreign_columns(table, is_off);
-  if (landing.moved() > 0) {
-    file.warnings.push_back(
-        table.name() + ": " + std::to_string(landing.moved()) + " of " +
-        std::to_string(table.row_count()) + " positions lay off the surface, by up to " +
-        length_text(landing.farthest_m()) + " m in line " +
-        std::to_string(table.line(farthest_row)) + ", and were taken to its closest points.");
-  }
+  if (landing.moved() > 0) file.warnings.push_back(off_surface_words(table, landing, farthest_row));
+  if (const std::optional<CommonShift> shift = common_shift(surface, positions, landed))
+    file.warnings.push_back(shift_words(table.name(), *shift));
   repeats.tell(table.name(), file.warnings);
   tell_outliers(table, file.palpations, file.warnings);
   return file;

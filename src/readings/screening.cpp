@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <ranges>
-#include <tuple>
 #include <utility>
 
 #include "readings/lost_contact.h"
@@ -22,6 +22,7 @@ constexpr std::size_t kLeastFrozen =
     8;  // readings: chance repeats the last digit of a plateau a few times
 constexpr double kRareRun = 0.01;     // of chance, in all readings
 constexpr double kAmongOthers = 0.3;  // of a run, where the probe goes to and fro
+constexpr double kStepsBeside = 3.0;  // of a row, to the one beside it
 constexpr double kAcross = 0.6;       // of the longest pass: a row that crosses most of the tissue
 constexpr double kMostOfAll = 0.5;    // of all readings lie on rows, or it is no scan
 constexpr std::size_t kLeastToBeGross = 20;
@@ -40,49 +41,72 @@ double repeats_without(const Screen& screen, std::size_t first, std::size_t last
   return alike / pairs;
 }
 
-/// Part of the readings from `first` to `last` that lie nearest to one that was made at another
-/// time.
-double part_among_others(const Screen& screen, std::size_t first, std::size_t last) {
-  double among_others = 0.0;
-  for (std::size_t here = first; here <= last; ++here) {
-    std::size_t nearest = here;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < screen.places.size(); ++i) {
-      const double square = (screen.places[i] - screen.places[here]).squaredNorm();
-      if (i != here && square < least) std::tie(nearest, least) = std::pair(i, square);
-    }
-    among_others += nearest < first || nearest > last;
+/// Of those from `first` to `last` or of the others.
+struct Nearest {
+  std::optional<std::size_t> reading;
+  double square = std::numeric_limits<double>::infinity();  // of how far it is
+};
+template <typename IsMeant>
+Nearest nearest_to(const Screen& screen, std::size_t here, const IsMeant& is_meant) {
+  Nearest nearest;
+  for (std::size_t i = 0; i < screen.places.size(); ++i) {
+    if (i == here || !is_meant(i)) continue;
+    const double square = (screen.places[i] - screen.places[here]).squaredNorm();
+    if (square < nearest.square) nearest = {i, square};
   }
-  return among_others / static_cast<double>(last - first + 1);
+  return nearest;
 }
 
-/// Whether most of the readings from `first` to `last` read what the nearest that was made before
-/// or after them does, to the last digit: then it is the tissue that is so even.
-bool agree_with_others(const Screen& screen, std::size_t first, std::size_t last) {
-  std::size_t agreeing = 0;
-  for (std::size_t here = first; here <= last; ++here) {
-    std::size_t nearest = here;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < screen.places.size(); ++i) {
-      if (i >= first && i <= last) continue;
-      const double square = (screen.places[i] - screen.places[here]).squaredNorm();
-      if (square < least) std::tie(nearest, least) = std::pair(i, square);
+/// A run of one number, and what was felt around it at other times.
+class Run {
+ public:
+  Run(const Screen& screen, std::size_t first, std::size_t last) {
+    const auto is_of_run = [&](std::size_t i) { return i >= first && i <= last; };
+    for (std::size_t here = first; here <= last; ++here) {
+      own_.push_back(nearest_to(screen, here, is_of_run));
+      others_.push_back(nearest_to(screen, here, [&](std::size_t i) { return !is_of_run(i); }));
     }
-    agreeing += nearest != here && screen.reading(nearest) == screen.reading(here);
   }
-  return 2 * agreeing > last - first + 1;
-}
+
+  /// Part of it that lies nearer to what was made at another time.
+  double among_others() const {
+    double among = 0.0;
+    for (std::size_t i = 0; i < own_.size(); ++i) among += others_[i].square < own_[i].square;
+    return among / static_cast<double>(own_.size());
+  }
+
+  /// Whether most of it lies beside such readings, no farther than they may be.
+  template <typename AreSuch>
+  bool is_beside(const AreSuch& are_such, double farthest_m, double farthest_steps) const {
+    std::size_t beside = 0;
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+      const bool is_near =
+          others_[i].square <=
+          std::max(farthest_m * farthest_m, farthest_steps * farthest_steps * own_[i].square);
+      beside += others_[i].reading && is_near && are_such(*others_[i].reading);
+    }
+    return 2 * beside > own_.size();
+  }
+
+ private:
+  std::vector<Nearest> own_, others_;
+};
 
 /// At the end of the readings' range, and not far from those beside it: a plateau without noise, or
-/// the limit of a sensor.
-bool ends_range(const Screen& screen, const std::vector<double>& sorted, std::size_t first,
-                std::size_t last) {
+/// the limit of a sensor. One that hangs goes on so where all around is nearer to the other end.
+bool ends_range(const Screen& screen, const std::vector<double>& sorted, double reading,
+                const Run& run) {
   const double gap = kGapWidth * (sorted.back() - sorted.front());
-  const auto [least, above] = std::ranges::equal_range(sorted, screen.reading(first));
+  const auto [least, above] = std::ranges::equal_range(sorted, reading);
   const bool is_least = least == sorted.begin(), is_greatest = above == sorted.end();
   if (is_least == is_greatest) return false;
   const double to_next = is_least ? *above - *least : *least - *(least - 1);
-  return to_next < gap || part_among_others(screen, first, last) < kAmongOthers;
+  const double middle = 0.5 * (sorted.front() + sorted.back());
+  const auto is_otherwise = [&](std::size_t i) {
+    return (screen.reading(i) < middle) == is_greatest;
+  };
+  return (to_next < gap || run.among_others() < kAmongOthers) &&
+         !run.is_beside(is_otherwise, kTipWidth_m, kStepsBeside);
 }
 
 /// Runs of one number while the probe moves, longer than a sensor with few steps makes by chance.
@@ -101,8 +125,12 @@ void find_frozen(Screen& screen) {
     if (run.size() < kLeastFrozen || path_m <= kTipWidth_m || !is_used) continue;
     const double by_chance = static_cast<double>(sorted.size()) *
                              std::pow(repeats_without(screen, first, last), last - first);
-    if (by_chance > kRareRun || ends_range(screen, sorted, first, last) ||
-        agree_with_others(screen, first, last))
+    const double reading = screen.reading(first);
+    const Run around(screen, first, last);
+    const auto is_alike = [&](std::size_t i) { return screen.reading(i) == reading; };
+    constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();
+    if (by_chance > kRareRun || ends_range(screen, sorted, reading, around) ||
+        around.is_beside(is_alike, kAnywhere_m, 0.0))  // then it is the tissue that is so even
       continue;
     for (const std::size_t i : run) screen.set_aside(i, kFrozen);
   }

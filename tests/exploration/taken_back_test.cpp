@@ -272,6 +272,29 @@ TEST(TakenBack, ItIsSaidSinceWhichReadingAlsoWhereSomeOnTheWayAreOne) {
   EXPECT_LT((change.moved_m - kMove).norm(), 0.0003);
 }
 
+// Row by row no ground is felt again: the second lobe looks like the first, laid elsewhere.
+TEST(TakenBack, ARasterOfTwoLobesIsNoTissueThatMoved) {
+  Random random(1);
+  const Surface surface(make_plane({.size_m = {0.040, 0.060}, .columns = 41, .rows = 61}, random));
+  std::vector<Palpation> palpations;
+  for (int i = 0; i < 150; ++i) {
+    const int row = i / 10, along = row % 2 == 0 ? i % 10 : 9 - i % 10;
+    const Vec3 place(0.0015 + 0.004 * along + 0.0003 * random.normal(),
+                     0.0015 + 0.004 * row + 0.0003 * random.normal(), 0.0);
+    const Vec3 one(0.013, 0.022, 0.0), other(0.025, 0.040, 0.0), way = other - one;
+    const double along_neck = std::clamp((place - one).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double depth_m = std::max({0.006 - (place - one).norm(), 0.007 - (place - other).norm(),
+                                     0.0018 - (place - one - along_neck * way).norm()});
+    palpations.push_back(
+        {.where = surface.project(place),
+         .reading = 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * depth_m)) + kNoise * random.normal()});
+  }
+  const Conclusion conclusion = conclude(surface, {}, palpations);
+  ASSERT_TRUE(conclusion.contour);
+  EXPECT_TRUE(std::ranges::none_of(
+      misfits(conclusion), [](const Misfit& one) { return one.kind == MisfitKind::Moved; }));
+}
+
 // Until then it is said: to ask costs a tenth of a second.
 TEST(TakenBack, WhileOneLooksTissueThatMovedIsAMisfit) {
   const Conclusion conclusion = concluded(moved_at_half, 3);

@@ -186,6 +186,27 @@ TEST(Screened, TissueThatReadsTheSameAtAnyTimeIsNoSensorThatHangs) {
   EXPECT_EQ(reasons(live(tissue, felt)), Found{});
 }
 
+// Row by row, from the middle of a tumour on, at the greatest of all readings: those of the rows
+// beside it are not as high.
+TEST(Screened, ASensorThatHangsAtTheEndOfItsRangeIsSetAside) {
+  const Surface tissue = sheet();
+  const auto found_of = [&](int first, int last) {
+    Random random(5);
+    std::vector<Palpation> felt;
+    for (int i = 0; i < 200; ++i) {
+      const int row = i / 10, along = row % 2 == 0 ? i % 10 : 9 - i % 10;
+      const Vec3 place(0.0015 + 0.003 * along, 0.00125 + 0.0025 * row, 0.0);
+      const double depth_m = 0.007 - (place - Vec3(0.010, 0.025, 0.0)).norm();
+      const double reading = 7.0 + 2.0 / (1.0 + std::exp(-1400.0 * depth_m));
+      felt.push_back({.where = tissue.project(place),
+                      .reading = i >= first && i < last ? 9.2 : reading + 0.05 * random.normal()});
+    }
+    return reasons(live(tissue, felt))[kFrozen];
+  };
+  EXPECT_EQ(found_of(104, 116), 12);
+  EXPECT_EQ(found_of(0, 0), 0);
+}
+
 // Row by row, first what lies at the sensor's lower limit, then a steep tumour.
 TEST(Screened, ASensorAtItsLimitDoesNotHang) {
   const Surface tissue = sheet();
