@@ -12,8 +12,8 @@ namespace palpation {
 namespace {
 
 constexpr std::size_t kFewest = 10;
-constexpr double kAnotherUnit = 3.0;  ///< times
-constexpr double kAlike = 0.7;        ///< correlation: half of what one tells, the other does
+constexpr double kOtherUnit = 3.0;  ///< times
+constexpr double kAlike = 0.7;      ///< correlation: half of what one tells, the other does
 
 /// Squares and products about means.
 struct SharedSpread {
@@ -72,7 +72,7 @@ std::vector<Misfit> session_units(const Surface& surface, std::span<const Palpat
     const std::vector<Palpation> others =
         with_changes_taken_back(surface, {palpations.begin(), palpations.end()}, changes);
     const std::optional<double> gain = gain_of(pairs_of_session(surface, others, session));
-    if (!gain || std::abs(std::log(*gain)) < std::log(kAnotherUnit)) continue;
+    if (!gain || std::abs(std::log(*gain)) < std::log(kOtherUnit)) continue;
     changes.push_back({.kind = MisfitKind::Gain,
                        .from_batch = palpations[number].batch,
                        .number = number,

@@ -41,6 +41,9 @@ struct Screen {
 /// rest.
 void find_levels_apart(Screen& screen, bool pokes);
 
+/// Of another sign since some moment of a session, or many times as large (another_unit.cpp).
+void find_another_unit(Screen& screen);
+
 /// Faults of rows, of which each crosses most of the tissue (row_faults.cpp).
 void find_flat_rows(Screen& screen, const std::vector<Pass>& rows);
 void find_start_ups(Screen& screen, const std::vector<Pass>& rows);

@@ -201,6 +201,7 @@ std::vector<Palpation> live(const Surface& surface, std::span<const Palpation> p
   if (all_equal(used_readings(result))) return result;
   Screen screen{result, places_of(surface, palpations)};
   find_frozen(screen);
+  find_another_unit(screen);
   return result;
 }
 

@@ -207,6 +207,35 @@ TEST(Screened, ASensorThatHangsAtTheEndOfItsRangeIsSetAside) {
   EXPECT_EQ(found_of(0, 0), 0);
 }
 
+// A sensor whose sign or unit changes while one looks; stiff tissue that is touched last, and a
+// sensor that was set to nothing on healthy tissue, are none.
+TEST(Screened, ReadingsInAnotherUnitAreSetAside) {
+  const Surface tissue = sheet();
+  using Change = std::function<double(double reading, int i)>;
+  const auto found_of = [&](const Change& change) {
+    Random random(6);
+    std::vector<Palpation> felt;
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 place(0.0015 + 0.003 * (i % 10), 0.0025 + 0.005 * (i / 10), 0.0);
+      const double stiff = (place - Vec3(0.012, 0.025, 0.0)).norm() < 0.008 ? 2.0 : 0.0;
+      felt.push_back({.where = tissue.project(place),
+                      .reading = change(7.0 + stiff + 0.1 * random.normal(), i)});
+    }
+    felt[20].reading = 0.0;  // contact that was lost
+    return reasons(live(tissue, felt))[kAnotherUnit];
+  };
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 70 ? reading : -reading; }), 30);
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 40 ? -reading : reading; }), 39)
+      << "nothing has no sign";
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 70 ? reading : reading - 20.0; }), 30)
+      << "which a zero that moves as far looks like";
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 30 ? 1e-3 * reading : reading; }), 29);
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 70 ? reading : 1e3 * reading; }), 30);
+  EXPECT_EQ(found_of([](double reading, int) { return reading; }), 0);
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 60 ? reading - 7.0 : reading; }), 0);
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 60 ? reading : reading - 9.0; }), 0);
+}
+
 // Row by row, first what lies at the sensor's lower limit, then a steep tumour.
 TEST(Screened, ASensorAtItsLimitDoesNotHang) {
   const Surface tissue = sheet();

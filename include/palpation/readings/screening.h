@@ -1,8 +1,9 @@
 /// Readings that are no tissue: found, and set aside with the reason.
 ///
 /// A probe jams (its spring sticks, and all it says is far too high), hangs (the same number again
-/// and again), loses contact (far too low, and flat), wakes up from rest, slips once, or is seated
-/// anew between two rows. What a screen may rely on is physical:
+/// and again), loses contact (far too low, and flat), wakes up from rest, slips once, is seated
+/// anew between two rows, or tells in another unit or with another sign all at once. What a screen
+/// may rely on is physical:
 ///   - an edge felt through a tip of several millimetres is felt over millimetres: between tissue's
 ///   levels there are readings, between
 ///     those of tissue and of a jam next to none;
@@ -35,6 +36,9 @@ inline const std::string kNoContact =
 inline const std::string kNoLogarithm = "no logarithm: not positive";
 inline const std::string kFrozen =
     "frozen: the same reading over a path longer than the probe is wide";
+inline const std::string kAnotherUnit =
+    "another unit: of another sign than the others of its session, or 100 times as large or small; "
+    "name it another session";
 inline const std::string kStartUp = "start-up: the first 3 mm of a row that starts from rest";
 inline const std::string kOutlier = "outlier: contradicts the readings around it";
 inline const std::string kBaseStep = "base step: its row lies apart from the rows around it";
@@ -50,7 +54,7 @@ inline const std::string kSoftSpot =
 inline constexpr double kShortLength_m = 0.0035;
 
 /// The same readings, in the order in which they were made and as the sensor told them, with those
-/// set aside that are frozen, unless all are alike.
+/// set aside that are frozen, unless all are alike, or in another unit than most of their session.
 std::vector<Palpation> live(const Surface& surface, std::span<const Palpation> palpations);
 
 /// The same readings, with those set aside that no tissue gives whatever the order in which they
