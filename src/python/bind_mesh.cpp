@@ -189,8 +189,8 @@ void bind_mesh(py::module_& module) {
       "path"_a, "unit"_a, py::kw_only(), "weld"_a = false, "repair"_a = std::vector<std::string>(),
       "OBJ, OFF, STL, PLY or VTP, recognized by content; unit: 'mm', 'cm' or 'm'. repair: what is "
       "mended only on request, as by `palpate mesh repair`: 'weld' (or weld=True: vertices at "
-      "equal "
-      "places become one), 'triangulate' (polygons that no corner sees as a whole are cut, too), "
+      "equal places become one), 'triangulate' (polygons that no corner sees as a whole are cut, "
+      "too), "
       "'drop-duplicates' (of triangles with the same corners the first is kept), 'drop-degenerate' "
       "(what has no area goes, and leaves no crack), 'largest' (the component of the largest area "
       "is kept). What was done is in the mesh's warnings, each with its count and its first place. "

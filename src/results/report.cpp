@@ -83,8 +83,8 @@ std::string viewer_html(const Run& run, const json& view) {
   const bool is_curved = run.tissue.field("chart_u") != nullptr;
   return "<section class=\"viewer\" aria-label=\"The tissue in 3-D\">\n<div class=\"stage\">"
          "<canvas id=\"tissue\" tabindex=\"0\" role=\"img\" aria-label=\"The tissue. Arrow keys "
-         "turn "
-         "it, plus and minus zoom, 0 shows all of it, square brackets go from batch to batch.\">"
+         "turn it, plus and minus zoom, 0 shows all of it, square brackets go from batch to "
+         "batch.\">"
          "</canvas><div id=\"labels\" class=\"labels\" aria-hidden=\"true\"></div>"
          "<div class=\"scale\"><span id=\"scale-words\"></span><i "
          "id=\"scale-line\"></i></div></div>\n"
@@ -112,8 +112,7 @@ std::string viewer_html(const Run& run, const json& view) {
          "<button type=\"button\" id=\"farther\" aria-label=\"farther\">\u2212</button> "
          "<button type=\"button\" id=\"reset\">show all</button></p>\n"
          "<p id=\"picked\" class=\"picked\" role=\"status\">Click on the tissue for its values, on "
-         "a "
-         "touch for its reading.</p>\n</div>\n</section>\n";
+         "a touch for its reading.</p>\n</div>\n</section>\n";
 }
 
 std::string picture_html(const Run& run, const std::string& name, const std::string& words) {
@@ -133,8 +132,7 @@ std::string pictures_html(const Run& run) {
       picture_html(run, "convergence.png", "error and expected error from batch to batch");
   if (pictures.empty()) pictures = "<p>This run has no pictures.</p>\n";
   return "<section class=\"pictures\" aria-label=\"Pictures\">\n<p id=\"no-3d\" hidden>This "
-         "browser "
-         "does not draw the tissue in 3-D" +
+         "browser does not draw the tissue in 3-D" +
          std::string(run.tissue.mesh.vertices.rows() > kMostVertices
                          ? ": it has more vertices than a page takes"
                          : "") +
@@ -205,8 +203,7 @@ std::string report_html(const Run& run, const Origin& origin) {
          section("Readings", readings_html(run)) +
          section("Where this comes from", provenance_html(run, origin)) +
          "<footer>For research on phantoms and excised tissue, not for patients. The 3-D view is "
-         "made "
-         "with three.js, \u00a9 2010\u20132026 three.js authors, MIT licence.</footer>\n"
+         "made with three.js, \u00a9 2010\u20132026 three.js authors, MIT licence.</footer>\n"
          "<script type=\"application/json\" id=\"run-data\">" +
          inert(view.dump(-1, ' ', true, json::error_handler_t::replace)) + "</script>\n<script>" +
          std::string(three_script()) + "</script>\n<script>" + std::string(viewer_script()) +

@@ -43,8 +43,7 @@ std::string drift_words(ReadingScale scale, const Unevenness& background) {
                              ? "are " + fixed(std::exp(rise), 2) + " times as high"
                              : "lie " + reading_text(rise) + " higher";
   return "Readings rise and fall as time goes on, as a sensor that drifts makes them: wherever "
-         "they "
-         "are, they " +
+         "they are, they " +
          by + " about reading " + std::to_string(highest + 1) + " than about reading " +
          std::to_string(lowest + 1) +
          ". That is taken from them; where the way leads over the tissue as time goes on, tissue "

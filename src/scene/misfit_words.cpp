@@ -36,8 +36,7 @@ std::string late_words(double lag_m) {
   return "Readings are of places " + fixed(std::abs(lag_m) * 1e3, 1) + " mm " +
          (lag_m > 0.0 ? "behind" : "ahead of") +
          " where they were made, along the way on which the probe came there, as backlash, a "
-         "filter "
-         "or a pose that comes late makes them";
+         "filter or a pose that comes late makes them";
 }
 
 std::string another_outline_words(const Conclusion& conclusion, const Misfit& since) {
@@ -50,10 +49,8 @@ std::string another_outline_words(const Conclusion& conclusion, const Misfit& si
          fixed(std::abs(since.amount) * 1e3, 1) + " mm " +
          (since.amount > 0.0 ? "outwards" : "inwards") +
          ", and neither a zero, a gain nor a shift explains it: the probe's tip, the scale or turn "
-         "of "
-         "its registration, or the tissue is another. The outline is of both: take one or the "
-         "other "
-         "out.";
+         "of its registration, or the tissue is another. The outline is of both: take one or the "
+         "other out.";
 }
 
 /// Of what may be tumour.

@@ -32,8 +32,7 @@ std::string beside_words(const std::vector<TumourPart>& parts) {
          fixed(100.0 * most->border_share, 0) +
          " % of the border of the tissue, as another tissue beside it would: whether it is tumour, "
          "the readings do not tell. If it is not, leave it out by surface.patch: a tumour within "
-         "it is "
-         "not told apart from it.";
+         "it is not told apart from it.";
 }
 
 /// In a line, however many: which is how probable stands beside each part.

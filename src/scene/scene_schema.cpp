@@ -141,10 +141,8 @@ std::vector<SceneKey> make_scene_keys() {
            "of the mesh's coordinates; needed with surface.mesh"),
       word("surface.frame", {"RAS", "LPS"}, nullptr,
            "whose frame the mesh's coordinates are in, where it is a patient's: x to the right, y "
-           "to "
-           "the front, z to the head (RAS), or x to the left, y to the back, z to the head (LPS); "
-           "3D "
-           "Slicer must know; nobody guesses it"),
+           "to the front, z to the head (RAS), or x to the left, y to the back, z to the head "
+           "(LPS); 3D Slicer must know; nobody guesses it"),
       word("surface.off_tissue", {"leave-out", "refuse"}, "leave-out",
            "measurements more than 5 mm above or below the tissue, or 1 mm beside its border: left "
            "out and told, or their file is refused; a file all of which lies off is refused"),
@@ -211,9 +209,8 @@ std::vector<SceneKey> make_scene_keys() {
           "field.constant_sd, level.value)"),
       bound_word("field.precision",
                  "single: half the memory of the field's model and less time, the field off by a "
-                 "ten-thousandth of the signal at most; for noise "
-                 "of "
-                 "3.2 % of the signal and more: where a learned noise is lower, double is taken"),
+                 "ten-thousandth of the signal at most; for noise of 3.2 % of the signal and more: "
+                 "where a learned noise is lower, double is taken"),
       or_zero(number(
           "field.reduced_rank", "", 1e-13, 1e-4, kBound,
           "for readings by the thousand, as along paths: the part of the prior's variance that may "

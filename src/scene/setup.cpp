@@ -58,11 +58,10 @@ void check_precision(const Scene& scene, const FieldModel& field) {
   if (!field.economy.single_precision || field.learns()) return;
   const bool is_relative = field.noise.is_relative;
   if (field.standardize && !is_relative)
-    scene.refuse(
-        "field.precision",
-        "is single, but how large a fixed field.noise is beside standardized readings shows only "
-        "when they are felt: set "
-        "field.standardize to false, or give field.noise_to_signal in place of field.noise");
+    scene.refuse("field.precision",
+                 "is single, but how large a fixed field.noise is beside standardized readings "
+                 "shows only when they are felt: set field.standardize to false, or give "
+                 "field.noise_to_signal in place of field.noise");
   const double signal_sd = is_relative ? 1.0 : *field.kernel.signal_sd.given();
   if (*field.noise.sd.given() < std::sqrt(kLeastNoiseForSingle) * signal_sd)
     scene.refuse("field.precision",

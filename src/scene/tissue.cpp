@@ -265,9 +265,7 @@ std::string stretch_warning(const Scene& scene, const Surface& surface) {
   if (scene.word("field.metric") != "chart" || !misleads(distortion)) return "";
   return "Flattened, the tissue is " + stretch_words(distortion) +
          ": with field.metric chart, the field's length is off by as much there. Take field.metric "
-         "intrinsic or a smaller patch; areas and "
-         "errors "
-         "are "
+         "intrinsic or a smaller patch; areas and errors are "
          "measured on the tissue all the same.";
 }
 

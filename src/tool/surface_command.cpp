@@ -174,8 +174,7 @@ void print_whether_flat(const Surface& surface) {
   } catch (const InvalidInput& error) {
     print("Warning: no boundary can be drawn on all of it: " + rule_words(error) +
           ". A wider --gap closes holes and notches of the rim; of a slide, the readings that "
-          "palpate "
-          "readings makes of it are better contacts than its log.");
+          "palpate readings makes of it are better contacts than its log.");
   }
 }
 
