@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "palpation/geometry/chart_place.h"
 #include "scene/words.h"
 
 namespace palpation::tool {
@@ -11,6 +12,8 @@ namespace {
 
 /// A tumour seldom lies along so much of it.
 constexpr double kMuchBorder = 1.0 / 3.0;
+/// Fewer readings follow each other in a part that is small by chance.
+constexpr std::size_t kFewestOfPass = 4;
 
 std::string reaching_words(const std::vector<TumourPart>& parts) {
   const auto at_border = std::ranges::count_if(parts, &TumourPart::touches_border);
@@ -57,6 +60,46 @@ std::string unsure_words(const std::vector<TumourPart>& parts) {
          " only, each.";
 }
 
+/// Those of a part, among all that count.
+struct FeltInside {
+  std::size_t count = 0;
+  std::size_t first = 0, last = 0;            // as they were made
+  std::size_t first_rank = 0, last_rank = 0;  // of those that count
+
+  bool is_of_one_pass() const {
+    return count >= kFewestOfPass && last_rank - first_rank + 1 == count;
+  }
+};
+
+FeltInside felt_inside(const TumourPart& part, const Surface& surface,
+                       std::span<const Palpation> palpations) {
+  FeltInside felt;
+  std::size_t rank = 0;
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    if (!counts(palpations[i])) continue;
+    if (contains(part.polygon, chart_place(surface, palpations[i].where))) {
+      if (felt.count++ == 0) felt.first = i, felt.first_rank = rank;
+      felt.last = i, felt.last_rank = rank;
+    }
+    ++rank;
+  }
+  return felt;
+}
+
+/// What is wrong with a sensor for as long makes such parts, too.
+std::string one_pass_words(const std::vector<TumourPart>& parts, const Surface& surface,
+                           std::span<const Palpation> palpations) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const FeltInside felt = felt_inside(parts[i], surface, palpations);
+    if (!felt.is_of_one_pass()) continue;
+    return "Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
+           " was felt in one pass alone, readings " + std::to_string(felt.first + 1) + " to " +
+           std::to_string(felt.last + 1) +
+           ": what a sensor does wrong for as long looks alike. Touch there again.";
+  }
+  return "";
+}
+
 /// What is soft inside of a tumour, and what it grew around, read alike.
 std::string hole_words(const std::vector<TumourPart>& parts, const Surface& surface) {
   const PolygonWithHoles* around = nullptr;
@@ -76,10 +119,11 @@ std::string hole_words(const std::vector<TumourPart>& parts, const Surface& surf
 
 }  // namespace
 
-std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts,
-                                      const Surface& surface) {
-  std::vector<std::string> remarks = {unsure_words(parts), reaching_words(parts),
-                                      beside_words(parts), hole_words(parts, surface)};
+std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts, const Surface& surface,
+                                      std::span<const Palpation> palpations) {
+  std::vector<std::string> remarks = {
+      unsure_words(parts), one_pass_words(parts, surface, palpations), reaching_words(parts),
+      beside_words(parts), hole_words(parts, surface)};
   std::erase(remarks, "");
   return remarks;
 }

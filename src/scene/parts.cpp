@@ -48,23 +48,6 @@ TumourPart measured(const PolygonWithHoles& polygon, const Surface& surface) {
   return part;
 }
 
-/// Even-odd over all rings.
-bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
-  bool inside = false;
-  const auto cross = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2& a = ring[i];
-      const Vec2& b = ring[(i + 1) % ring.size()];
-      if ((a.y() > place.y()) != (b.y() > place.y()) &&
-          place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-        inside = !inside;
-    }
-  };
-  cross(polygon.outer);
-  for (const Ring& hole : polygon.holes) cross(hole);
-  return inside;
-}
-
 /// Every part of a level set holds a vertex, which is as deep as the part is; where rounding hides
 /// it, the part is at the level.
 void look_inside(TumourPart& part, const Surface& surface, const Field& score) {
@@ -129,6 +112,22 @@ std::optional<PartContrast> contrast_of(const TumourPart& part, const Surface& s
 }
 
 }  // namespace
+
+bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
+  bool inside = false;
+  const auto cross = [&](const Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2& a = ring[i];
+      const Vec2& b = ring[(i + 1) % ring.size()];
+      if ((a.y() > place.y()) != (b.y() > place.y()) &&
+          place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+  };
+  cross(polygon.outer);
+  for (const Ring& hole : polygon.holes) cross(hole);
+  return inside;
+}
 
 TumourPart measured(const Ring& ring, const Surface& surface) {
   return measured(PolygonWithHoles{ring, {}}, surface);

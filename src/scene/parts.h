@@ -26,6 +26,9 @@ struct TumourPart {
 /// By falling area, as Region lists them. None where nothing was found.
 std::vector<TumourPart> parts_of(const Episode& episode);
 
+/// Even-odd over all rings; of a place in the chart.
+bool contains(const PolygonWithHoles& polygon, const Vec2& place);
+
 /// A ring as a part of its own, without probability.
 TumourPart measured(const Ring& ring, const Surface& surface);
 
