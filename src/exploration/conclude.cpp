@@ -117,11 +117,12 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   believed.evidence.scale = scale;
   for (Palpation& one : believed.evidence.standing_alone)
     one.reading = as_reading(scale, one.reading);
+  const double tip_m = model.field.probe.indenter_radius_m;
   if (sampling_seed) draw_outlines(boundary, scaled, believed, *sampling_seed);
   if (other) {
     draw_outlines(other->known.boundary, model, other->known.believed, *sampling_seed);
     believed.evidence.area_by_logarithms_m2 =
-        superlevel_area(surface, *other->known.boundary.depth(), 0.0);
+        superlevel_area(surface, eroded(surface, *other->known.boundary.depth(), tip_m).field, 0.0);
   }
   std::optional<Certainty> certainty;
   if (scaled.band && boundary.level && believed.belief.site_count() > 0)
@@ -137,7 +138,6 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
   if (certainty && may_be_no_tumour(believed.evidence))
     certainty = as_likely_another(*std::move(certainty), surface, std::nullopt);
 
-  const double tip_m = model.field.probe.indenter_radius_m;
   std::optional<Contour> contour;
   if (boundary.level) {
     if (tip_m > 0.0 && !readings.empty())

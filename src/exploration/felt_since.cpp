@@ -9,8 +9,9 @@ namespace {
 
 /// Of readings in the tumour, and of others.
 constexpr int kFewestAtEdge = 3;
-/// One reading in so many lies as near to one before: a field's length.
-constexpr std::ptrdiff_t kOneInAgain = 3;
+/// Of those before or since, whichever are fewer, more than one in so many lies as near to one of
+/// the others: a field's length.
+constexpr std::ptrdiff_t kOneInAgain = 2;
 constexpr double kSameGround_m = 0.0035;
 
 bool is_made_since(const Misfit& change, std::span<const Palpation> readings, std::size_t i) {
@@ -38,11 +39,14 @@ bool is_felt_again(const Misfit& change, const Surface& surface,
     if (counts(one))
       (is_made_since(change, readings, i) ? since : before).push_back(surface.position(one.where));
   }
-  const auto again = std::ranges::count_if(since, [&](const Vec3& here) {
-    return std::ranges::any_of(
-        before, [&](const Vec3& there) { return (here - there).norm() <= kSameGround_m; });
+  const auto& [fewer, more] = std::minmax(
+      before, since, [](const auto& one, const auto& other) { return one.size() < other.size(); });
+  const auto again = std::ranges::count_if(fewer, [&more = more](const Vec3& here) {
+    return std::ranges::any_of(more, [&](const Vec3& there) {
+      return (here - there).squaredNorm() <= kSameGround_m * kSameGround_m;
+    });
   });
-  return kOneInAgain * again >= std::ssize(since);
+  return kOneInAgain * again > std::ssize(fewer);
 }
 
 }  // namespace palpation

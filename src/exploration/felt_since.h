@@ -13,7 +13,7 @@ namespace palpation {
 /// where it lies.
 bool is_felt_on_both_sides(const Misfit& change, double level, std::span<const Palpation> readings);
 
-/// Whether since then ground was felt that had been felt before: a raster's rows are of another
+/// Whether much of the ground was felt both before and since: a raster's rows are of another
 /// part of a tumour, which may look like the first, laid elsewhere.
 bool is_felt_again(const Misfit& change, const Surface& surface,
                    std::span<const Palpation> readings);

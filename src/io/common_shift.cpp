@@ -13,7 +13,10 @@ constexpr Eigen::Index kEnough = 12;  // positions, for four numbers
 constexpr double kLeast_m = 0.0015;   // a probe that goes in by half a millimetre feigns less
 constexpr double kSurely = 4.0;       // standard deviations
 constexpr double kExplained = 0.5;    // of the heights' variance
+constexpr double kMost_m = 0.005;     // farther off no position is taken
 constexpr double kWorstSd_m = 0.0005;
+constexpr double kCurved = 0.15;  // radians that normals vary by, root mean square
+constexpr double kUneven_m = 0.0003;
 
 /// To a tenth of a millimetre.
 std::string metres(double length_m) { return text_of(std::round(1e4 * length_m) / 1e4 + 0.0); }
@@ -42,7 +45,9 @@ std::optional<CommonShift> common_shift(const Surface& surface, std::span<const 
   Vec3 variance = Vec3::Zero();
   for (int way = 0; way < 3; ++way) {
     const double told = information.eigenvalues()[way];
-    if (!(scatter_m < kWorstSd_m * std::sqrt(told))) continue;
+    if (told < kCurved * kCurved * static_cast<double>(count) ||
+        scatter_m > kWorstSd_m * std::sqrt(told))
+      continue;
     found.shift_m += pull[way] / told * ways.col(way);
     variance[way] = 1.0 / told;
   }
@@ -50,8 +55,8 @@ std::optional<CommonShift> common_shift(const Surface& surface, std::span<const 
   const double noise = std::sqrt(left / static_cast<double>(count - 4));
   found.sd_m = noise * std::sqrt(variance.sum());
   const double length_m = found.shift_m.norm();
-  if (length_m < kLeast_m || length_m < kSurely * found.sd_m ||
-      left > (1.0 - kExplained) * heights.squaredNorm())
+  if (scatter_m < kUneven_m || length_m < kLeast_m || length_m > kMost_m ||
+      length_m < kSurely * found.sd_m || left > (1.0 - kExplained) * heights.squaredNorm())
     return std::nullopt;
   return found;
 }
@@ -61,8 +66,9 @@ std::string shift_words(const std::string& name, const CommonShift& shift) {
   return name + ": positions lie above the surface on one side and below it on the other, as if " +
          "all were (" + metres(by.x()) + ", " + metres(by.y()) + ", " + metres(by.z()) +
          ") m from where they were made (sd " + length_text(shift.sd_m) +
-         " m): the outline lies off by as much, which its band does not know. Register the tissue "
-         "anew: palpate register.";
+         " m): or turned by as much: the outline lies off, which its band does not know. Register "
+         "the "
+         "tissue anew: palpate register.";
 }
 
 }  // namespace palpation

@@ -16,9 +16,11 @@ struct CommonShift {
 
 /// With n the surface's normal at the closest point, a shift t lifts a position by about n.t above
 /// the surface, beside a height that is the same for all, as by how deep a probe goes in. Of ways
-/// along which normals are alike, as all are on a plane, nothing is told and nothing is shifted.
-/// Nothing where less than 1.5 mm are told, or four standard deviations, or the shift explains less
-/// than half of how heights vary. A place for each position.
+/// along which normals are alike, as all are on a plane, nothing is told and nothing is shifted: on
+/// tissue that is nearly flat the least turn would be a shift of millimetres, and on a sphere a
+/// turn is one. Nothing where less than 1.5 mm or more than 5 mm are told, less than four standard
+/// deviations, heights vary by less than 0.3 mm, or the shift explains less than half of that. A
+/// place for each position.
 std::optional<CommonShift> common_shift(const Surface& surface, std::span<const Vec3> positions,
                                         std::span<const SurfacePoint> places);
 

@@ -104,22 +104,29 @@ void check_reading_unit(const CsvTable& table, const std::string& unit) {
   }
 }
 
-void check_times(const CsvTable& table, std::vector<std::string>& warnings) {
+void tell_times(const CsvTable& table, std::vector<std::string>& warnings) {
   const std::optional<std::size_t> column = find_column(table, "t");
   if (!column) return;
-  std::map<std::string_view, double> latest;  // in each session
-  std::size_t count = 0, first = 0;
+  std::map<std::string_view, double> last;  // in each session
+  std::size_t falls = 0, fallen = 0;
   for (std::size_t row = 0; row < table.row_count(); ++row) {
-    const std::optional<double> time = number_at(table, row, *column);
-    if (!time || std::isnan(*time)) continue;
-    const auto [before, is_first] = latest.try_emplace(word_at(table, row, "session"), *time);
-    if (!is_first && *time < before->second && count++ == 0) first = row;
-    before->second = *time;
+    const std::string_view word = table.cell(row, *column);
+    if (word.empty()) continue;
+    const ParsedNumber time = parse_number(word);
+    if (time.status == NumberStatus::NotANumber) {
+      warnings.push_back(table.name() + ": t is no number of seconds, first " + in_quotes(word) +
+                         " in line " + std::to_string(table.line(row)) + ": it is not looked at.");
+      return;
+    }
+    if (time.status != NumberStatus::Fine || std::isnan(time.value)) continue;
+    const auto [before, is_first] = last.try_emplace(word_at(table, row, "session"), time.value);
+    if (!is_first && time.value < before->second && falls++ == 0) fallen = row;
+    before->second = time.value;
   }
-  if (count == 0) return;
+  if (falls == 0) return;
   warnings.push_back(table.name() + ": t falls " +
-                     (count == 1 ? "once" : std::to_string(count) + " times") + ", first in line " +
-                     std::to_string(table.line(first)) +
+                     (falls == 1 ? "once" : std::to_string(falls) + " times") + ", first in line " +
+                     std::to_string(table.line(fallen)) +
                      ", but rows count as made in their order: what drifted, moved or came late "
                      "is looked for in that. If t is right, sort the rows by it.");
 }

@@ -25,8 +25,8 @@ std::string set_aside_at(const CsvTable& table, std::size_t row);
 /// Throws IoError where the column reading_unit names two, or another than `unit` (empty: any).
 void check_reading_unit(const CsvTable& table, const std::string& unit);
 
-/// Throws IoError where the column t holds no number. Where it falls within a session, as in a file
-/// that was sorted by place, a warning: rows count as made in their order.
-void check_times(const CsvTable& table, std::vector<std::string>& warnings);
+/// A warning where the column t falls within a session, as in a file that was sorted by place: rows
+/// count as made in their order. Another where it holds no numbers.
+void tell_times(const CsvTable& table, std::vector<std::string>& warnings);
 
 }  // namespace palpation

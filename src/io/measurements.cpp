@@ -155,7 +155,7 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
   std::vector<SurfacePoint> landed;
   std::size_t farthest_row = 0;
   check_reading_unit(table, rules.reading_unit);
-  check_times(table, file.warnings);
+  tell_times(table, file.warnings);
   const std::vector<bool> is_off = rules.leave_out_off_tissue
                                        ? rows_off_tissue(table, surface, file.warnings)
                                        : std::vector<bool>(table.row_count(), false);
@@ -176,9 +176,9 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
     if (counts(palpation))
       palpation.session = sessions.number_of(word_at(table, row, columns.session));
     if (landing.farthest_m() > farthest_m) farthest_row = row;
-    positions.push_back(position);
-    landed.push_back(palpation.where);
     if (counts(palpation)) {
+      positions.push_back(position);
+      landed.push_back(palpation.where);
       const bool exact = palpation.noise_variance == 0.0 ||
                          (rules.empty_noise_is_none && std::isnan(palpation.noise_variance));
       palpation.where = repeats.settle(palpation.where, surface.position(palpation.where), table,

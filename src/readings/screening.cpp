@@ -60,13 +60,17 @@ Nearest nearest_to(const Screen& screen, std::size_t here, const IsMeant& is_mea
 /// A run of one number, and what was felt around it at other times.
 class Run {
  public:
-  Run(const Screen& screen, std::size_t first, std::size_t last) {
+  const std::size_t first, last;
+
+  Run(const Screen& screen, std::size_t from, std::size_t to) : first(from), last(to) {
     const auto is_of_run = [&](std::size_t i) { return i >= first && i <= last; };
     for (std::size_t here = first; here <= last; ++here) {
       own_.push_back(nearest_to(screen, here, is_of_run));
       others_.push_back(nearest_to(screen, here, [&](std::size_t i) { return !is_of_run(i); }));
     }
   }
+
+  std::ptrdiff_t size() const { return std::ssize(own_); }
 
   /// Part of it that lies nearer to what was made at another time.
   double among_others() const {
@@ -93,7 +97,8 @@ class Run {
 };
 
 /// At the end of the readings' range, and not far from those beside it: a plateau without noise, or
-/// the limit of a sensor. One that hangs goes on so where all around is nearer to the other end.
+/// the limit of a sensor. One that hangs says so nowhere else, does not come to it and leave it by
+/// a rise and a fall, and goes on so where all around is nearer to the other end.
 bool ends_range(const Screen& screen, const std::vector<double>& sorted, double reading,
                 const Run& run) {
   const double gap = kGapWidth * (sorted.back() - sorted.front());
@@ -105,8 +110,11 @@ bool ends_range(const Screen& screen, const std::vector<double>& sorted, double 
   const auto is_otherwise = [&](std::size_t i) {
     return (screen.reading(i) < middle) == is_greatest;
   };
-  return (to_next < gap || run.among_others() < kAmongOthers) &&
-         !run.is_beside(is_otherwise, kTipWidth_m, kStepsBeside);
+  if (!(to_next < gap || run.among_others() < kAmongOthers)) return false;
+  const bool is_felt_elsewhere = above - least > run.size();
+  const bool is_crossed = run.last + 1 < screen.places.size() && run.first > 0 &&
+                          !is_otherwise(run.first - 1) && !is_otherwise(run.last + 1);
+  return is_felt_elsewhere || is_crossed || !run.is_beside(is_otherwise, kTipWidth_m, kStepsBeside);
 }
 
 /// Runs of one number while the probe moves, longer than a sensor with few steps makes by chance.
@@ -125,11 +133,12 @@ void find_frozen(Screen& screen) {
     if (run.size() < kLeastFrozen || path_m <= kTipWidth_m || !is_used) continue;
     const double by_chance = static_cast<double>(sorted.size()) *
                              std::pow(repeats_without(screen, first, last), last - first);
+    if (by_chance > kRareRun) continue;
     const double reading = screen.reading(first);
     const Run around(screen, first, last);
     const auto is_alike = [&](std::size_t i) { return screen.reading(i) == reading; };
     constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();
-    if (by_chance > kRareRun || ends_range(screen, sorted, reading, around) ||
+    if (ends_range(screen, sorted, reading, around) ||
         around.is_beside(is_alike, kAnywhere_m, 0.0))  // then it is the tissue that is so even
       continue;
     for (const std::size_t i : run) screen.set_aside(i, kFrozen);

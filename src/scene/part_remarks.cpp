@@ -13,7 +13,7 @@ namespace {
 /// A tumour seldom lies along so much of it.
 constexpr double kMuchBorder = 1.0 / 3.0;
 /// Fewer readings follow each other in a part that is small by chance.
-constexpr std::size_t kFewestOfPass = 4;
+constexpr std::size_t kFewestAtOnce = 4;
 
 std::string reaching_words(const std::vector<TumourPart>& parts) {
   const auto at_border = std::ranges::count_if(parts, &TumourPart::touches_border);
@@ -66,8 +66,8 @@ struct FeltInside {
   std::size_t first = 0, last = 0;            // as they were made
   std::size_t first_rank = 0, last_rank = 0;  // of those that count
 
-  bool is_of_one_pass() const {
-    return count >= kFewestOfPass && last_rank - first_rank + 1 == count;
+  bool is_felt_once() const {
+    return count >= kFewestAtOnce && last_rank - first_rank + 1 == count;
   }
 };
 
@@ -86,16 +86,18 @@ FeltInside felt_inside(const TumourPart& part, const Surface& surface,
   return felt;
 }
 
-/// What is wrong with a sensor for as long makes such parts, too.
-std::string one_pass_words(const std::vector<TumourPart>& parts, const Surface& surface,
-                           std::span<const Palpation> palpations) {
+/// What is wrong with a sensor for as long makes such parts, too; not where nothing else was felt.
+std::string felt_once_words(const std::vector<TumourPart>& parts, const Surface& surface,
+                            std::span<const Palpation> palpations) {
+  const auto counting = static_cast<std::size_t>(std::ranges::count_if(palpations, counts));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const FeltInside felt = felt_inside(parts[i], surface, palpations);
-    if (!felt.is_of_one_pass()) continue;
+    if (!felt.is_felt_once() || felt.count == counting) continue;
     return "Part " + std::to_string(i + 1) + " of " + std::to_string(parts.size()) +
-           " was felt in one pass alone, readings " + std::to_string(felt.first + 1) + " to " +
+           " was felt once, by readings " + std::to_string(felt.first + 1) + " to " +
            std::to_string(felt.last + 1) +
-           ": what a sensor does wrong for as long looks alike. Touch there again.";
+           ", made one after the other: what a sensor does wrong for as long looks alike. Touch "
+           "there again.";
   }
   return "";
 }
@@ -122,7 +124,7 @@ std::string hole_words(const std::vector<TumourPart>& parts, const Surface& surf
 std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts, const Surface& surface,
                                       std::span<const Palpation> palpations) {
   std::vector<std::string> remarks = {
-      unsure_words(parts), one_pass_words(parts, surface, palpations), reaching_words(parts),
+      unsure_words(parts), felt_once_words(parts, surface, palpations), reaching_words(parts),
       beside_words(parts), hole_words(parts, surface)};
   std::erase(remarks, "");
   return remarks;

@@ -13,8 +13,8 @@ std::string scale_words(const Conclusion& conclusion) {
   if (conclusion.evidence.area_by_logarithms_m2)
     return "Whether readings or their logarithms are level beside an edge, these do not tell. By "
            "logarithms, with field.transform log, the outline would hold " +
-           fixed(*conclusion.evidence.area_by_logarithms_m2 * 1e6, 0) +
-           " mm2; the band holds both outlines.";
+           fixed(*conclusion.evidence.area_by_logarithms_m2 * 1e6, 0) + " mm2" +
+           (conclusion.certainty ? "; the band holds both outlines." : ".");
   if (conclusion.scale() != ReadingScale::Log || conclusion.model.contrast.scale) return "";
   return "It is the readings' logarithms that scatter evenly: the outline lies between their "
          "plateaus. With field.transform none it lies farther in.";

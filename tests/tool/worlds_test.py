@@ -134,12 +134,12 @@ class Worlds(InFolder):
         said = f"It may be tumour or not: its {part['area_mm2']:.0f} mm2 lie in the band, and half of them count as missed."
         self.assertTrue(any(said in words for words in summary["warnings"]), summary["warnings"])
 
-    def test_a_part_that_was_felt_in_one_pass_is_told(self):
+    def test_a_part_that_was_felt_once_is_told(self):
         random.seed(6)
         glitch = lambda x, y: 2 if x == 5.5 and 31 < y < 42 else 0  # readings 66 to 71
         measured = self.raster(25, lambda x, y: 7 + disk(x, y, 14, 6, 2) + glitch(x, y) + random.gauss(0, 0.06))
         warnings = self.summary("boundary", self.scene(), "--measurements", measured)["warnings"]
-        said = "Part 2 of 2 was felt in one pass alone, readings 66 to 71: what a sensor does wrong for as long looks alike. Touch there again."
+        said = "Part 2 of 2 was felt once, by readings 66 to 71, made one after the other: what a sensor does wrong for as long looks alike. Touch there again."
         self.assertIn(said, warnings)
 
     def test_a_zero_that_moves_is_taken_back_and_said(self):

@@ -54,7 +54,8 @@ inline const std::string kSoftSpot =
 inline constexpr double kShortLength_m = 0.0035;
 
 /// The same readings, in the order in which they were made and as the sensor told them, with those
-/// set aside that are frozen, unless all are alike, or in another unit than most of their session.
+/// set aside that are frozen, unless all are alike, or in another unit than others of their
+/// session.
 std::vector<Palpation> live(const Surface& surface, std::span<const Palpation> palpations);
 
 /// The same readings, with those set aside that no tissue gives whatever the order in which they
