@@ -52,9 +52,9 @@ std::vector<double> sizes_of(std::span<const double> readings) {
   return sizes;
 }
 
-/// The moment since which nearly all have another sign than nearly all before, if both are about of
-/// the same two heights, which one of them tells: else zero may lie between tissue and tumour, or
-/// the sensor's have moved.
+/// The moment since which nearly all have another sign than nearly all before, if one of the two
+/// tells two heights and the other is about of these: else zero may lie between tissue and tumour,
+/// or the sensor's have moved.
 std::optional<std::ptrdiff_t> turned_at(std::span<const double> readings) {
   const auto count = std::ssize(readings);
   const auto positive = std::ranges::count_if(readings, [](double one) { return one > 0.0; });
@@ -69,10 +69,11 @@ std::optional<std::ptrdiff_t> turned_at(std::span<const double> readings) {
   const auto first = static_cast<std::size_t>(moment);
   const TwoHeights one = two_heights(sizes_of(readings.first(first))),
                    other = two_heights(sizes_of(readings.subspan(first)));
-  const double near = kAlike * std::max(one.high - one.low, other.high - other.low);
-  if (!(one.are_told || other.are_told) || std::abs(one.low - other.low) > near ||
-      std::abs(one.high - other.high) > near)
-    return std::nullopt;
+  const auto is_among = [](const TwoHeights& some, const TwoHeights& told) {
+    const double near = kAlike * (told.high - told.low);
+    return told.are_told && some.low > told.low - near && some.high < told.high + near;
+  };
+  if (!is_among(one, other) && !is_among(other, one)) return std::nullopt;
   return moment;
 }
 

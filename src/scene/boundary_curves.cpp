@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "palpation/boundary/level_set.h"
+#include "scene/parts.h"
 
 namespace palpation::tool {
 namespace {
@@ -28,18 +29,6 @@ double signed_area(const Ring& ring) {
     twice += a.x() * b.y() - a.y() * b.x();
   }
   return 0.5 * twice;
-}
-
-bool winds_around(const Ring& ring, const Vec2& place) {
-  bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2& a = ring[i];
-    const Vec2& b = ring[(i + 1) % ring.size()];
-    if ((a.y() > place.y()) != (b.y() > place.y()) &&
-        place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  return inside;
 }
 
 }  // namespace

@@ -113,20 +113,22 @@ std::optional<PartContrast> contrast_of(const TumourPart& part, const Surface& s
 
 }  // namespace
 
-bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
+bool winds_around(const Ring& ring, const Vec2& place) {
   bool inside = false;
-  const auto cross = [&](const Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Vec2& a = ring[i];
-      const Vec2& b = ring[(i + 1) % ring.size()];
-      if ((a.y() > place.y()) != (b.y() > place.y()) &&
-          place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-        inside = !inside;
-    }
-  };
-  cross(polygon.outer);
-  for (const Ring& hole : polygon.holes) cross(hole);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2& a = ring[i];
+    const Vec2& b = ring[(i + 1) % ring.size()];
+    if ((a.y() > place.y()) != (b.y() > place.y()) &&
+        place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
   return inside;
+}
+
+bool contains(const PolygonWithHoles& polygon, const Vec2& place) {
+  return winds_around(polygon.outer, place) &&
+         std::ranges::none_of(polygon.holes,
+                              [&](const Ring& hole) { return winds_around(hole, place); });
 }
 
 TumourPart measured(const Ring& ring, const Surface& surface) {

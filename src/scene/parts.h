@@ -26,7 +26,8 @@ struct TumourPart {
 /// By falling area, as Region lists them. None where nothing was found.
 std::vector<TumourPart> parts_of(const Episode& episode);
 
-/// Even-odd over all rings; of a place in the chart.
+/// Of a place in the chart.
+bool winds_around(const Ring& ring, const Vec2& place);
 bool contains(const PolygonWithHoles& polygon, const Vec2& place);
 
 /// A ring as a part of its own, without probability.

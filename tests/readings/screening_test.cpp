@@ -243,6 +243,8 @@ TEST(Screened, ReadingsInAnotherUnitAreSetAside) {
     return reasons(live(tissue, felt))[kAnotherUnit];
   };
   EXPECT_EQ(found_of([](double reading, int i) { return i < 50 ? reading : -reading; }), 50);
+  EXPECT_EQ(found_of([](double reading, int i) { return i < 70 ? reading : -reading; }), 30)
+      << "healthy tissue alone";
   EXPECT_EQ(found_of([](double reading, int i) { return i < 50 ? -reading : reading; }), 49)
       << "contact that was lost has no sign";
   EXPECT_EQ(found_of([](double reading, int i) { return i < 70 ? reading : reading - 20.0; }), 0)
