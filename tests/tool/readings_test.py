@@ -328,12 +328,7 @@ class Readings(InFolder):
                 summary = json.loads((self.folder / name / "summary.json").read_text())
                 # The ridge is 59 x 15 mm and both ways of touching it find it; the ball of 5 mm and the liver are only to be answered.
                 if "ridge" in name:
-                    self.assertAlmostEqual(max(summary["parts"][0]["extent_mm"]), 59, delta=8)
-                    self.assertTrue(all(other["probability"] < 0.95 for other in summary["parts"][1:]))
-                    # By logarithms, which the tool takes of itself, a bump of 5 mm beside it may be tumour, too; by readings as they are it is alone.
-                    self.done("boundary", scene, "--measurements", readings, "--set", "field.transform=none", "--out", self.folder / f"{name}.none", *briefly,
-                              timeout=3 * PATIENCE_S)
-                    (part,) = json.loads((self.folder / f"{name}.none" / "summary.json").read_text())["parts"]
+                    (part,) = summary["parts"]
                     self.assertAlmostEqual(max(part["extent_mm"]), 59, delta=8)
 
     def test_a_slide_as_points_is_told_to_be_no_tissue(self):
