@@ -42,7 +42,6 @@ std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> pa
                                std::size_t first) {
   std::vector<Site> sites;
   std::map<PlaceKey, std::size_t> site_at;
-  const std::vector<std::size_t> before = readings_before_each(palpations);
   for (std::size_t number = first; number < palpations.size(); ++number) {
     const Palpation& palpation = palpations[number];
     if (!palpation.set_aside.empty()) continue;
@@ -53,8 +52,7 @@ std::vector<Site> gather_sites(const Prior& prior, std::span<const Palpation> pa
         site_at.try_emplace(PlaceKey(x.x(), x.y(), x.z(), place.modes.sum()), sites.size());
     if (is_new) sites.push_back({palpation.where, std::move(place), {}, {}, {}});
     Site& site = sites[entry->second];
-    site.made.push_back(
-        {palpation.batch, before[number], palpation.session, palpation.bound, palpation.travel});
+    site.made.push_back(made_of(palpations, number));
     if (std::isnan(palpation.noise_variance)) {
       site.plain.push_back(palpation.reading);
     } else {

@@ -49,10 +49,9 @@ class ChangedField {
       : prior_(belief.prior()),
         at_{prior_.kernel().length_m, belief.signal_sd(),
             std::max(std::sqrt(belief.noise_variance()), kLeastNoise * belief.signal_sd())} {
-    const std::vector<std::size_t> before = readings_before_each(belief.palpations());
     for (const std::size_t i : in_time(belief.palpations(), kMostReadings)) {
       readings_.push_back(belief.palpations()[i]);
-      numbers_.push_back(before[i]);
+      numbers_.push_back(made_of(belief.palpations(), i).number);
     }
     Vec3 normal = Vec3::Zero();
     std::vector<double> values;

@@ -221,7 +221,7 @@ Known known_as_if_unchanged(const Surface& surface, const Model& model,
     take_back();
   }
   if (is_last) {
-    weigh_against_errors_in_turn(known, readings_made(felt));
+    weigh_against_errors_in_turn(known, std::ssize(felt));
     weigh_against_waves(known);
     Evidence& evidence = known.believed.evidence;
     if (known.boundary.edge && std::ranges::none_of(evidence.taken_back, has_own_moment))

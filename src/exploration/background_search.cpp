@@ -99,9 +99,9 @@ Known without_background(const Surface& surface, const TriedBackgrounds& tried,
       tried.waved ? tried.waved->log_evidence - log_evidence_in_waves(surface, simpler, noise)
                   : 0.0;
   const double drift_gain =
-      drifted ? drifted->log_evidence -
-                    log_evidence_in_errors(simpler, readings_made(tried.felt), noise)
-              : 0.0;
+      drifted
+          ? drifted->log_evidence - log_evidence_in_errors(simpler, std::ssize(tried.felt), noise)
+          : 0.0;
   if (!(std::max(waves_gain, drift_gain) > surprising())) return simpler;
   return waves_gain > drift_gain ? tried.waved->known : drifted->known;
 }

@@ -33,8 +33,8 @@ bool same_options(const BeliefOptions& a, const BeliefOptions& b) {
 bool same_reading(const Palpation& a, const Palpation& b) {
   return a.where.face == b.where.face && a.where.barycentric == b.where.barycentric &&
          a.reading == b.reading && same(a.noise_variance, b.noise_variance) && a.batch == b.batch &&
-         a.session == b.session && a.count == b.count && a.kind == b.kind &&
-         a.set_aside == b.set_aside && a.bound == b.bound;
+         a.session == b.session && a.kind == b.kind && a.travel == b.travel &&
+         a.set_aside == b.set_aside && a.bound == b.bound && a.number == b.number;
 }
 
 /// How many of the first palpations the belief knows, and nothing else; 0 if it is another belief.
@@ -78,10 +78,7 @@ std::shared_ptr<const TriedBackgrounds> ConclusionCache::tried(
     const Surface& surface, const Model& model, std::span<const Palpation> felt) const {
   const auto is_same = [&](const std::shared_ptr<const TriedBackgrounds>& one) {
     return &one->flat.believed.belief.prior().surface().mesh() == &surface.mesh() &&
-           one->model == model &&
-           std::ranges::equal(one->felt, felt, [](const Palpation& a, const Palpation& b) {
-             return same_reading(a, b) && a.travel == b.travel;
-           });
+           one->model == model && std::ranges::equal(one->felt, felt, same_reading);
   };
   const auto found = std::ranges::find_if(tried_, is_same);
   return found == tried_.end() ? nullptr : *found;

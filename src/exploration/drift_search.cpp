@@ -21,14 +21,11 @@ constexpr std::size_t kDrifts = 3;  ///< of parallel lines: each costs a conclus
 
 /// What steps of the zero that were taken back added to each reading.
 Eigen::VectorXd steps_in_turn(const std::vector<Palpation>& felt, const Known& known) {
-  Eigen::VectorXd steps = Eigen::VectorXd::Zero(readings_made(felt));
-  const std::vector<std::size_t> before = readings_before_each(felt);
+  Eigen::VectorXd steps = Eigen::VectorXd::Zero(std::ssize(felt));
   for (const Misfit& change : known.believed.evidence.taken_back) {
     if (!is_step_of_zero(change)) continue;
     for (std::size_t i = 0; i < felt.size(); ++i) {
-      const auto number = static_cast<Eigen::Index>(before[i]);
-      if (is_since(change, {felt[i].batch, before[i], felt[i].session}))
-        steps.segment(number, felt[i].count).array() += change.amount;
+      if (is_since(change, made_of(felt, i))) steps[static_cast<Eigen::Index>(i)] += change.amount;
     }
   }
   return steps;

@@ -102,8 +102,7 @@ std::optional<Told> told_by_outlines(const KnownOnScale& on, const Model& model,
 /// How probable readings are as the sensor makes them, whatever scale they are told on.
 class DensityAsRead {
  public:
-  DensityAsRead(std::span<const Palpation> felt, const KnownOnScale& raw)
-      : felt_(felt), before_(readings_before_each(felt)) {
+  DensityAsRead(std::span<const Palpation> felt, const KnownOnScale& raw) : felt_(felt) {
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
     for (std::size_t i = 0; i < felt.size(); ++i) {
       if (!counts(raw.known.believed.palpations[i])) continue;
@@ -132,9 +131,7 @@ class DensityAsRead {
   /// By how much what is told of a reading changes with it.
   double log_stretch(ReadingScale scale, const std::vector<Misfit>& taken_back,
                      const Made& one) const {
-    const auto after = std::ranges::upper_bound(before_, one.number);
-    const Palpation& felt = felt_[static_cast<std::size_t>(after - before_.begin()) - 1];
-    double sum = scale == ReadingScale::Log ? -std::log(felt.reading) : 0.0;
+    double sum = scale == ReadingScale::Log ? -std::log(felt_[one.number].reading) : 0.0;
     for (const Misfit& change : taken_back) {
       if (change.kind == MisfitKind::Gain && is_since(change, one))
         sum -= std::log1p(change.amount);
@@ -143,7 +140,6 @@ class DensityAsRead {
   }
 
   std::span<const Palpation> felt_;
-  std::vector<std::size_t> before_;
   double log_wild_ = 0.0;
   double log_row_ = 0.0;
 };

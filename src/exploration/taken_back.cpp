@@ -34,12 +34,6 @@ constexpr std::ptrdiff_t kOneIn = 20;  ///< a moment is known to a few readings
 
 }  // namespace
 
-Eigen::Index readings_made(std::span<const Palpation> felt) {
-  Eigen::Index made = 0;
-  for (const Palpation& one : felt) made += one.count;
-  return made;
-}
-
 double added_at(const Surface& surface, const Unevenness& background, const SurfacePoint& where) {
   const double slope = background.slope_per_m.dot(surface.position(where) - background.middle);
   return background.waves.size() == 0 ? slope
@@ -53,7 +47,7 @@ Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
     if (session.session == 0) continue;
     std::ptrdiff_t others = 0;
     for (std::size_t i = 0; i < palpations.size(); ++i) {
-      const Made made{palpations[i].batch, i, palpations[i].session};
+      const Made made = made_of(palpations, i);
       others += is_since(change, made) != is_since(session, made);
     }
     if (kOneIn * others > std::ssize(palpations)) continue;
@@ -68,11 +62,10 @@ Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
 std::vector<Palpation> with_changes_taken_back(const Surface& surface,
                                                std::vector<Palpation> palpations,
                                                std::span<const Misfit> changes) {
-  const std::vector<std::size_t> before = readings_before_each(palpations);
   for (std::size_t i = 0; i < palpations.size(); ++i) {
+    const Made made = made_of(palpations, i);
     for (const Misfit& change : changes) {
-      const Made made{palpations[i].batch, before[i], palpations[i].session};
-      if (is_since(change, made)) take_back(surface, change, before[i], palpations[i]);
+      if (is_since(change, made)) take_back(surface, change, made.number, palpations[i]);
     }
   }
   return palpations;

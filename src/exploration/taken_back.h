@@ -17,9 +17,6 @@ inline constexpr std::size_t kMostChanges = 4;
 Misfit as_of_its_session(Misfit change, std::span<const Misfit> changes,
                          std::span<const Palpation> palpations);
 
-/// How many a drift has an error for: those that are one (Palpation::count) are counted apart.
-Eigen::Index readings_made(std::span<const Palpation> felt);
-
 /// What a slope or waves add to a reading there.
 double added_at(const Surface& surface, const Unevenness& background, const SurfacePoint& where);
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/log_mean.h"
-#include "palpation/readings/palpation.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
@@ -197,8 +197,7 @@ Eigen::MatrixXd ZeroSteps::columns(const std::vector<Misfit>& changes,
   for (Eigen::Index i = 0; i < steps.rows(); ++i) {
     const std::size_t number = numbers[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < steps.cols(); ++j)
-      steps(i, j) = is_since(changes[static_cast<std::size_t>(j)],
-                             {palpations_[number].batch, number, palpations_[number].session});
+      steps(i, j) = is_since(changes[static_cast<std::size_t>(j)], made_of(palpations_, number));
   }
   return steps;
 }

@@ -23,11 +23,9 @@ AsOne as_one(const Surface& surface, std::span<const Palpation> together, double
   const Palpation& first = together.front();
   const Vec3 start = surface.position(first.where);
   AsOne one{first, Vec3::Zero()};
-  one.palpation.count = 0;
   double precision = 0.0, offset = 0.0;
   for (const Palpation& palpation : together) {
     const double weight = 1.0 / variance_of(palpation, noise_variance);
-    one.palpation.count += palpation.count;
     precision += weight;
     offset += weight * (palpation.reading - first.reading);
     one.shift_m += weight * (surface.position(palpation.where) - start);

@@ -7,17 +7,22 @@
 #include <utility>
 
 #include "readings/as_one.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
 
-/// Of one session and batch, and a cube.
-using Cell = std::tuple<int, int, long, long, long>;
+/// Of one session, batch and end of the sensor's range, and a cube.
+using Cell = std::tuple<int, int, Bound, long, long, long>;
 
 Cell cell_of(const Palpation& palpation, const Vec3& place, double within_m) {
   const Vec3 cube = place / within_m;
-  return {palpation.session, palpation.batch, std::lround(std::floor(cube.x())),
-          std::lround(std::floor(cube.y())), std::lround(std::floor(cube.z()))};
+  return {palpation.session,
+          palpation.batch,
+          palpation.bound,
+          std::lround(std::floor(cube.x())),
+          std::lround(std::floor(cube.y())),
+          std::lround(std::floor(cube.z()))};
 }
 
 }  // namespace
@@ -58,7 +63,10 @@ std::vector<Palpation> merged_in_cells(const Surface& surface,
   }
   std::ranges::sort(merged, {}, [](const auto& one) { return one.first; });
   std::vector<Palpation> result;
-  for (auto& [when, palpation] : merged) result.push_back(std::move(palpation));
+  for (auto& [place, palpation] : merged) {
+    palpation.number = made_of(palpations, place).number;
+    result.push_back(std::move(palpation));
+  }
   return result;
 }
 

@@ -20,14 +20,9 @@ std::vector<double> used_readings(std::span<const Palpation> palpations) {
   return readings;
 }
 
-std::vector<std::size_t> readings_before_each(std::span<const Palpation> palpations) {
-  std::vector<std::size_t> before(palpations.size());
-  std::size_t made = 0;
-  for (std::size_t i = 0; i < palpations.size(); ++i) {
-    before[i] = made;
-    made += static_cast<std::size_t>(palpations[i].count);
-  }
-  return before;
+Made made_of(std::span<const Palpation> palpations, std::size_t place) {
+  const Palpation& one = palpations[place];
+  return {one.batch, one.number.value_or(place), one.session, one.bound, one.travel};
 }
 
 std::vector<std::size_t> in_time(std::span<const Palpation> palpations, std::size_t most) {
@@ -36,7 +31,7 @@ std::vector<std::size_t> in_time(std::span<const Palpation> palpations, std::siz
     if (counts(palpations[i])) used.push_back(i);
   }
   std::ranges::stable_sort(used, {}, [&](std::size_t i) {
-    return std::pair(palpations[i].session, palpations[i].batch);
+    return std::pair(palpations[i].batch, made_of(palpations, i).number);
   });
   const std::size_t stride = (used.size() + most - 1) / most;
   for (std::size_t i = 0; i < used.size(); i += stride) some.push_back(used[i]);

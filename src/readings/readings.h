@@ -14,11 +14,11 @@ namespace palpation {
 /// Of the palpations that count, in their order.
 std::vector<double> used_readings(std::span<const Palpation> palpations);
 
-/// How many readings were made before each, those that are one (Palpation::count) counted apart.
-std::vector<std::size_t> readings_before_each(std::span<const Palpation> palpations);
+/// When one of a list was made: its number is Palpation::number, or its place in the list.
+Made made_of(std::span<const Palpation> palpations, std::size_t place);
 
-/// Numbers of those that count, as they were made, a batch after the other; evenly thinned to at
-/// most so many.
+/// Places in the list of those that count, as they were made (is_since of misfit.h), a batch after
+/// the other; evenly thinned to at most so many.
 std::vector<std::size_t> in_time(std::span<const Palpation> palpations, std::size_t most);
 
 /// Readings that count with their places in space, metres, a row each.

@@ -6,6 +6,7 @@
 #include "palpation/readings/screening.h"
 #include "readings/as_one.h"
 #include "readings/passes.h"
+#include "readings/readings.h"
 
 namespace palpation {
 namespace {
@@ -46,25 +47,25 @@ std::vector<Palpation> merged_on_the_way(const Surface& surface,
     const Vec3 start = surface.position(one.where);
     const auto joins = [&](const Palpation& next) {
       return may_merge(one) && may_merge(next) && next.batch == one.batch &&
-             next.session == one.session && next.travel.dot(one.travel) > kSameDirection &&
-             are_alike(one, next, noise_variance) &&
+             next.session == one.session && next.bound == one.bound &&
+             next.travel.dot(one.travel) > kSameDirection && are_alike(one, next, noise_variance) &&
              (surface.position(next.where) - start).norm() <= within_m;
     };
     end = first + 1;
     while (end < palpations.size() && joins(palpations[end])) ++end;
-    if (end == first + 1) {
-      merged.push_back(one);
-      continue;
-    }
+    merged.push_back(one);
+    merged.back().number = made_of(palpations, first).number;
+    if (end == first + 1) continue;
     auto [together, shift_m] =
         as_one(surface, palpations.subspan(first, end - first), noise_variance);
+    together.number = merged.back().number;
     const double step = shift_m.norm();
     if (step > 0.0) {
       const std::vector<SurfacePoint> middle =
           way_between(surface, one.where, palpations[end - 1].where, step);
       if (!middle.empty()) together.where = middle.front();
     }
-    merged.push_back(std::move(together));
+    merged.back() = std::move(together);
   }
   return merged;
 }

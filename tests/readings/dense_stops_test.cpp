@@ -24,23 +24,20 @@ std::vector<Palpation> stops_over(const Surface& surface, int count) {
   return stops;
 }
 
-TEST(MergedInCells, KeepCountsPrecisionsAndTheirMean) {
+TEST(MergedInCells, KeepPrecisionsAndTheirMean) {
   const Surface surface = plane(26, 51);
   std::vector<Palpation> stops = stops_over(surface, 4000);
   stops[7].noise_variance = 0.01;
   const std::vector<Palpation> merged = merged_in_cells(surface, stops, kWithin_m, kNoiseVariance);
   EXPECT_LT(merged.size(), 2500u);
-  int count = 0;
   double precision = 0.0, weighed = 0.0, told = 0.0;
   for (const Palpation& one : merged) {
     const double own = std::isnan(one.noise_variance) ? kNoiseVariance : one.noise_variance;
-    count += one.count;
     precision += 1.0 / own;
     weighed += one.reading / own;
   }
   for (std::size_t i = 0; i < stops.size(); ++i)
     told += stops[i].reading / (i == 7 ? 0.01 : kNoiseVariance);
-  EXPECT_EQ(count, 4000);
   EXPECT_NEAR(precision, 3999 / kNoiseVariance + 100.0, 1e-6);
   EXPECT_NEAR(weighed, told, 1e-6);
 }
@@ -59,8 +56,35 @@ TEST(MergedInCells, KeepApartWhatAnEdgePartsOrWasNotMadeTogether) {
   const std::vector<Palpation> merged = merged_in_cells(surface, stops, kWithin_m, kNoiseVariance);
   ASSERT_EQ(merged.size(), 5u);
   EXPECT_NEAR(merged.front().reading, 7.1, 1e-12);
-  EXPECT_EQ(merged.front().count, 2);
+  EXPECT_NEAR(merged.front().noise_variance, 0.5 * kNoiseVariance, 1e-12);
   EXPECT_EQ(merged.back().set_aside, "wild");
+}
+
+// 10 and "10 or more" are no mean.
+TEST(MergedInCells, KeepTheEndOfARangeApart) {
+  const Surface surface = plane(26, 51);
+  std::vector<Palpation> stops(
+      4, {.where = surface.project(Vec3(0.0052, 0.0053, 0.0)), .reading = 10.0});
+  stops[1].bound = stops[3].bound = Bound::AtLeast;
+  const std::vector<Palpation> merged = merged_in_cells(surface, stops, kWithin_m, kNoiseVariance);
+  ASSERT_EQ(merged.size(), 2u);
+  EXPECT_EQ(merged[0].bound, Bound::None);
+  EXPECT_EQ(merged[1].bound, Bound::AtLeast);
+}
+
+// What one says of a moment is said of the list as it was made: here each place is felt twice, at
+// the beginning and at the end.
+TEST(MergedInCells, KnowWhenTheFirstOfEachWasMade) {
+  const Surface surface = plane(26, 51);
+  std::vector<Palpation> stops;
+  for (const int column : {0, 1, 2, 2, 1, 0})
+    stops.push_back({.where = surface.project(Vec3(0.0052 + 0.003 * column, 0.0053, 0.0)),
+                     .reading = 7.0 + column});
+  stops.push_back({.where = surface.at_vertex(0), .reading = 5.0});
+  const std::vector<Palpation> merged = merged_in_cells(surface, stops, kWithin_m, kNoiseVariance);
+  std::vector<std::size_t> numbers;
+  for (const Palpation& one : merged) numbers.push_back(one.number.value());
+  EXPECT_EQ(numbers, (std::vector<std::size_t>{0, 1, 2, 6}));
 }
 
 TEST(MergedInCells, AreTheSameInWhateverOrderTheyWereMade) {

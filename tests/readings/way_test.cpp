@@ -41,9 +41,18 @@ TEST(MergedOnTheWay, PutsNeighboursInTheirMiddleWithTheirPrecisionsAddedUp) {
   EXPECT_EQ(merged[3].reading, 8.0);
   EXPECT_EQ(merged[4].reading, 1.0);
   EXPECT_EQ(merged[5].reading, 2.0);
-  EXPECT_EQ(merged[0].count, 2);
-  EXPECT_EQ(merged[2].count, 1);
-  EXPECT_EQ(readings_before_each(merged), (std::vector<std::size_t>{0, 2, 4, 5, 6, 7}));
+  std::vector<std::size_t> numbers;
+  for (const Palpation& one : merged) numbers.push_back(one.number.value());
+  EXPECT_EQ(numbers, (std::vector<std::size_t>{0, 2, 4, 5, 6, 7}));
+}
+
+// 10 and "10 or more" are no mean.
+TEST(MergedOnTheWay, LeavesTheEndOfARangeApart) {
+  const Surface tissue = plane(26, 51);
+  std::vector<Palpation> two(2, on_the_way(tissue, {0.010, 0.02, 0.0}, Vec3::UnitX(), 10.0));
+  EXPECT_EQ(merged_on_the_way(tissue, two, 0.00105, 0.01).size(), 1u);
+  two.back().bound = Bound::AtLeast;
+  EXPECT_EQ(merged_on_the_way(tissue, two, 0.00105, 0.01).size(), 2u);
 }
 
 // Their mean is not what lies in the middle.

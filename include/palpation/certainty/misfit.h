@@ -61,7 +61,7 @@ struct Misfit {
   double evidence = 0.0;  ///< nats: logarithm of the kind's mean Bayes factor
   int from_batch = 0;     ///< Zero, Gain, Moved, Outline: the first batch that differs
   /// Zero, Gain, Moved, Outline: how many readings were made before the first that differs, those
-  /// that the belief takes as one (Palpation::count) counted apart.
+  /// that the belief takes as one counted apart.
   std::size_t number = 0;
   int session = 0;  ///< the first that differs, where sessions tell; 0: batch and number do
   /// Zero: by how much, in readings. Gain: the factor, less one. Moved: how far, metres.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "palpation/geometry/surface_point.h"
@@ -30,9 +31,11 @@ struct Palpation {
   TouchKind kind = TouchKind::Stop;
   Vec3 travel = Vec3::Zero();  ///< unit direction of travel, or zero if unknown
   std::string set_aside{};     ///< why the reading is not used; empty if it is
-  int count = 1;               ///< readings that this is the mean of
   int session = 0;             ///< in each the sensor may have a zero and a gain of its own
   Bound bound = Bound::None;   ///< found by `conclude`; what is given here does not count
+  /// In the list that was made, where this one is shorter; else its place in this one. Of a mean
+  /// that of the first.
+  std::optional<std::size_t> number{};
 
   bool is_bound() const { return bound != Bound::None; }
 };
@@ -40,7 +43,7 @@ struct Palpation {
 /// Of a palpation: when.
 struct Made {
   int batch = 0;
-  std::size_t number = 0;  ///< readings that were made before it (Palpation::count)
+  std::size_t number = 0;  ///< readings that were made before it (Palpation::number)
   int session = 0;
   Bound bound = Bound::None;
   Vec3 travel = Vec3::Zero();  ///< Palpation::travel
