@@ -137,8 +137,7 @@ Believed believe(const Surface& surface, const Model& model, std::vector<Palpati
                     of_smooth_field, std::move(fit.field.one_by_one)};
   };
   if (all.empty() || evidence.trend_is_missing) return result();
-  const std::vector<Palpation> flat =
-      field.trend.is_linear ? fit.field.belief.detrended_palpations() : all;
+  const std::vector<Palpation> flat = field.trend.is_linear ? fit.field.belief.detrended(all) : all;
   const std::optional<ReadingsApart> apart = palpations_apart(surface, flat, 1.0);
   if (apart && model.needs_contrast()) {
     const std::vector<Palpation> others = without(all, *apart);

@@ -18,7 +18,7 @@ constexpr double kLeastDoubtful = 0.5 * kLeastCut;
 void doubt_weaker_parts(Conclusion& conclusion) {
   if (!conclusion.edge || !conclusion.certainty) return;
   const Surface& surface = conclusion.belief.prior().surface();
-  if (fading_contact(surface, conclusion.palpations)) return;
+  if (fading_contact(surface, readings_as_if_unchanged(conclusion))) return;
   const EdgeProfile& profile = conclusion.edge->profile();
   const std::optional<double>& asked = conclusion.model.contrast.least;
   const double least = std::max(kLeastDoubtful * (profile.high - profile.low),

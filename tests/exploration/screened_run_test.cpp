@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "belief/tissue.h"
@@ -87,6 +88,30 @@ TEST(Exploration, FindsNoTumourInOneReadingOfAHundred) {
         EXPECT_EQ(tissue.vertex_at(alone.where), tissue.vertex_at(readings[33].where)) << seed;
     }
   }
+}
+
+// Of readings on the way two or three become one, and what is named is named as it was made.
+TEST(Exploration, NamesTheReadingThatStandsAloneBesideThoseOnTheWay) {
+  const Surface tissue = plane(41, 41);
+  std::size_t named = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Random random(seed);
+    std::vector<Palpation> readings;
+    for (int i = 0; i < 60; ++i)
+      readings.push_back({.where = tissue.project(Vec3(0.005 + 0.0005 * i, 0.001, 0.0)),
+                          .reading = 7.0 + 0.1 * random.normal(),
+                          .kind = TouchKind::Way,
+                          .travel = Vec3::UnitX()});
+    std::ranges::copy(healthy_but_one(tissue, 100, seed), std::back_inserter(readings));
+    Exploration exploration(tissue, {.field = {.trend = {.is_linear = true}}});
+    exploration.take_up(readings);
+    const Conclusion& conclusion = exploration.conclusion();
+    for (const Palpation& alone : conclusion.evidence.standing_alone) {
+      EXPECT_EQ(alone.reading, 8.5) << seed;
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 0u);
 }
 
 // It would drown the tumour in its noise, or be outlined in its place.
