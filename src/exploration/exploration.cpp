@@ -32,11 +32,10 @@ void Exploration::record(std::span<const Palpation> palpations) {
     if (const int vertex = surface_.vertex_at(palpation.where); vertex >= 0)
       answered[vertex] = true;
   }
-  std::vector<Palpation> told;
+  std::vector<Palpation> told(palpations.begin(), palpations.end());
   for (const int stop : next()) {
     if (!answered[stop]) told.push_back(missed_at(surface_.at_vertex(stop)));
   }
-  told.insert(told.end(), palpations.begin(), palpations.end());
   learn_from(told);
 }
 

@@ -56,9 +56,11 @@ bool is_all_but_a_patch(const Known& known) {
 Known known_beside_soft_spot(const Surface& surface, const Model& model,
                              std::vector<Palpation>& felt, ConclusionCache& cache, bool is_last) {
   if (model.level.is_of_edge()) {
-    const Known first = known_as_if_unchanged(surface, model, felt, cache, /*is_last=*/false);
+    Known first = known_as_if_unchanged(surface, model, felt, cache, /*is_last=*/false);
     if (leaves_out_a_spot(first)) {
       for (const std::size_t i : outside_of(first)) felt[i].set_aside = kSoftSpot;
+    } else if (!is_last) {
+      return first;
     }
   }
   return known_as_if_unchanged(surface, model, felt, cache, is_last);

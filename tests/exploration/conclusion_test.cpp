@@ -211,6 +211,24 @@ TEST(Choose, PlansTheSameFromAllReadingsAtOnce) {
   EXPECT_EQ(exploration.stop_reason(), "nothing to gain");
 }
 
+// Batches count as they come, whatever they are called.
+TEST(Choose, LooksBackAtBatchesWhateverTheirNumbersAre) {
+  const Surface tissue = plane(26, 51);
+  const Phantom phantom = disk(tissue);
+  Random random(3);
+  const Plan plan{.batches = 4, .stop = {.least_gain = 0.3}};
+  Exploration exploration(tissue, {}, plan);
+  run(exploration, probe_over(phantom, random), [](const Tour&) {});
+  std::vector<Palpation> readings = exploration.readings();
+  const auto errors_of = [&](const std::vector<Palpation>& all) {
+    return progress_of(tissue, conclude(tissue, {}, all), plan, all).expected_errors_m2;
+  };
+  const std::vector<double> in_turn = errors_of(readings);
+  EXPECT_GT(in_turn.size(), 2u);
+  for (Palpation& one : readings) one.batch *= 100'000;
+  EXPECT_EQ(errors_of(readings), in_turn);
+}
+
 // A reading that is no number is refused, as often as it is offered, and costs nothing.
 TEST(Exploration, RecordsAWholeStepOrNothing) {
   const Surface tissue = plane(11, 21);
