@@ -23,10 +23,8 @@ namespace {
 bool is_judged_anew(const Palpation& palpation, const Model& model) {
   const std::string& reason = palpation.set_aside;
   if (reason == kStandsAlone) return model.needs_contrast();
-  const auto is_any_of = [&](const auto&... reasons) { return ((reason == reasons) || ...); };
-  return is_any_of(kNoContact, kNoLogarithm, kFrozen, kAnotherUnit, kOutlier, kBeyondTissue,
-                   kSoftSpot) ||
-         (model.field.probe.screening && is_any_of(kJammed, kStartUp, kBaseStep));
+  return std::ranges::count(kReasonsAnywhere, reason) > 0 ||
+         (model.field.probe.screening && std::ranges::count(kReasonsOfScans, reason) > 0);
 }
 
 /// Those that were made, as they were made.

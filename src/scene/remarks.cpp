@@ -48,8 +48,9 @@ std::string set_aside_words(const Exploration& exploration, const std::string& r
 /// What a screen found, and whether the probe kept its contact.
 std::vector<std::string> screening_remarks(const Exploration& exploration) {
   std::vector<std::string> remarks;
-  for (const std::string& reason : {kJammed, kNoContact, kNoLogarithm, kFrozen, kAnotherUnit,
-                                    kStartUp, kBaseStep, kOutlier, kSoftSpot})
+  for (const std::string& reason : kReasonsOfScans)
+    remarks.push_back(set_aside_words(exploration, reason));
+  for (const std::string& reason : kReasonsAnywhere)
     remarks.push_back(set_aside_words(exploration, reason));
   std::erase(remarks, "");
   if (!exploration.conclusion().model.field.probe.screening) return remarks;

@@ -20,6 +20,7 @@
 /// once is no outlier: its neighbours are too far away to contradict it.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,11 @@ inline const std::string kBeyondTissue =
 
 inline const std::string kSoftSpot =
     "soft spot: below nearly all of the tissue, which is taken for healthy, not for tumour";  ///< Exploration's
+
+/// Reasons that are found in any readings, and in those of a scan's rows alone.
+inline const std::array kReasonsAnywhere = {kNoContact, kNoLogarithm,  kFrozen,  kAnotherUnit,
+                                            kOutlier,   kBeyondTissue, kSoftSpot};
+inline const std::array kReasonsOfScans = {kJammed, kStartUp, kBaseStep};
 
 /// As fine as anything is felt with a tip of 4.5 mm.
 inline constexpr double kShortLength_m = 0.0035;
