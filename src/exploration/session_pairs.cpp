@@ -9,16 +9,18 @@ namespace palpation {
 
 std::vector<ReadingPair> pairs_of_session(const Surface& surface,
                                           std::span<const Palpation> palpations, int session) {
-  std::vector<std::pair<double, ReadingPair>> by_distance;
+  std::vector<std::pair<Vec3, const Palpation*>> own, earlier;
   for (const Palpation& one : palpations) {
-    if (!counts(one) || one.session != session) continue;
-    const Vec3 here = surface.position(one.where);
+    if (!counts(one) || one.session > session) continue;
+    (one.session == session ? own : earlier).emplace_back(surface.position(one.where), &one);
+  }
+  std::vector<std::pair<double, ReadingPair>> by_distance;
+  for (const auto& [here, one] : own) {
     std::pair<double, ReadingPair> nearest{std::numeric_limits<double>::infinity(), {}};
-    for (const Palpation& other : palpations) {
-      if (!counts(other) || other.session >= session) continue;
-      const double distance2 = (surface.position(other.where) - here).squaredNorm();
+    for (const auto& [there, other] : earlier) {
+      const double distance2 = (there - here).squaredNorm();
       if (distance2 < nearest.first)
-        nearest = {distance2, {one.reading, other.reading, other.session}};
+        nearest = {distance2, {one->reading, other->reading, other->session}};
     }
     by_distance.push_back(nearest);
   }

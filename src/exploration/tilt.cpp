@@ -58,24 +58,6 @@ Plane plane_through(const Eigen::MatrixXd& places, const Eigen::VectorXd& values
   return plane;
 }
 
-/// Of those that count: where, rows, and what.
-struct Used {
-  Eigen::MatrixXd places;
-  Eigen::VectorXd values;
-};
-
-Used used_of(const Surface& surface, std::span<const Palpation> palpations) {
-  const Eigen::Index count = std::ranges::count_if(palpations, counts);
-  Used used{Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
-  Eigen::Index row = 0;
-  for (const Palpation& one : palpations) {
-    if (!counts(one)) continue;
-    used.places.row(row) = surface.position(one.where).transpose();
-    used.values[row++] = one.reading;
-  }
-  return used;
-}
-
 Misfit as_change(const Surface& surface, const Vec3& slope_per_m) {
   return {.kind = MisfitKind::Tilted,
           .background = {.slope_per_m = slope_per_m,
@@ -89,7 +71,7 @@ double tilt_price(Eigen::Index readings) {
 }
 
 std::vector<Misfit> tilts_of_planes(const Surface& surface, std::span<const Palpation> palpations) {
-  const auto [places, values] = used_of(surface, palpations);
+  const auto [places, values] = placed_readings(surface, palpations);
   if (values.size() < kFewestOnPlane) return {};
   const Eigen::Matrix<double, 3, 2> axes = main_axes(places);
   const std::vector<Eigen::Vector2d> slopes =
@@ -103,7 +85,7 @@ std::vector<Misfit> tilts_of_planes(const Surface& surface, std::span<const Palp
 std::optional<Misfit> tilt_left(const Surface& surface, const EdgeBelief& edge,
                                 std::span<const Palpation> palpations) {
   const EdgeProfile& profile = edge.profile();
-  auto [places, left] = used_of(surface, palpations);
+  auto [places, left] = placed_readings(surface, palpations);
   if (left.size() < kFewestOnPlane) return std::nullopt;
   Eigen::Index row = 0;
   for (const Palpation& one : palpations) {

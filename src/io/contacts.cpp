@@ -7,6 +7,7 @@
 #include <map>
 
 #include "io/length_scale.h"
+#include "io/measurement_rows.h"
 #include "io/point_cloud.h"
 #include "palpation/base/error.h"
 #include "palpation/io/atomic_file.h"
@@ -144,17 +145,14 @@ class CsvContacts {
     if (columns.unit && !in_name.empty() && length_unit(in_name) != *columns.unit)
       throw IoError(table_.name() + ":" + std::to_string(table_.header_line()) +
                     ": the columns say " + in_name + ", but another unit was asked for");
-    file_.unit_words = columns.unit      ? "as asked for"
+    file_.unit_words = columns.unit      ? "the unit that was asked for"
                        : in_name.empty() ? "metres, as no unit is named"
                                          : in_name + ", as its columns say";
   }
 
   bool is_set_aside(std::size_t row) const {
-    const auto word = [&](const char* name) {
-      const std::optional<std::size_t> column = find_column(table_, name);
-      return column ? table_.cell(row, *column) : std::string_view();
-    };
-    return !word("set_aside").empty() || word("kind") == "missed";
+    const std::optional<std::size_t> kind = find_column(table_, "kind");
+    return !set_aside_at(table_, row).empty() || (kind && table_.cell(row, *kind) == "missed");
   }
 
   void take_row(std::size_t row) {

@@ -49,20 +49,20 @@ void Repeats::tell(const std::string& name, std::vector<std::string>& warnings) 
                      " within a nanometre of an earlier one, and counts as the same place.");
 }
 
-void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpations,
-                   std::vector<std::string>& warnings) {
+void tell_outliers(const CsvTable& table, const std::vector<std::size_t>& rows,
+                   const std::vector<Palpation>& palpations, std::vector<std::string>& warnings) {
   const std::vector<double> used = used_readings(palpations);
   if (used.size() < kEnoughForOutliers) return;
   const double low = at_rank(used, 0.25), middle = at_rank(used, 0.5), high = at_rank(used, 0.75);
   if (!(high > low)) return;
   std::string lines;
   int count = 0;
-  for (std::size_t row = 0; row < palpations.size(); ++row) {
-    const Palpation& palpation = palpations[row];
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    const Palpation& palpation = palpations[i];
     if (!counts(palpation) || std::abs(palpation.reading - middle) <= kFarOut * (high - low))
       continue;
     if (++count <= 5)
-      lines += (lines.empty() ? "" : ", ") + std::to_string(table.line(row)) + " (" +
+      lines += (lines.empty() ? "" : ", ") + std::to_string(table.line(rows[i])) + " (" +
                text_of(palpation.reading) + ")";
   }
   if (count == 0) return;
@@ -85,37 +85,38 @@ void check_range(const CsvTable& table, const std::vector<Palpation>& palpations
         " at most; where they differ it must be by 1e-30 at least: write them in another unit");
 }
 
-void set_aside_copies(const CsvTable& table, const Surface& surface,
-                      std::vector<Palpation>& palpations, std::vector<std::string>& warnings) {
-  std::map<std::array<double, 3>, std::map<std::array<double, 6>, std::size_t>>
-      rows_at;  // by place, then reading, noise, batch and travel
+void set_aside_copies(const CsvTable& table, const std::vector<std::size_t>& rows,
+                      const Surface& surface, std::vector<Palpation>& palpations,
+                      std::vector<std::string>& warnings) {
+  std::map<std::array<double, 3>, std::map<std::array<double, 7>, std::size_t>>
+      known_at;  // by place, then reading, noise, batch, session and travel
   std::vector<std::pair<std::size_t, std::size_t>> copies;
   std::size_t revisits = 0;
-  for (std::size_t row = 0; row < palpations.size(); ++row) {
-    if (!counts(palpations[row])) continue;
-    const Vec3 place = surface.position(palpations[row].where);
-    auto& rows = rows_at[{place.x(), place.y(), place.z()}];
-    revisits += !rows.empty();
-    const double noise =
-        std::isnan(palpations[row].noise_variance) ? -1.0 : palpations[row].noise_variance;
-    const Vec3& travel = palpations[row].travel;
-    const auto [first, is_new] = rows.try_emplace(
-        {palpations[row].reading, noise, static_cast<double>(palpations[row].batch), travel.x(),
-         travel.y(), travel.z()},
-        row);
-    if (!is_new) copies.emplace_back(row, first->second);
+  for (std::size_t i = 0; i < palpations.size(); ++i) {
+    const Palpation& one = palpations[i];
+    if (!counts(one)) continue;
+    const Vec3 place = surface.position(one.where);
+    auto& known = known_at[{place.x(), place.y(), place.z()}];
+    revisits += !known.empty();
+    const double noise = std::isnan(one.noise_variance) ? -1.0 : one.noise_variance;
+    const Vec3& travel = one.travel;
+    const auto [first, is_new] =
+        known.try_emplace({one.reading, noise, static_cast<double>(one.batch),
+                           static_cast<double>(one.session), travel.x(), travel.y(), travel.z()},
+                          i);
+    if (!is_new) copies.emplace_back(i, first->second);
   }
   if (copies.empty() || 2 * copies.size() < revisits) return;
-  for (const auto& [row, first] : copies)
-    palpations[row].set_aside = "copy of line " + std::to_string(table.line(first));
-  const auto& [row, first] = copies.front();
+  const auto line = [&](std::size_t i) { return std::to_string(table.line(rows[i])); };
+  for (const auto& [copy, first] : copies)
+    palpations[copy].set_aside = "copy of line " + line(first);
+  const auto& [copy, first] = copies.front();
   const std::string words =
       copies.size() == 1
           ? " row repeats an earlier one, place and reading alike to every digit, and is"
           : " rows repeat earlier ones, place and reading alike to every digit, and are";
   warnings.push_back(table.name() + ": " + std::to_string(copies.size()) + words +
-                     " set aside: line " + std::to_string(table.line(row)) + " repeats line " +
-                     std::to_string(table.line(first)) + ".");
+                     " set aside: line " + line(copy) + " repeats line " + line(first) + ".");
 }
 
 }  // namespace palpation

@@ -37,16 +37,18 @@ class Repeats {
 
 /// Readings that stand out by more than any tissue does are kept, and told: a probe that slipped
 /// decides where the level lies.
-void tell_outliers(const CsvTable& table, const std::vector<Palpation>& palpations,
-                   std::vector<std::string>& warnings);
+/// `rows`: of the table, of each.
+void tell_outliers(const CsvTable& table, const std::vector<std::size_t>& rows,
+                   const std::vector<Palpation>& palpations, std::vector<std::string>& warnings);
 
 /// Throws IoError where readings differ by next to nothing.
 void check_range(const CsvTable& table, const std::vector<Palpation>& palpations);
 
 /// Rows that were given twice, alike in all that a reading is, tell nothing new, and readings that
 /// never scatter would pass for ones without noise. A sensor that counts may repeat itself to the
-/// last digit at a place touched again, but not more often than not.
-void set_aside_copies(const CsvTable& table, const Surface& surface,
-                      std::vector<Palpation>& palpations, std::vector<std::string>& warnings);
+/// last digit at a place touched again, but not more often than not. `rows`: of the table, of each.
+void set_aside_copies(const CsvTable& table, const std::vector<std::size_t>& rows,
+                      const Surface& surface, std::vector<Palpation>& palpations,
+                      std::vector<std::string>& warnings);
 
 }  // namespace palpation

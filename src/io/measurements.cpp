@@ -119,6 +119,19 @@ Vec3 travel_at(const CsvTable& table, std::size_t row,
   return is_unit ? travel : Vec3(travel.stableNormalized());
 }
 
+/// Batches of a session that begin anew follow those before it.
+void let_batches_follow(std::vector<Palpation>& palpations) {
+  int session = 0, last = 0, later = 0;
+  for (Palpation& one : palpations) {
+    if (counts(one) && one.session > session) {
+      session = one.session;
+      later = one.batch > last ? 0 : last + 1 - one.batch;
+    }
+    one.batch += later;
+    last = std::max(last, one.batch);
+  }
+}
+
 SurfacePoint place_at(Landing& landing, const Vec3& position, const CsvTable& table,
                       std::size_t row) {
   std::string fault;
@@ -151,6 +164,7 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
   MeasurementsFile file;
   file.has_batches = columns.batch.has_value();
   file.palpations.reserve(table.row_count());
+  std::vector<std::size_t> rows;  // of what was made
   std::vector<Vec3> positions;
   std::vector<SurfacePoint> landed;
   std::size_t farthest_row = 0;
@@ -184,17 +198,19 @@ MeasurementsFile measurements_of(const CsvTable& table, const Surface& surface,
       palpation.where = repeats.settle(palpation.where, surface.position(palpation.where), table,
                                        row, palpation.reading, exact);
     }
+    rows.push_back(row);
     file.palpations.push_back(std::move(palpation));
   }
+  if (file.has_batches) let_batches_follow(file.palpations);
   check_range(table, file.palpations);
-  set_aside_copies(table, surface, file.palpations, file.warnings);
+  set_aside_copies(table, rows, surface, file.palpations, file.warnings);
   file.places = static_cast<int>(repeats.places());
   file.foreign = foreign_columns(table, is_off);
   if (landing.moved() > 0) file.warnings.push_back(off_surface_words(table, landing, farthest_row));
   if (const std::optional<CommonShift> shift = common_shift(surface, positions, landed))
     file.warnings.push_back(shift_words(table.name(), *shift));
   repeats.tell(table.name(), file.warnings);
-  tell_outliers(table, file.palpations, file.warnings);
+  tell_outliers(table, rows, file.palpations, file.warnings);
   return file;
 }
 

@@ -49,7 +49,7 @@ ContactsFile read_xyz(const MeshSource& source, const ContactColumns& columns) {
       file.outward.row(static_cast<Eigen::Index>(i)) = outward[i].stableNormalized();
     file.outward_from = "the normals in the file";
   }
-  file.unit_words = "as asked for";
+  file.unit_words = "the unit that was asked for";
   return file;
 }
 
@@ -64,7 +64,7 @@ ContactsFile read_ply_cloud(const MeshSource& source, const ContactColumns& colu
     file.places.push_back(static_cast<int>(i));
   }
   file.place_word = "vertex";
-  file.unit_words = "as asked for";
+  file.unit_words = "the unit that was asked for";
   return file;
 }
 

@@ -12,6 +12,7 @@
 #include "io/number_text.h"
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
+#include "readings/robust.h"
 
 namespace palpation {
 namespace {
@@ -48,7 +49,10 @@ class Lines {
 class Reader {
  public:
   Reader(const CsvTable& table, const LogRules& rules)
-      : table_(table), rules_(rules), columns_(log_columns(table, rules)) {}
+      : table_(table),
+        rules_(rules),
+        columns_(log_columns(table, rules)),
+        stamps_are_large_(are_stamps_large()) {}
 
   LogFile read(const std::vector<std::string>& torn_rows) {
     for (std::size_t row = 0; row < table_.row_count(); ++row) {
@@ -114,15 +118,20 @@ class Reader {
     if (!has("time")) return std::nullopt;
     const double time_s = value_at(row, columns_.at("time"));
     if (std::isnan(time_s)) return "line " + std::to_string(table_.line(row)) + ": no stamp";
-    if (time_s == 0.0 && row > 0 && stamps_are_large())
+    if (time_s == 0.0 && stamps_are_large_)
       return "line " + std::to_string(table_.line(row)) + ": a stamp of 0, which is invalid";
     return std::nullopt;
   }
 
-  /// Stamps count from long ago, so that 0 is none of them.
-  bool stamps_are_large() const {
-    const std::size_t middle = table_.row_count() / 2;
-    return std::abs(value_at(middle, columns_.at("time"))) > 1e6;
+  /// Stamps count from long ago, so that 0 is none of them: one that is neither large nor small is.
+  bool are_stamps_large() const {
+    if (!has("time")) return false;
+    std::vector<double> stamps;
+    for (std::size_t row = 0; row < table_.row_count(); ++row) {
+      const double stamp = std::abs(value_at(row, columns_.at("time")));
+      if (!std::isnan(stamp)) stamps.push_back(stamp);
+    }
+    return !stamps.empty() && median(stamps) > 1e6;
   }
 
   Eigen::VectorXd vector_of(const std::string& role) const {
@@ -147,7 +156,7 @@ class Reader {
     for (const std::size_t row : rows_) log.line.push_back(table_.line(row));
     log.time_s = vector_of("time");
     // Stamps since 1970 leave few digits for what lies between samples: counted from the first.
-    if (log.time_s.size() > 0 && stamps_are_large()) {
+    if (log.time_s.size() > 0 && stamps_are_large_) {
       first_stamp_s_ = log.time_s[0];
       log.time_s.array() -= first_stamp_s_;
     }
@@ -212,6 +221,7 @@ class Reader {
   const CsvTable& table_;
   const LogRules& rules_;
   std::map<std::string, LogColumn> columns_;
+  bool stamps_are_large_;
   std::vector<std::size_t> rows_;
   Eigen::VectorXd sample_;
   double first_stamp_s_ = 0.0;

@@ -15,6 +15,8 @@ constexpr double kHealthyShare = 0.3;  // of the tissue reads less than what is 
 constexpr double kLeastFall = 0.15;    // of the contrast: what moves a boundary at half of it by a
                                        // fifth of a millimetre, and more
 constexpr double kSure = 4.0;          // standard errors
+constexpr double kSmoothing = 1e-3;  // of the range: deviations that are less count as squares, and
+constexpr double kTold = 1e-2;       // a fall of the plane is told from what that leaves
 constexpr Eigen::Index kLeastReadings = 20;
 constexpr int kRounds = 60;
 
@@ -55,7 +57,7 @@ Eigen::Vector3d quantile_plane(const Eigen::MatrixX3d& design, const Eigen::Vect
     const Eigen::VectorXd residuals = readings - design * plane;
     for (Eigen::Index i = 0; i < residuals.size(); ++i) {
       weights[i] = tissue[i] * (residuals[i] > 0.0 ? share : 1.0 - share) /
-                   std::max(std::abs(residuals[i]), 1e-3 * scale);
+                   std::max(std::abs(residuals[i]), kSmoothing * scale);
     }
   }
   return plane;
@@ -92,7 +94,8 @@ std::optional<FadingContact> fading_contact(const Surface& surface,
   const double along_sd = std::sqrt(along.array().square().mean());
   const double like_so_many = tissue.sum() * tissue.sum() / tissue.squaredNorm();
   const double chance = robust_sd(heights) * length / (along_sd * std::sqrt(like_so_many));
-  if (!(fall > kLeastFall * contrast && fall > kSure * chance)) return std::nullopt;
+  if (!(fall > std::max({kLeastFall * contrast, kSure * chance, kTold * range})))
+    return std::nullopt;
 
   double best = 0.0, last = 0.0;
   for (int third = 0; third < 3; ++third) {

@@ -114,9 +114,12 @@ void find_flat_rows(Screen& screen, const std::vector<Pass>& rows) {
 }
 
 void find_start_ups(Screen& screen, const std::vector<Pass>& rows) {
+  const auto is_sliding = [&](const Pass& row) {
+    return median_step_m(screen.places, row) <= kSliding_m;
+  };
   std::vector<double> at_start, elsewhere;
   for (const Pass& row : rows) {
-    if (median_step_m(screen.places, row) > kSliding_m) continue;
+    if (!is_sliding(row)) continue;
     if (const auto change = change_at(screen, row, 0.0)) at_start.push_back(*change);
     const double length_m = (screen.places[row.back()] - screen.places[row.front()]).norm();
     for (double from_m = 2.0 * kStartUp_m; from_m + 2.0 * kStartUp_m < length_m;
@@ -132,6 +135,7 @@ void find_start_ups(Screen& screen, const std::vector<Pass>& rows) {
   for (double& change : elsewhere) change = std::abs(change);
   if (std::abs(common) <= 2.0 * median(elsewhere)) return;
   for (const Pass& row : rows) {
+    if (!is_sliding(row)) continue;
     for (std::size_t i : row) {
       if ((screen.places[i] - screen.places[row.front()]).norm() <= kStartUp_m)
         screen.set_aside(i, kStartUp);

@@ -97,8 +97,12 @@ std::string aside_html(const Run& run) {
   std::size_t count = 0;
   for (const Touch& touch : run.touches) {
     if (touch.counts() || ++count > kMostRows) continue;
-    rows += "<li><a href=\"#reading-" + std::to_string(touch.number) + "\">Touch " +
-            std::to_string(touch.number) + "</a>: " +
+    const std::string number = std::to_string(touch.number);
+    const bool is_listed = static_cast<std::size_t>(touch.number) <= kMostRows;
+    rows += "<li>" +
+            (is_listed ? "<a href=\"#reading-" + number + "\">Touch " + number + "</a>"
+                       : "Touch " + number) +
+            ": " +
             escaped(touch.is_missed()
                         ? "could not be touched"
                         : words_on(touch, run.reading_unit()) + ", set aside: " + touch.set_aside) +

@@ -52,10 +52,11 @@ Region read_any(const std::filesystem::path& path, const Surface& surface,
 /// A boundary of this tissue lies on it: one in millimetres or of another tissue does not.
 void check_place(const Region& region, const std::filesystem::path& path, const Surface& surface) {
   const Points2& uv = surface.chart().uv;
+  const Vec2 least = uv.colwise().minCoeff().array() - kMargin_m,
+             most = uv.colwise().maxCoeff().array() + kMargin_m;
   for (const PolygonWithHoles& polygon : region.polygons()) {
     for (const Vec2& corner : polygon.outer) {
-      if ((corner.transpose().array() < uv.colwise().minCoeff().array() - kMargin_m).any() ||
-          (corner.transpose().array() > uv.colwise().maxCoeff().array() + kMargin_m).any()) {
+      if ((corner.array() < least.array()).any() || (corner.array() > most.array()).any()) {
         throw IoError(path.string() + ": the corner (" + text_of(corner.x()) + ", " +
                       text_of(corner.y()) +
                       ") lies more than 5 mm off the tissue: coordinates are metres in the chart "

@@ -44,7 +44,7 @@ std::string when_touched(const CsvTable& table, const std::filesystem::path& pat
   std::time_t last = 0;
   const auto column = find_column(table, "t");
   for (std::size_t row = 0; column && row < table.row_count(); ++row) {
-    const double t_s = finite_number_at(table, row, *column);
+    const double t_s = number_at(table, row, *column).value_or(0.0);  // unknown where it is empty
     if (t_s > kSince1970_s && t_s < 1e11) last = std::max(last, static_cast<std::time_t>(t_s));
   }
   std::error_code none;
@@ -133,9 +133,9 @@ void register_tissue(const RegisterArguments& arguments) {
            " mm of where it is taken to be, with 95 %,\nalong itself within " +
            fixed(uncertainty_along_surface_m(surface, registration) * kMm, 2) +
            " mm: a boundary's band is wider by that.\n";
-  std::fputs(words.c_str(), stdout);
   write_single_file(arguments.out, registration_document(registration, surface, touched.when),
                     arguments.overwrite ? Existing::Replaced : Existing::Kept);
+  std::fputs(words.c_str(), stdout);
 }
 
 }  // namespace

@@ -44,6 +44,14 @@ TEST(Contacts, KnowsThatNormalsOfReadingsPointOut) {
   EXPECT_NE(file.outward_from.find("of these readings"), std::string::npos);
 }
 
+// Whatever takes a reading back, its place is no contact.
+TEST(Contacts, LeaveOutWhatWasTakenBack) {
+  const ContactsFile file = read(
+      "x,y,z,reading,withdrawn,set_aside\n0,0,0,1,,\n0.01,0,0,1,yes,\n0.02,0,0,1,,slipped\n"
+      "0.03,0,0,1,0,\n");
+  EXPECT_EQ(file.places, (std::vector<int>{2, 5}));
+}
+
 TEST(Contacts, ReadsPlainLinesInTheUnitThatIsAskedFor) {
   const std::string text = "# a cloud\n0 0 0\n10 0 0\n";
   EXPECT_EQ(read(text, {.unit = LengthUnit::Millimetre}).points(1, 0), 0.010);

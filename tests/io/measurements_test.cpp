@@ -59,6 +59,32 @@ TEST(ReadMeasurements, SetsAsideRowsThatWereGivenTwice) {
   EXPECT_TRUE(contains(file.warnings[0], "line 5 repeats line 2")) << file.warnings[0];
 }
 
+// What two sessions say alike they say twice.
+TEST(ReadMeasurements, KeepsWhatAnotherSessionRepeats) {
+  for (const Palpation& palpation :
+       measured("x,y,z,reading,session\n0,0,0,7,a\n0.01,0,0,8,a\n0,0,0,7,b\n0.01,0,0,8,b\n"))
+    EXPECT_EQ(palpation.set_aside, "");
+}
+
+TEST(ReadMeasurements, NamesLinesAlsoWhereSomeAreLeftOut) {
+  const TemporaryFolder folder;
+  const MeasurementsFile file = read_measurements(
+      folder.file("m.csv", "x,y,z,reading\n0.01,0.01,0.3,3\n0,0,0,1.5\n0,0,0,1.5\n0.01,0,0,2\n"),
+      square(), {.leave_out_off_tissue = true});
+  ASSERT_EQ(file.palpations.size(), 3u);
+  EXPECT_EQ(file.palpations[1].set_aside, "copy of line 3");
+}
+
+// As when two exports are one file: readings of a later session were made later.
+TEST(ReadMeasurements, LetsASessionsBatchesFollowThoseBeforeIt) {
+  std::vector<int> batches;
+  for (const Palpation& palpation :
+       measured("x,y,z,reading,session,batch\n0,0,0,7,a,0\n0.01,0,0,8,a,1\n0,0.01,0,7,b,0\n"
+                "0.01,0.01,0,8,b,1\n"))
+    batches.push_back(palpation.batch);
+  EXPECT_EQ(batches, (std::vector{0, 1, 2, 3}));
+}
+
 TEST(ReadMeasurements, KeepsWhatASensorThatCountsRepeatsNowAndThen) {
   for (const Palpation& palpation :
        measured("x,y,z,reading\n0,0,0,7\n0,0,0,8\n0,0,0,7\n0,0,0,6\n0,0,0,9\n"))

@@ -47,6 +47,16 @@ TEST(FadingContact, IsNotSeenInSoundReadings) {
   }
 }
 
+// What is left of four high readings where all others are the same number is no slope of these.
+TEST(FadingContact, IsNotSeenInReadingsWithoutNoise) {
+  const Surface tissue = plane(15, 15);
+  std::vector<Palpation> made;
+  for (int vertex = 0; vertex < tissue.vertex_count(); ++vertex)
+    made.push_back(touch(tissue, vertex, 5.0));
+  for (const int vertex : {32, 33, 47, 48}) made[static_cast<std::size_t>(vertex)].reading = 6.0;
+  EXPECT_FALSE(fading_contact(tissue, made));
+}
+
 TEST(FadingContact, IsNotSeenWhereTouchesCrowdAtATumour) {
   const Surface tissue = plane(26, 51);
   int seen = 0;

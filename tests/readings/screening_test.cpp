@@ -279,6 +279,23 @@ TEST(Screened, TheStartOfRowsIsSetAsideWhereAllBeginAlike) {
   EXPECT_EQ(wrong, 0);
 }
 
+// Pokes do not start from rest.
+TEST(Screened, PokesBesideSuchRowsAreKept) {
+  Scan waking =
+      scan([](double counts, int, double y_m) { return counts - 400.0 * std::exp(-y_m / 0.001); });
+  const std::size_t sliding = waking.palpations.size();
+  for (int row = 0; row < 3; ++row) {
+    for (double y_m = 0.0; y_m <= 0.050; y_m += 0.0015) {
+      const Vec3 place(0.0025 + 0.003 * row, y_m, 0.0);
+      waking.palpations.push_back(
+          {.where = waking.tissue.project(place), .reading = counts(place)});
+    }
+  }
+  const std::vector<Palpation> result = screened(waking.tissue, waking.palpations);
+  EXPECT_EQ(result.front().set_aside, kStartUp);
+  for (std::size_t i = sliding; i < result.size(); ++i) EXPECT_EQ(result[i].set_aside, "") << i;
+}
+
 TEST(Screened, ARowOnAnotherBaseIsSetAside) {
   const Scan stepped =
       scan([](double counts, int row, double) { return row == 4 ? counts - 1000.0 : counts; });

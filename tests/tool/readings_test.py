@@ -193,6 +193,7 @@ class Readings(InFolder):
             ("a clock set back", text([row[:2] + [f"{float(row[2]) - 14:.3f}"] + row[3:] if row[0] > 2 else row for row in base]), 6, "clock goes back 1 time", []),
             ("a missing stamp", text(changed(base, 5, 2, "")), 6, "line 7: no stamp", []),
             ("a stamp of 0 among epochs", text(changed([r[:2] + [f"{float(r[2]) + 1.7e9:.3f}"] + r[3:] for r in base], 5, 2, "0")), 6, "a stamp of 0", []),
+            ("a first stamp of 0 among epochs", text(changed([r[:2] + [f"{float(r[2]) + 1.7e9:.3f}"] + r[3:] for r in base], 0, 2, "0")), 6, "a stamp of 0", []),
             ("a torn last line", text(base)[:-9], 6, "", []),
             ("a torn row", text(base) + "5,12,3", 6, "the last line has no line end", []),
             ("a row too long", text(changed(base, 5, 6, "0,5")), 6, "decimals take a point", []),
