@@ -10,27 +10,63 @@ namespace palpation {
 namespace {
 
 constexpr std::size_t kFewReadings = 10;
-constexpr std::size_t kPart = 4;       // one in so many
-constexpr std::size_t kWildPart = 20;  // one in so many may be far above all others
-constexpr std::size_t kAround = 4;
+constexpr std::size_t kPart = 4;                     // one in so many
+constexpr std::size_t kWildPart = 20;                // one in so many may be far above all others
+constexpr std::size_t kAround = 4, kContradict = 2;  // nearest readings, and of them
 
-/// How many of the readings nearest to a place are among the lowest.
-std::size_t low_around(std::size_t here, std::span<const std::size_t> rising, std::size_t low,
-                       std::span<const Vec3> places) {
+/// The readings nearest to one, but for itself, by their ranks.
+class Around {
+ public:
+  Around(std::size_t rank, std::span<const std::size_t> rising, std::span<const Vec3> places) {
+    for (std::size_t other = 0; other < rising.size(); ++other) {
+      if (other == rank) continue;
+      const Near one{(places[rising[other]] - places[rising[rank]]).squaredNorm(), other};
+      if (!(one.distance2 < nearest_.back().distance2)) continue;
+      nearest_.back() = one;
+      std::ranges::sort(nearest_, {}, &Near::distance2);
+    }
+  }
+
+  /// Squared, to the nearest that contradict a low one: infinite where they are too few, most of
+  /// all being among the lowest.
+  double contradicted_within2(std::size_t low) const {
+    std::size_t others = 0;
+    for (const Near& one : nearest_) {
+      if (one.rank >= low && ++others == kContradict) return one.distance2;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
   struct Near {
     double distance2 = std::numeric_limits<double>::infinity();
-    bool is_low = false;
-    bool operator<(const Near& other) const { return distance2 < other.distance2; }
+    std::size_t rank = 0;
   };
-  std::array<Near, kAround> nearest;
-  for (std::size_t rank = 0; rank < rising.size(); ++rank) {
-    if (rising[rank] == here) continue;
-    const Near one{(places[rising[rank]] - places[here]).squaredNorm(), rank < low};
-    if (!(one < nearest.back())) continue;
-    nearest.back() = one;
-    std::sort(nearest.begin(), nearest.end());
+  std::array<Near, kAround> nearest_;
+};
+
+/// How far from each of the others those lie that would contradict it, all but a twentieth of them.
+double usually_within2(std::size_t low, std::span<const std::size_t> rising,
+                       std::span<const Vec3> places) {
+  std::vector<double> within2;
+  for (std::size_t rank = low; rank < rising.size(); ++rank) {
+    const std::size_t own = rank - low;
+    within2.push_back(Around(own, rising.subspan(low), places).contradicted_within2(/*low=*/0));
   }
-  return static_cast<std::size_t>(std::ranges::count(nearest, true, &Near::is_low));
+  const auto most =
+      within2.end() - 1 - std::ssize(within2) / static_cast<std::ptrdiff_t>(kWildPart);
+  std::nth_element(within2.begin(), most, within2.end());
+  return *most;
+}
+
+/// Whether at least half of the lowest are.
+bool are_contradicted(std::size_t low, std::span<const std::size_t> rising,
+                      std::span<const Vec3> places) {
+  const double near2 = usually_within2(low, rising, places);
+  std::size_t contradicted = 0;
+  for (std::size_t rank = 0; rank < low; ++rank)
+    contradicted += Around(rank, rising, places).contradicted_within2(low) <= near2;
+  return 2 * contradicted >= low;
 }
 
 /// Of the readings with these numbers.
@@ -41,15 +77,12 @@ std::vector<std::size_t> lost_among(std::span<const Palpation> palpations,
   std::ranges::stable_sort(rising, {}, [&](std::size_t i) { return palpations[i].reading; });
 
   const double greatest = reading(rising.size() - 1 - rising.size() / kWildPart);
-  std::size_t low = 0;
-  for (std::size_t count = 1; count <= rising.size() / kPart; ++count) {
-    if (reading(count) - reading(count - 1) > greatest - reading(count)) low = count;
+  for (std::size_t low = rising.size() / kPart; low > 0; --low) {
+    const bool is_far_below = reading(low) - reading(low - 1) > greatest - reading(low);
+    if (!is_far_below || !are_contradicted(low, rising, places)) continue;
+    return {rising.begin(), rising.begin() + static_cast<std::ptrdiff_t>(low)};
   }
-  const std::span lowest = std::span(rising).first(low);
-  const auto contradicted = std::ranges::count_if(
-      lowest, [&](std::size_t i) { return low_around(i, rising, low, places) <= kAround / 2; });
-  if (2 * static_cast<std::size_t>(contradicted) < low) return {};
-  return {lowest.begin(), lowest.end()};
+  return {};
 }
 
 }  // namespace

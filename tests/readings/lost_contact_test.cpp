@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "palpation/base/random.h"
@@ -44,6 +45,31 @@ TEST(LostContact, IsNotTheOneEndOfTheTissueThatIsSoft) {
   Lattice felt(1.0);
   for (std::size_t i = 0; i < 16; ++i) felt.palpations[i].reading = 3.0;
   EXPECT_EQ(lost_contact(felt.palpations, felt.places), Numbers{});
+}
+
+// Sixteen touches over all of the tissue, then a hundred on a lump that the first found.
+TEST(LostContact, IsNotTheTissueAroundALumpThatWasTouchedMost) {
+  Random random(5);
+  Lattice felt(0.0);
+  felt.places.clear();
+  felt.palpations.clear();
+  const auto touch = [&](const Vec3& place) {
+    felt.places.push_back(place);
+    const bool is_stiff = (place - Vec3(0.024, 0.027, 0.0)).norm() < 0.009;
+    felt.palpations.emplace_back();
+    felt.palpations.back().reading = (is_stiff ? 18.0 : 10.0) + 0.4 * random.normal();
+  };
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column)
+      touch(Vec3(0.004 + 0.014 * column, 0.004 + 0.014 * row, 0.0));
+  }
+  for (int i = 0; i < 100; ++i) {
+    const double angle = 6.283 * random.uniform(), far_m = 0.008 * std::sqrt(random.uniform());
+    touch(Vec3(0.024, 0.027, 0.0) + far_m * Vec3(std::cos(angle), std::sin(angle), 0.0));
+  }
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), Numbers{});
+  felt.palpations[50].reading = felt.palpations[80].reading = 0.0;
+  EXPECT_EQ(lost_contact(felt.palpations, felt.places), (Numbers{50, 80}));
 }
 
 TEST(LostContact, IsFarBelowItsOwnSessionNotAnother) {
