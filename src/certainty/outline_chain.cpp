@@ -72,7 +72,7 @@ std::vector<OutlineChain::Felt> OutlineChain::felt_at_start() {
 OutlineResiduals OutlineChain::fresh_residuals() const {
   std::vector<double> off;
   for (std::size_t i = 0; i < felt_.size(); ++i) off.push_back(off_from(i, felt_[i], law_));
-  return {*readings_, std::move(off), residual_prior(*prior_), 0.0};
+  return {*readings_, std::move(off), prior_->residuals, 0.0};
 }
 
 int OutlineChain::epoch_of(std::size_t reading) const {

@@ -133,7 +133,7 @@ SettledOutline settled(const OutlineStart& start, std::uint64_t seed) {
         (chain.residuals().log_density() + log_density_but_room(chain.profile(), start.prior) -
          price_of_loops(chain.outline(), start.readings.places.size())) /
         kWeighed;
-    sum.has_plateau += plateau_probability(chain.profile()) / kWeighed;
+    sum.has_plateau += plateau_probability(chain.profile(), start.prior) / kWeighed;
     sum.area_m2 += area_m2 / kWeighed;
     square_m4 += area_m2 * area_m2 / kWeighed;
     count_plateaus(chain, start.readings, sum.readings);

@@ -20,6 +20,7 @@ constexpr double kSigmoid = 0.5;        ///< part of those whose edge is a sigmo
 constexpr double kSigmoidLogSd = 0.06;  ///< of shoulder and skirt there
 constexpr double kUnbentLogSd = 0.25;   ///< of those of any edge between plateaus
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
+constexpr double kTop = 0.9;            ///< of their height, where those without one are deepest
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 constexpr double kWanderingLogSd = 1.2;
@@ -67,14 +68,27 @@ double median_log_turn(const OutlineProfile& profile, const OutlinePrior& prior)
          (profile.turns.kind == LineKind::Polygonal ? std::log(kOfSides) : 0.0);
 }
 
-/// Of a tumour with such bends and a plateau, and of one without.
+/// Of a slope's logarithm, but for its spread.
+double slope_density(const OutlineProfile& profile, double log_median, const SlopePrior& prior) {
+  return std::exp(-half_square((profile.log_slope - log_median) / prior.log_sd));
+}
+
+/// Of a tumour with such bends, such a slope and a plateau, and of one without.
 struct Kinds {
   double with, without;
-  explicit Kinds(const OutlineProfile& profile)
-      : with(kPlateau * (kSigmoid * bend_density(profile, kSigmoidLogSd) +
-                         (1.0 - kSigmoid) * bend_density(profile, kUnbentLogSd))),
-        without((1.0 - kPlateau) * bend_density(profile, kBentLogSd)) {}
+  Kinds(const OutlineProfile& profile, const OutlinePrior& prior)
+      : with(kPlateau *
+             (kSigmoid * bend_density(profile, kSigmoidLogSd) +
+              (1.0 - kSigmoid) * bend_density(profile, kUnbentLogSd)) *
+             slope_density(profile, prior.median.log_slope, prior.slope)),
+        without((1.0 - kPlateau) * bend_density(profile, kBentLogSd) *
+                slope_density(profile, log_slope_without(prior), prior.slope)) {}
   double both() const { return with + without; }
+
+ private:
+  static double log_slope_without(const OutlinePrior& prior) {
+    return std::log((logit(kTop) - logit(prior.fraction)) / prior.slope.deepest_m);
+  }
 };
 
 }  // namespace
@@ -133,12 +147,6 @@ Vec2 way_of(const Wandering& wandering, const OutlineReadings& readings, Eigen::
              (readings.ways.lasting.row(reading) * lasting.terms).transpose();
 }
 
-ResidualPrior residual_prior(const OutlinePrior& prior) {
-  return {.noise_log_sd = prior.noise_log_sd,
-          .wild_density = 1.0 / prior.plateaus.wild_reach,
-          .least_log_noise = prior.least_log_noise};
-}
-
 double turn_at(const OutlineNodes& outline, int node) {
   const Vec2 &here = outline.place[node], in = here - outline.place[outline.before(node)],
              out = outline.place[outline.next(node)] - here;
@@ -193,7 +201,6 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   double sum =
       half_square((profile.low - median.low) / prior.plateaus.low_sd) +
       half_square((profile.high - median.high) / prior.plateaus.high_sd) +
-      half_square((profile.log_slope - median.log_slope) / prior.slope_log_sd) +
       half_square((profile.turns.log_half_width - median_log_turn(profile, prior)) / kTurnLogSd) +
       half_square((profile.turns.log_bend - median.turns.log_bend) / kBendLogSd);
   if (profile.lean) sum -= log_density(*profile.lean);
@@ -214,11 +221,11 @@ double log_profile_density(const OutlineProfile& profile, const OutlinePrior& pr
   const double of_core =
       profile.core ? log_core_density(*profile.core, prior.middle, prior.radius_m, prior.fraction)
                    : 0.0;
-  return std::log(Kinds(profile).both()) - sum + of_core;
+  return std::log(Kinds(profile, prior).both()) - sum + of_core;
 }
 
-double plateau_probability(const OutlineProfile& profile) {
-  const Kinds kinds(profile);
+double plateau_probability(const OutlineProfile& profile, const OutlinePrior& prior) {
+  const Kinds kinds(profile, prior);
   return kinds.with / kinds.both();
 }
 

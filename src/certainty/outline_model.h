@@ -20,7 +20,6 @@
 /// (outline_core.h).
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -76,16 +75,21 @@ struct OutlineProfile {
 /// In reading units.
 struct PlateauPrior {
   double low_sd = 1.0, high_sd = 1.0;
-  double wild_reach = 6.0;  ///< of readings that tell nothing
+};
+
+/// With a plateau the logarithm of a slope spreads about its median, whatever the tumour's size;
+/// without one about that which reaches nine tenths of its height where it is deepest.
+struct SlopePrior {
+  double log_sd = 0.5;
+  double deepest_m = 0.005;
 };
 
 /// Medians and spreads, of all that is positive in logarithms.
 struct OutlinePrior {
   OutlineProfile median;
   PlateauPrior plateaus{};
-  double slope_log_sd = 0.5;
-  double noise_log_sd = 1.0;
-  double least_log_noise = -std::numeric_limits<double>::infinity();
+  SlopePrior slope{};
+  ResidualPrior residuals{.wild_density = 1.0 / 6.0};
   double fraction = 0.5;                 ///< of the way from low to high, where the boundary is
   Vec2 middle = Vec2::Zero();            ///< of what was found first, and
   double radius_m = 0.005;               ///< how far from it a slope is nearly that of its side
@@ -122,8 +126,6 @@ double share_by_core(const ReadingLaw& law, const Vec2& place, double depth_m, d
 double depth_where(const ReadingLaw& law, double share, double steepness = 1.0);
 /// By how much a reading was made elsewhere.
 Vec2 way_of(const Wandering& wandering, const OutlineReadings& readings, Eigen::Index reading);
-/// Of what a reading is off by that.
-ResidualPrior residual_prior(const OutlinePrior& prior);
 
 /// By how much the direction turns at a node, radians.
 double turn_at(const OutlineNodes& outline, int node);
@@ -141,9 +143,10 @@ LineKind draw_line_kind(Random& random);
 /// Of the profile itself. Every second tumour is as steep on all sides; of which kind its lines
 /// are counts nothing here, since kinds are proposed as often as they are so.
 /// Two in three have a plateau, every second of these with the sigmoid's edge of equation 4; the
-/// others are bent, and no law tells how high they would be if they were wider.
+/// others are bent, rise as slowly as they are wide, and no law tells how high they would be if
+/// they were wider.
 double log_profile_density(const OutlineProfile& profile, const OutlinePrior& prior);
-/// That one with such bends is of the first kind.
-double plateau_probability(const OutlineProfile& profile);
+/// That one with such bends and such a slope is of the first kind.
+double plateau_probability(const OutlineProfile& profile, const OutlinePrior& prior);
 
 }  // namespace palpation

@@ -140,7 +140,7 @@ OutlineReadings readings_in_plane(const Belief& belief, const EdgeBelief& edge, 
     data.reading += mean_in_turn(seen.drift, data.made);
   data.variance = data.variance.cwiseMax(profile_error);
   const double least_variance = std::max(profile_error, rounding_variance(belief.palpations()));
-  prior.least_log_noise = 0.5 * std::log(least_variance / data.variance.minCoeff());
+  prior.residuals.least_log_noise = 0.5 * std::log(least_variance / data.variance.minCoeff());
   Eigen::VectorXd of_vertices;
   if (measure_depths(layout, edge.depth(), 0.0, of_vertices, data))
     data = with_plateaus_merged(layout, data);
@@ -221,12 +221,11 @@ double size_log_sd(const std::vector<Vec2>& line, double radius_m,
 }
 
 /// Where a sensor's range ended, as much again as was felt may lie beyond.
-PlateauPrior plateau_prior(const Belief& belief, const OutlineReadings& readings, double felt) {
-  const double sd = plateau_sd(belief, felt);
+PlateauPrior plateau_prior(const OutlineReadings& readings, double sd, double felt) {
   const auto sd_where_ends = [&](Bound end) {
     return std::ranges::count(readings.bounds, end) > 0 ? std::max(sd, felt) : sd;
   };
-  return {sd_where_ends(Bound::AtMost), sd_where_ends(Bound::AtLeast), 2.0 * kWildRanges * sd};
+  return {sd_where_ends(Bound::AtMost), sd_where_ends(Bound::AtLeast)};
 }
 
 }  // namespace
@@ -277,9 +276,12 @@ std::optional<OutlineStart> outline_start(const Belief& belief, const Field& mea
     start.prior.changes.push_back(change.kind);
     start.prior.gain_log_sd.push_back(change.session > 0 ? kSessionGainLogSd : kGainLogSd);
   }
-  start.prior.plateaus = plateau_prior(belief, start.readings, median.high - median.low);
-  start.prior.slope_log_sd = shape.slope_log_sd;
-  start.prior.noise_log_sd = options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
+  const double felt = median.high - median.low, sd = plateau_sd(belief, felt);
+  start.prior.plateaus = plateau_prior(start.readings, sd, felt);
+  start.prior.slope = {shape.slope_log_sd, edge.depth().maxCoeff()};
+  start.prior.residuals.wild_density = 1.0 / (2.0 * kWildRanges * sd);
+  start.prior.residuals.noise_log_sd =
+      options.noise_log_sd > 0.0 ? kLearnedNoiseLogSd : kGivenNoiseLogSd;
   start.prior.fraction = options.fraction;
   start.profile = median;
   start.profile.lean = Lean::Zero();  // a sharp one is found sooner by steps than by a switch

@@ -108,15 +108,16 @@ std::vector<OutlineDraw> OutlineWalk::draws(int sweeps, int count) {
 }
 
 OutlineDraw OutlineWalk::drawn() {
-  OutlineDraw draw{.outline = chain_.outline(),
-                   .profile = chain_.profile(),
-                   .law = chain_.law(),
-                   .has_plateau = random_.uniform() < plateau_probability(chain_.profile()),
-                   .cuts = {},
-                   .steps = steps_,
-                   .log_noise = chain_.residuals().log_noise(),
-                   .noise_growth = chain_.residuals().growth_of_noise(),
-                   .unheeded = chain_.residuals().unheeded()};
+  OutlineDraw draw{
+      .outline = chain_.outline(),
+      .profile = chain_.profile(),
+      .law = chain_.law(),
+      .has_plateau = random_.uniform() < plateau_probability(chain_.profile(), chain_.prior()),
+      .cuts = {},
+      .steps = steps_,
+      .log_noise = chain_.residuals().log_noise(),
+      .noise_growth = chain_.residuals().growth_of_noise(),
+      .unheeded = chain_.residuals().unheeded()};
   for (const OutlineCut& cut : chain_.cuts()) {
     if (cut.is_present) draw.cuts.push_back(cut.stadium());
   }

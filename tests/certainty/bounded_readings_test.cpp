@@ -72,8 +72,8 @@ FarOff far_off() {
   median.turns.log_half_width = std::log(0.12);
   median.log_spacing = {std::log(kMm)};
   median.log_contrast = {0.0};
-  far.prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5, .wild_reach = 3.0};
-  far.prior.noise_log_sd = 1e-9;
+  far.prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5};
+  far.prior.residuals = {.noise_log_sd = 1e-9, .wild_density = 1.0 / 3.0};
   return far;
 }
 

@@ -138,7 +138,7 @@ TEST(OutlineCore, IsDrawnFromItsPriorWhereReadingsTellNothing) {
   const Surface surface = tissue();
   OutlineStart start = start_of(surface, cored(0.6));
   for (double& variance : start.readings.variance) variance = 1e12;
-  start.prior.noise_log_sd = 0.01;
+  start.prior.residuals.noise_log_sd = 0.01;
   const double median_m = 0.5 * start.prior.radius_m;
   start.profile.core = core_at(kMm * Vec2(19, 20), median_m, 0.6);
   OutlineWalk walk(start.readings, start.prior, start.outline, start.profile, 6);

@@ -144,28 +144,30 @@ TEST(OutlineShape, ManyLoopsAreAsRoughBeforehandAsOne) {
 }
 
 // With no readings every second outline leans, of those that curve two in three are smooth, and
-// some are polygons, as they are beforehand; walks seldom go from these to those.
+// some are polygons, as they are beforehand; walks seldom go from these to those, so of six.
 TEST(OutlineShape, KindsAreAsProbableWithoutReadingsAsBeforehand) {
   OutlinePrior prior;
   prior.median = profile_of({std::log(0.12), LineKind::Smooth}, kMm);
   prior.median.log_contrast = {0.0};
   const OutlineReadings nothing;
-  OutlineWalk walk(nothing, prior, polygon(24), prior.median, 44);
-  walk.settle(300);
   double leaning = 0.0, far = 0.0;
   std::map<LineKind, double> of_kind;
-  constexpr int kDraws = 4000;
+  constexpr int kWalks = 6, kDraws = 12000;
   const double kMedianLean = 0.25 * std::sqrt(2.0);
-  for (const OutlineDraw& draw : walk.draws(3 * kDraws, kDraws)) {
-    leaning += draw.profile.lean ? 1.0 : 0.0;
-    far += draw.profile.lean && draw.profile.lean->head<2>().norm() > kMedianLean ? 1.0 : 0.0;
-    of_kind[draw.profile.turns.kind] += 1.0 / kDraws;
+  for (std::uint64_t seed = 44; seed < 44 + kWalks; ++seed) {
+    OutlineWalk walk(nothing, prior, polygon(24), prior.median, seed);
+    walk.settle(300);
+    for (const OutlineDraw& draw : walk.draws(3 * kDraws / kWalks, kDraws / kWalks)) {
+      leaning += draw.profile.lean ? 1.0 : 0.0;
+      far += draw.profile.lean && draw.profile.lean->head<2>().norm() > kMedianLean ? 1.0 : 0.0;
+      of_kind[draw.profile.turns.kind] += 1.0 / kDraws;
+    }
   }
   EXPECT_NEAR(leaning / kDraws, 0.5, 0.05);
   EXPECT_NEAR(far / leaning, 0.5, 0.05);
   EXPECT_NEAR(of_kind[LineKind::Smooth] / (1.0 - of_kind[LineKind::Polygonal]), 2.0 / 3.0, 0.1);
-  EXPECT_GT(of_kind[LineKind::Polygonal], 0.02);
-  EXPECT_LT(of_kind[LineKind::Polygonal], 0.98);
+  EXPECT_GT(of_kind[LineKind::Polygonal], 0.05);
+  EXPECT_LT(of_kind[LineKind::Polygonal], 0.7);
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ OutlinePrior prior_of(const OutlineNodes& outline) {
                   .turns = {.log_half_width = std::log(0.12)},
                   .log_spacing = std::vector(outline.loops.size(), std::log(kMm)),
                   .log_contrast = {0.0, 0.0}};
-  prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5, .wild_reach = 3.0};
+  prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5};
+  prior.residuals.wild_density = 1.0 / 3.0;
   return prior;
 }
 
@@ -131,16 +132,40 @@ TEST(ReadingLaw, IsSteeperTowardsASide) {
   EXPECT_NEAR(depth_where(law, 0.7, 2.0), 0.5 * depth_where(law, 0.7), 1e-15);
 }
 
+/// Whose median slope is, without a plateau, e to so many standard deviations gentler.
+OutlinePrior gentler_without(double deviations) {
+  OutlinePrior prior = prior_of(rectangle(8 * kMm, 8 * kMm, 32));
+  prior.slope.deepest_m = std::log(9.0) / 1200.0 * std::exp(deviations * prior.slope.log_sd);
+  return prior;
+}
+
 // Shares of normal densities, by hand: at no bend 1/3 / .06^2 + 1/3 / .25^2 against 1/3 / .5^2.
 TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheLessItIsBent) {
-  OutlineProfile profile;
+  const OutlinePrior prior = gentler_without(0.0);
+  OutlineProfile profile = prior.median;
   const double sigmoid = 1.0 / (0.06 * 0.06), unbent = 1.0 / (0.25 * 0.25),
                bent = 1.0 / (0.5 * 0.5);
-  EXPECT_NEAR(plateau_probability(profile), (sigmoid + unbent) / (sigmoid + unbent + bent), 1e-12);
+  EXPECT_NEAR(plateau_probability(profile, prior), (sigmoid + unbent) / (sigmoid + unbent + bent),
+              1e-12);
   profile.log_powers.x() = 0.5;  // over 8 sd of a sigmoid's
-  EXPECT_NEAR(plateau_probability(profile), unbent / (unbent + bent * std::exp(1.5)), 1e-12);
+  EXPECT_NEAR(plateau_probability(profile, prior), unbent / (unbent + bent * std::exp(1.5)), 1e-12);
   profile.log_powers.y() = -1.0;
-  EXPECT_LT(plateau_probability(profile), 0.01);
+  EXPECT_LT(plateau_probability(profile, prior), 0.01);
+}
+
+// What rises to nine tenths where it is deepest is as slow as it is wide; a plateau's edge is not.
+TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheNarrowerItsEdgeIs) {
+  const OutlinePrior prior = gentler_without(3.0);
+  OutlineProfile profile = prior.median;
+  profile.log_powers.x() = 0.5;  // where a sigmoid is out of the question
+  const auto odds = [&](double deviations) {
+    profile.log_slope = std::log(1200.0) - deviations * prior.slope.log_sd;
+    const double probability = plateau_probability(profile, prior);
+    return std::log(probability / (1.0 - probability));
+  };
+  EXPECT_NEAR(odds(0.0) - odds(1.5), 4.5, 1e-6);
+  EXPECT_NEAR(odds(1.5) - odds(3.0), 4.5, 1e-6);
+  EXPECT_NEAR(odds(1.5), std::log(4.0) - 1.5, 1e-6);  // half way, where the slope tells nothing
 }
 
 // A hundred pieces: more than are measured at once.
@@ -349,23 +374,25 @@ TEST(OutlineChain, EvidenceIsTheDensityOverAllPlateaus) {
   EXPECT_NEAR(evidence(smaller) - evidence(outline), integral(smaller) - integral(outline), 0.02);
 }
 
-// Without readings the profile's draws are the prior's.
+// Without readings the profile's draws are the prior's: of one kind in two of three, of the other,
+// so many standard deviations gentler, in one.
 TEST(OutlineWalk, WithoutReadingsTheSlopeIsDrawnFromItsPrior) {
   const OutlineNodes outline = rectangle(8 * kMm, 8 * kMm, 32);
   const OutlineReadings nothing;
-  const OutlinePrior prior = prior_of(outline);
-  OutlineWalk chain(nothing, prior, outline, prior.median, 9);
-  chain.settle(300);
-  const std::vector<OutlineDraw> draws = chain.draws(4000, 2000);
-  double mean = 0.0, square = 0.0;
-  for (const OutlineDraw& draw : draws) {
-    const double z = (draw.profile.log_slope - std::log(1200.0)) / prior.slope_log_sd;
-    mean += z / 2000.0;
-    square += z * z / 2000.0;
+  for (const double gentler : {0.0, 1.0}) {
+    const OutlinePrior prior = gentler_without(gentler);
+    OutlineWalk chain(nothing, prior, outline, prior.median, 9);
+    chain.settle(300);
+    double mean = 0.0, square = 0.0;
+    for (const OutlineDraw& draw : chain.draws(4000, 2000)) {
+      const double z = (draw.profile.log_slope - std::log(1200.0)) / prior.slope.log_sd;
+      mean += z / 2000.0;
+      square += z * z / 2000.0;
+    }
+    // Three tries a sweep: draws are correlated over three or so, a standard error of .04.
+    EXPECT_NEAR(mean, -gentler / 3.0, 0.15);
+    EXPECT_NEAR(square - mean * mean, 1.0 + 2.0 / 9.0 * gentler * gentler, 0.25);
   }
-  // Three tries a sweep: draws are correlated over three or so, a standard error of .04.
-  EXPECT_NEAR(mean, 0.0, 0.15);
-  EXPECT_NEAR(std::sqrt(square - mean * mean), 1.0, 0.12);
 }
 
 /// Around a square, all of them noise, so that what is drawn is drawn from its prior.
@@ -378,7 +405,7 @@ struct TellingNothing {
     Random random(seed);
     readings = felt_around(outline, 40, random);
     for (double& variance : readings.variance) variance = 1e12;
-    prior.noise_log_sd = 0.01;  // else all that noise is doubted
+    prior.residuals.noise_log_sd = 0.01;  // else all that noise is doubted
   }
 };
 

@@ -57,7 +57,8 @@ OutlineStart start_of(const Way& way, std::uint64_t seed, int count = kCount,
                    .log_spacing = {},
                    .log_contrast = {}};
   start.prior.median = start.profile;
-  start.prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5, .wild_reach = 3.0};
+  start.prior.plateaus = {.low_sd = 0.5, .high_sd = 0.5};
+  start.prior.residuals.wild_density = 1.0 / 3.0;
   begin_with(outline, start);
   return start;
 }
