@@ -160,6 +160,7 @@ Conclusion conclude(const Surface& surface, const Model& model, std::span<const 
                         std::move(certainty)};
   take_out_weak_parts(conclusion);
   doubt_weaker_parts(conclusion);
+  doubt_parts_along_border(conclusion);
   return conclusion;
 }
 

@@ -150,7 +150,7 @@ py::dict summary(const Concluded& here) {
   for (const DoubtfulPart& part : all.evidence.doubtful) {
     const Vec3 at = belief.prior().surface().position(part.where);
     doubtful.append(py::dict("position_m"_a = py::make_tuple(at.x(), at.y(), at.z()),
-                             "area_m2"_a = part.area_m2));
+                             "area_m2"_a = part.area_m2, "border_share"_a = part.border_share));
   }
   result["doubtful"] = doubtful;
   if (all.lag) {

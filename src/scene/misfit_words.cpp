@@ -133,7 +133,9 @@ std::string taken_back_words(const Conclusion& conclusion, const Misfit& change)
     case MisfitKind::Late:
       return late_words(change.amount) +
              ". They are taken to be of there, and so is the outline; field.lag_mm says so "
-             "beforehand.";
+             "beforehand. Were it backlash, and the robot registered while it went one way, the "
+             "whole outline would lie " +
+             fixed(std::abs(change.amount) * 1e3, 1) + " mm to one side: nothing tells.";
     default:
       return since + "readings lie " + raised_words(scale, change.amount) +
              ", wherever they are: the sensor's zero has moved. That much is taken from "

@@ -10,8 +10,6 @@
 namespace palpation::tool {
 namespace {
 
-/// A tumour seldom lies along so much of it.
-constexpr double kMuchBorder = 1.0 / 3.0;
 /// Fewer readings follow each other in a part that is small by chance.
 constexpr std::size_t kFewestAtOnce = 4;
 /// A sensor that works is wrong for a quarter of the time at most.
@@ -30,11 +28,17 @@ std::string reaching_words(const std::vector<TumourPart>& parts) {
 }
 
 /// Another tissue, an organ's or what it is held by, has an edge, too.
-std::string beside_words(const std::vector<TumourPart>& parts) {
-  const auto most = std::ranges::max_element(parts, {}, &TumourPart::border_share);
-  if (most == parts.end() || most->border_share < kMuchBorder) return "";
-  return "Part " + std::to_string(most - parts.begin() + 1) + " takes " +
-         fixed(100.0 * most->border_share, 0) +
+std::string beside_words(const std::vector<TumourPart>& parts, const Conclusion& conclusion) {
+  const Surface& surface = conclusion.belief.prior().surface();
+  const std::vector<DoubtfulPart>& doubtful = conclusion.evidence.doubtful;
+  const auto most = std::ranges::max_element(doubtful, {}, &DoubtfulPart::border_share);
+  if (most == doubtful.end() || !most->is_along_border()) return "";
+  const auto part = std::ranges::find_if(parts, [&](const TumourPart& one) {
+    return contains(one.polygon, chart_place(surface, most->where));
+  });
+  const std::string which =
+      part == parts.end() ? "What was found" : "Part " + std::to_string(part - parts.begin() + 1);
+  return which + " takes " + fixed(100.0 * most->border_share, 0) +
          " % of the border of the tissue, as another tissue beside it would: whether it is tumour, "
          "the readings do not tell. If it is not, leave it out by surface.patch: a tumour within "
          "it is not told apart from it.";
@@ -123,11 +127,12 @@ std::string hole_words(const std::vector<TumourPart>& parts, const Surface& surf
 
 }  // namespace
 
-std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts, const Surface& surface,
-                                      std::span<const Palpation> palpations) {
+std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts,
+                                      const Conclusion& conclusion) {
+  const Surface& surface = conclusion.belief.prior().surface();
   std::vector<std::string> remarks = {
-      unsure_words(parts), felt_once_words(parts, surface, palpations), reaching_words(parts),
-      beside_words(parts), hole_words(parts, surface)};
+      unsure_words(parts), felt_once_words(parts, surface, conclusion.palpations),
+      reaching_words(parts), beside_words(parts, conclusion), hole_words(parts, surface)};
   std::erase(remarks, "");
   return remarks;
 }

@@ -2,18 +2,16 @@
 /// have holes.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "palpation/geometry/surface.h"
-#include "palpation/readings/palpation.h"
+#include "palpation/exploration/conclusion.h"
 #include "scene/parts.h"
 
 namespace palpation::tool {
 
 /// A sentence each.
-std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts, const Surface& surface,
-                                      std::span<const Palpation> palpations);
+std::vector<std::string> part_remarks(const std::vector<TumourPart>& parts,
+                                      const Conclusion& conclusion);
 
 }  // namespace palpation::tool

@@ -76,28 +76,10 @@ bool lies_on_border(const Vec2& place, const Surface& surface) {
   return false;
 }
 
-double border_length(const Surface& surface) {
-  double length = 0.0;
-  for (const std::vector<int>& loop : surface.border_loops()) {
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      length +=
-          (surface.chart().uv.row(loop[i]) - surface.chart().uv.row(loop[(i + 1) % loop.size()]))
-              .norm();
-  }
-  return length;
-}
-
 /// Where the outline follows the border it has corners there.
-void look_at_border(TumourPart& part, const Surface& surface) {
-  const Ring& outer = part.polygon.outer;
-  double along = 0.0;
-  for (std::size_t i = 0; i < outer.size(); ++i) {
-    if (!lies_on_border(outer[i], surface)) continue;
-    part.touches_border = true;
-    const Vec2& next = outer[(i + 1) % outer.size()];
-    if (lies_on_border(0.5 * (outer[i] + next), surface)) along += (next - outer[i]).norm();
-  }
-  if (part.touches_border) part.border_share = along / border_length(surface);
+bool touches_border(const PolygonWithHoles& polygon, const Surface& surface) {
+  return std::ranges::any_of(polygon.outer,
+                             [&](const Vec2& place) { return lies_on_border(place, surface); });
 }
 
 /// Of the part of the belief whose summit lies within this one; nothing where one contrast explains
@@ -142,7 +124,7 @@ std::vector<TumourPart> parts_of(const Episode& episode) {
     TumourPart& part = parts.emplace_back(measured(polygon, exploration.surface()));
     if (exploration.conclusion().certainty)
       look_inside(part, exploration.surface(), exploration.conclusion().certainty->score);
-    look_at_border(part, exploration.surface());
+    part.touches_border = touches_border(polygon, exploration.surface());
     if (exploration.conclusion().edge)
       part.contrast = contrast_of(part, exploration.surface(), *exploration.conclusion().edge);
   }

@@ -19,7 +19,6 @@ struct TumourPart {
   /// That it exists: of its surest place to be tumour; nothing where no certainty is asked for.
   std::optional<double> probability{};
   bool touches_border = false;             ///< of the tissue, beyond which it may go on
-  double border_share = 0.0;               ///< of the border's length, that it takes
   std::optional<PartContrast> contrast{};  ///< where parts have contrasts of their own
 };
 

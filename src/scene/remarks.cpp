@@ -220,8 +220,7 @@ Remarks found_remarks(const Conclusion& conclusion, const std::vector<TumourPart
     remarks.push_back(
         "The level was not inferred from the tumour's edge: band, cut line and expected error are "
         "the field's alone, and not calibrated.");
-  std::ranges::move(part_remarks(parts, conclusion.belief.prior().surface(), conclusion.palpations),
-                    std::back_inserter(remarks));
+  std::ranges::move(part_remarks(parts, conclusion), std::back_inserter(remarks));
   if (conclusion.outlines && conclusion.outlines->plateau_probability < kLikely)
     remarks.push_back(
         "The stiff region rises up to its middle (that it levels off is " +

@@ -174,8 +174,9 @@ json doubtful_json(const Conclusion& conclusion) {
   json parts = json::array();
   for (const DoubtfulPart& part : conclusion.evidence.doubtful) {
     const Vec3 at = conclusion.belief.prior().surface().position(part.where);
-    parts.push_back({{"position_mm", {at.x() * kMm, at.y() * kMm, at.z() * kMm}},
-                     {"area_mm2", part.area_m2 * kMm2}});
+    json& one = parts.emplace_back(json{{"position_mm", {at.x() * kMm, at.y() * kMm, at.z() * kMm}},
+                                        {"area_mm2", part.area_m2 * kMm2}});
+    if (part.is_along_border()) one["border_share"] = part.border_share;
   }
   return parts;
 }

@@ -39,10 +39,21 @@ class Remarks(InFolder):
         return [(dice.uniform(0.3, 29.7), dice.uniform(0.3, 29.7)) for _ in range(count)]
 
     def test_what_takes_much_of_the_border_may_be_another_tissue(self):
-        _, words = self.said(lambda i, x, y: step(x - 17), self.at_random(), *BRIEFLY)
+        summary, words = self.said(lambda i, x, y: step(x - 17), self.at_random(), *BRIEFLY)
         self.assertRegex(words, r"Part 1 takes 4[0-9] % of the border of the tissue, as another tissue beside it would")
-        _, words = self.said(lambda i, x, y: step(in_disk(x, y)), self.at_random(), *BRIEFLY)
+        (part,), (doubtful,) = summary["parts"], summary["doubtful"]
+        self.assertAlmostEqual(part["probability"], 0.5, delta=1e-3)
+        self.assertAlmostEqual(doubtful["border_share"], (30 + 2 * 13) / 120, delta=0.03)
+        self.assertAlmostEqual(summary["expected_extra_mm2"], 0.5 * 30 * 13, delta=30)
+        summary, words = self.said(lambda i, x, y: step(in_disk(x, y)), self.at_random(), *BRIEFLY)
         self.assertNotIn("of the border", words)
+        self.assertGreater(summary["parts"][0]["probability"], 0.99)
+
+    def test_a_tumour_beside_another_tissue_is_as_sure_as_alone(self):
+        summary, _ = self.said(lambda i, x, y: max(step(x - 22), step(6 - math.hypot(x - 11, y - 15))), self.at_random(), *BRIEFLY)
+        sure = sorted(part["probability"] for part in summary["parts"])
+        self.assertAlmostEqual(sure[0], 0.5, delta=1e-3)
+        self.assertGreater(sure[1], 0.99)
 
     def test_a_hole_may_be_a_soft_core(self):
         _, words = self.said(lambda i, x, y: step(in_disk(x, y, 10)) - step(in_disk(x, y, 4)), self.at_random(250), *BRIEFLY)
@@ -74,6 +85,7 @@ class Remarks(InFolder):
         self.assertAlmostEqual(late["lag_mm"], 1.2, delta=0.3)
         self.assertIn("lag that was found", summary["modelled"])
         self.assertIn("mm behind where they were made, along the way on which the probe came there", words)
+        self.assertIn(f"the whole outline would lie {late['lag_mm']:.1f} mm to one side", words)
 
     def test_rows_of_one_way_do_not_tell_whether_they_come_late(self):
         rows = [[(1.5 * i + 0.75, 2.0 * row + 1) for i in range(20)] for row in range(15)]

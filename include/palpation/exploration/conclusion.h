@@ -38,10 +38,14 @@ struct WeakerPart {
   double contrast = 0.0;  ///< there, above healthy tissue, in readings
 };
 
-/// What stands out beside a tumour by too little to be one surely (Misfit, MisfitKind::WeakerPart).
+/// What stands out beside a tumour by too little to be one surely (Misfit, MisfitKind::WeakerPart);
+/// or a part of what was found, along so much of the border that another tissue would look alike.
 struct DoubtfulPart {
-  SurfacePoint where;    ///< its highest place
-  double area_m2 = 0.0;  ///< where the field stands out half as high, or more
+  SurfacePoint where;         ///< its highest place, or its surest off the border
+  double area_m2 = 0.0;       ///< where the field stands out half as high, or more; or its own
+  double border_share = 0.0;  ///< of the border's length, what such a part takes
+
+  bool is_along_border() const { return border_share > 0.0; }
 };
 
 /// Whether the readings tell of a tumour at all.
@@ -70,8 +74,8 @@ struct Evidence {
   std::vector<Palpation> standing_alone{};
   /// What was taken out of the boundary as too weak for a tumour.
   std::vector<WeakerPart> weaker{};
-  /// What is not cut out and may yet be tumour, as likely as not: it lies in the band, and a half
-  /// of it counts as expected to be missed.
+  /// What is as likely tumour as not: it lies in the band, and a half of it counts as expected to
+  /// be wrong. What lies along the border is cut out, the rest is not.
   std::vector<DoubtfulPart> doubtful{};
   /// Slope, waves, drift, zeros, gains and moves of the tissue, in the order in which they were
   /// found: each is of readings without those before it. Numbers are those of
