@@ -15,7 +15,8 @@ namespace {
 
 /// Of the constant that all readings share, of the field's standard deviation: it is not known.
 constexpr double kConstant = 30.0;
-/// Whose ground a place is on, so many of the readings nearest to it say, all but one.
+/// Whose ground a place is on, so many of the readings nearest to it say, all but one, if it is one
+/// of the nearest to any of them: else it lies beside readings that are close to each other.
 constexpr std::size_t kNeighbours = 4;
 
 /// Of each reading, those nearest to it.
@@ -184,8 +185,12 @@ Eigen::VectorXd ZeroSteps::in_space(const Eigen::VectorXd& in_time) const {
     const auto differs = [&](std::size_t near) {
       return in_time[static_cast<Eigen::Index>(near)] != in_time[row];
     };
+    const auto is_among = [&](std::size_t near) {
+      return differs(near) && std::ranges::find(neighbours_[near], i) != neighbours_[near].end();
+    };
     const auto others = std::ranges::count_if(neighbours_[i], differs);
-    if (others + 1 >= static_cast<std::ptrdiff_t>(kNeighbours)) in_space[row] = 1.0 - in_time[row];
+    if (others + 1 >= std::ssize(neighbours_[i]) && std::ranges::any_of(neighbours_[i], is_among))
+      in_space[row] = 1.0 - in_time[row];
   }
   return in_space;
 }

@@ -471,5 +471,31 @@ TEST(ZeroChanges, AreNotATumourThatIsTouchedLast) {
   }
 }
 
+/// Here and there, and then close together on what is stiff: those here and there that lie beside
+/// it have no others as near.
+TEST(ZeroChanges, AreNotALumpThatIsFeltCloselyAfterALook) {
+  const Surface surface = tissue();
+  const Vec3 middle(0.0105, 0.0125, 0.0);
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    std::vector<Palpation> palpations;
+    const auto touch = [&](const Vec3& place) {
+      palpations.push_back({.where = surface.project(place),
+                            .reading = stiffness(place) + kNoise * random.normal()});
+    };
+    while (palpations.size() < 20) {
+      const Vec3 place(0.025 * random.uniform(), 0.025 * random.uniform(), 0.0);
+      if ((place - middle).norm() > 0.008) touch(place);
+    }
+    while (palpations.size() < 60) {
+      const double angle = 6.283 * random.uniform(), radius_m = 0.005 * std::sqrt(random.uniform());
+      touch(middle + radius_m * Vec3(std::cos(angle), std::sin(angle), 0.0));
+    }
+    const Conclusion conclusion =
+        conclude(surface, {.level = {.estimate = LevelEstimate::Edge}}, palpations);
+    EXPECT_TRUE(conclusion.evidence.taken_back.empty()) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace palpation
