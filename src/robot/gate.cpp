@@ -132,6 +132,8 @@ Verdict Gate::hear_failure(const std::string& words) {
   return hold("the arm says: " + words.substr(0, 200));
 }
 
+Verdict Gate::hold_as_before(const std::string& words) { return hold(words); }
+
 Verdict Gate::begin(const GateStop& stop, double now_s) {
   if (std::string fault = clock_fault(now_s); !fault.empty()) return hold(fault);
   if (!held_for_.empty()) return held();

@@ -23,15 +23,24 @@ std::vector<Waypoint> poses_after(const Surface& surface, std::span<const Palpat
   return poses;
 }
 
-/// A person's places in front of what was chosen, each once.
+bool is_kept_out(const Scene& scene, const Vec3& place) {
+  return std::ranges::any_of(
+      scene.points_mm("plan.keep_out_mm"), [&](const std::vector<double>& ball) {
+        return (place - Vec3(ball[0], ball[1], ball[2]) / 1000.0).norm() <= ball[3] / 1000.0;
+      });
+}
+
+/// A person's places in front of what was chosen, each once; none of those to be kept out of.
 std::vector<int> with_wishes(const Scene& scene, const Surface& surface,
                              const std::vector<int>& chosen) {
   std::vector<int> stops;
   const auto add = [&](int vertex) {
     if (std::ranges::find(stops, vertex) == stops.end()) stops.push_back(vertex);
   };
-  for (const std::vector<double>& place : scene.points_mm("plan.touch_first_mm"))
-    add(surface.nearest_vertex(Vec3(place[0], place[1], place[2]) / 1000.0));
+  for (const std::vector<double>& place : scene.points_mm("plan.touch_first_mm")) {
+    const int vertex = surface.nearest_vertex(Vec3(place[0], place[1], place[2]) / 1000.0);
+    if (!is_kept_out(scene, surface.vertex(vertex))) add(vertex);
+  }
   std::ranges::for_each(chosen, add);
   return stops;
 }

@@ -49,11 +49,12 @@ std::string Server::answer(std::string_view line) {
 }
 
 void Server::sync() {
+  if (!lost_.empty()) throw WriteError(std::exchange(lost_, ""));
   if (!run_) return;
   try {
     run_->session.sync();
   } catch (const WriteError&) {
-    run_.reset();
+    left_run();
     throw;
   }
 }
@@ -115,9 +116,24 @@ json Server::open(Request& request) {
 json Server::close(Request& request) {
   request.done();
   run();
-  const std::unique_ptr<Run> closing = std::move(run_);  // closed, whatever syncing says
-  closing->session.sync();
+  const std::unique_ptr<Run> closing = left_run();  // closed, whatever syncing says
+  try {
+    closing->session.sync();
+  } catch (const WriteError& error) {
+    lost_ = error.what();
+    throw;
+  }
   return json::object();
+}
+
+std::unique_ptr<Server::Run> Server::left_run() {
+  if (run_ && run_->gate) {
+    const Gate& gate = *run_->gate;
+    held_for_ = gate.held_for();
+    if (held_for_.empty() && gate.is_under_way())
+      held_for_ = "the session was closed while a touch was under way";
+  }
+  return std::move(run_);
 }
 
 json Server::next(Request& request) {

@@ -43,11 +43,15 @@ class Server {
   nlohmann::json gate(Request& request);
   nlohmann::json acknowledge(Request& request);
   Run& run();
+  /// Closes it. What its gate holds for the next one holds for, too.
+  std::unique_ptr<Run> left_run();
   Gate& gate_of_run();
   GateStop stop_asked(Request& request);
 
   std::filesystem::path folder_;
   std::unique_ptr<Run> run_;
+  std::string held_for_;  ///< by a gate that is no more, until there is another
+  std::string lost_;      ///< why what was closed is not on the disk
   std::size_t lines_ = 0;
 };
 

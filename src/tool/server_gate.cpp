@@ -1,4 +1,6 @@
 // The gate's part of what is asked of a server.
+#include <utility>
+
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
 #include "scene/gate_setup.h"
@@ -53,9 +55,11 @@ Verdict hear(Gate& gate, const std::string& what, Request& request, double now_s
 
 Gate& Server::gate_of_run() {
   Run& now = run();
-  if (!now.gate)
+  if (!now.gate) {
     now.gate.emplace(gate_limits_of(now.scene, now.tissue.surface),
                      height_over(now.scene, now.tissue.surface));
+    if (!held_for_.empty()) now.gate->hold_as_before(std::exchange(held_for_, ""));
+  }
   return *now.gate;
 }
 

@@ -168,6 +168,36 @@ TEST_F(ServerTest, ItsGateLetsATouchBeginAndHoldsUntilItIsAcknowledged) {
   EXPECT_EQ(gate({{"what", "begin"}, {"stop", 4}})["answer"], "go");
 }
 
+TEST_F(ServerTest, WhatItsGateHeldForIsHeldForUntilItIsAcknowledgedInTheNextSession) {
+  open();
+  done({{"do", "gate"}, {"what", "failure"}, {"words", "a joint jumped"}, {"now", 1.0}});
+  done({{"do", "close"}});
+  open();
+  const auto stop = done({{"do", "next"}})["stops"][0]["index"];
+  const json begun = done({{"do", "gate"}, {"what", "begin"}, {"stop", stop}, {"now", 2.0}});
+  EXPECT_EQ(begun["answer"], "hold") << begun;
+  EXPECT_NE(begun.dump().find("a joint jumped"), std::string::npos) << begun;
+}
+
+TEST_F(ServerTest, PlansNoStopWhereAPersonSaidToKeepOut) {
+  std::ofstream(folder_ / "scene.json") << R"({
+    "surface": {"plane": {"size_mm": [20, 20], "vertices": [14, 14]}}, "certainty": "laplace",
+    "plan": {"initial": {"count": 9}, "batch": 4, "batches": 2, "keep_out_mm": [[10, 10, 0, 3]]},
+    "robot": {"frame": "PSM1_base"}})";
+  open();
+  done({{"do", "touch"}, {"place", {0.01, 0.01, 0.0}}});    // within the scene's ball
+  done({{"do", "touch"}, {"place", {0.004, 0.004, 0.0}}});  // within no ball
+  const json stops = done({{"do", "next"}})["stops"];
+  ASSERT_FALSE(stops.empty());
+  bool is_wish_kept = false;
+  for (const json& stop : stops) {
+    const double x = stop["place"][0], y = stop["place"][1];
+    EXPECT_GT(std::hypot(x - 0.01, y - 0.01), 0.003) << stop;
+    is_wish_kept = is_wish_kept || std::hypot(x - 0.004, y - 0.004) < 0.0015;
+  }
+  EXPECT_TRUE(is_wish_kept);
+}
+
 TEST_F(ServerTest, WhateverLineComesIsAnsweredInWords) {
   const std::string scene =
       json{{"do", "open"}, {"scene", folder_ / "scene.json"}, {"folder", folder_ / "run"}}.dump();

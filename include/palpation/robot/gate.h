@@ -57,6 +57,8 @@ class Gate {
   Verdict hear(const ArmCondition& condition, double now_s);
   /// The arm says that it failed, such as goal_reached(false) or an error event.
   Verdict hear_failure(const std::string& words);
+  /// For what another gate of the same arm held, which nobody has acknowledged yet.
+  Verdict hold_as_before(const std::string& words);
 
   /// A touch begins: the arm is ready, its data are fresh, the stop is in the box and its approach
   /// point higher than the tissue may be.
