@@ -51,11 +51,9 @@ SessionPlan plan_of_question(const Scene& scene, const Surface& surface,
   return plan;
 }
 
-/// All keys, and where the tissue is, which a file that the scene names may say.
+/// What is in force, and how well the robot is registered, which a file may say, too.
 std::string identity_of(const Scene& scene) {
-  json all = scene.complete();
-  const Robot robot = robot_of(scene);
-  for (int i = 0; i < 16; ++i) all["robot"]["from_tissue"][i] = robot.from_tissue(i / 4, i % 4);
+  json all = options_in_force(scene);
   all["robot"]["place_uncertainty_mm"] = place_uncertainty_m(scene) * kMm;
   return all.dump(-1, ' ', true, json::error_handler_t::replace);
 }

@@ -173,6 +173,13 @@ Robot robot_of(const Scene& scene) {
   return robot;
 }
 
+nlohmann::json options_in_force(const Scene& scene) {
+  nlohmann::json all = scene.complete();
+  const Robot robot = robot_of(scene);
+  for (int i = 0; i < 16; ++i) all["robot"]["from_tissue"][i] = robot.from_tissue(i / 4, i % 4);
+  return all;
+}
+
 Access access_of(const Scene& scene) {
   Access access = bound(scene, access_keys());
   if (scene.gives("robot.shaft_direction")) {

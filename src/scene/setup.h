@@ -22,6 +22,8 @@ Plan plan_of(const Scene& scene);
 /// Of the outlines that are drawn; nothing where Laplace's approximation is asked for.
 std::optional<std::uint64_t> outlines_seed_of(const Scene& scene);
 Robot robot_of(const Scene& scene);
+/// All keys with their values, and where the tissue is, which a file that the scene names may say.
+nlohmann::json options_in_force(const Scene& scene);
 /// What the robot can touch, in the tissue's frame; where to keep out is not its own.
 Access access_of(const Scene& scene);
 /// Whether that is limited, by the robot or by where to keep out.

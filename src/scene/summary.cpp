@@ -203,7 +203,7 @@ json summary_of(const Episode& episode, const Scene& scene, std::vector<std::str
       {"version", 1},
       {"scene", scene.name()},
       {"seed", scene.seed()},
-      {"options", scene.complete()},
+      {"options", options_in_force(scene)},
       {"computed", surface.computed()},
       {"modelled", modelled(episode.conclusion())},
       {"vertices", surface.vertex_count()},

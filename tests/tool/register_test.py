@@ -59,6 +59,8 @@ class Register(InFolder):
                 place = in_robot([float(plain[axis]) for axis in "xyz"])
                 for axis, value in zip("xyz", place):
                     self.assertAlmostEqual(float(moved[axis]), value, places=12)
+        in_force = json.loads((self.folder / "a/summary.json").read_text())["options"]["robot"]["from_tissue"]
+        self.assertEqual(in_force, told["from_tissue"])  # by which pictures and exports bring the stops back
         self.assertIn("give one of them", self.ends(3, "plan", scene, "--measurements", felt, "--set", "robot.from_tissue=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"))
 
     def test_pairs_that_do_not_fit_are_told(self):
