@@ -122,12 +122,15 @@ std::vector<Told> told_rows(const Surface& surface, const SessionState& state,
 std::vector<Told> told_rows(const Surface& surface, const Readings& readings, const py::object& t) {
   require_same_surface(surface, readings.surface, kRecord);
   std::vector<Told> told;
-  for (const Palpation& one : readings.palpations)
+  for (const Palpation& one : readings.palpations) {
+    require(one.set_aside.empty(), kRecord, "readings",
+            "hold one that is set aside (" + one.set_aside + "): leave it out");
     told.push_back({{.place = surface.position(one.where),
                      .reading = one.reading,
                      .noise_variance = one.noise_variance,
                      .kind = one.kind,
                      .travel = one.travel}});
+  }
   put_times(told, t);
   return told;
 }

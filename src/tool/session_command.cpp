@@ -97,11 +97,17 @@ void session_next(const SessionPlace& place) {
 }
 
 void session_record(const SessionPlace& place, const SessionWords& words) {
-  const std::vector<ToldRow> rows = read_told(words.readings);
+  const Scene scene = Scene::read(place.scene, place.overrides);
+  const std::vector<ToldRow> rows =
+      read_told(words.readings, scene.gives("reading_unit") ? scene.word("reading_unit") : "");
   Session session = opened(place);
-  std::size_t fresh = 0, missed = 0;
+  std::size_t fresh = 0, missed = 0, set_aside = 0;
   std::string odd;
   for (const ToldRow& row : rows) {
+    if (row.is_set_aside) {
+      ++set_aside;
+      continue;
+    }
     at_line(words.readings, row.line, [&] {
       if (row.reading.kind == TouchKind::Missed) {
         session.miss(*row.reading.stop, words.why);
@@ -118,7 +124,8 @@ void session_record(const SessionPlace& place, const SessionWords& words) {
   }
   std::string told = counted(fresh, "reading") + " taken";
   if (missed > 0) told += ", " + counted(missed, "missed stop");
-  if (const std::size_t again = rows.size() - fresh - missed; again > 0)
+  if (set_aside > 0) told += ", " + std::to_string(set_aside) + " set aside by the file";
+  if (const std::size_t again = rows.size() - fresh - missed - set_aside; again > 0)
     told += ", " + std::to_string(again) + " known before";
   sync_and_tell(session, odd + told + ".\n");
 }

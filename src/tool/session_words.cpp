@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/measurement_rows.h"
 #include "io/number_text.h"
 #include "palpation/base/error.h"
 #include "palpation/io/csv.h"
@@ -148,12 +149,13 @@ void check_session(const CsvTable& table) {
 
 }  // namespace
 
-std::vector<ToldRow> read_told(const std::string& path) {
+std::vector<ToldRow> read_told(const std::string& path, const std::string& reading_unit) {
   const CsvTable table = read_csv(path);
+  check_reading_unit(table, reading_unit);
   check_session(table);
   std::vector<ToldRow> rows;
   for (std::size_t row = 0; row < table.row_count(); ++row)
-    rows.push_back({table.line(row), told_in(table, row)});
+    rows.push_back({table.line(row), told_in(table, row), !set_aside_at(table, row).empty()});
   return rows;
 }
 

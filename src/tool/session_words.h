@@ -20,7 +20,9 @@ std::string session_in_words(const SessionState& state);
 struct ToldRow {
   int line = 0;  ///< of the file
   SessionReading reading;
+  bool is_set_aside = false;  ///< or withdrawn, as the file says
 };
-std::vector<ToldRow> read_told(const std::string& path);
+/// Of a file whose readings are in this unit; empty: in any one.
+std::vector<ToldRow> read_told(const std::string& path, const std::string& reading_unit);
 
 }  // namespace palpation::tool

@@ -98,6 +98,20 @@ class Session(InFolder):
         self.assertIn("4 readings taken, 5 known before", self.record(rows))
         self.assertIn("0 readings taken, 9 known before", self.record(rows))
 
+    def test_what_a_file_sets_aside_is_not_taken(self):
+        self.session("next")
+        rows = [{**row, "set_aside": "", "withdrawn": ""} for row in self.touch(0)]
+        rows[1]["set_aside"], rows[4]["withdrawn"], rows[5]["withdrawn"] = "slipped", "yes", "no"
+        said = self.record(rows, ("x", "y", "z", "reading", "set_aside", "withdrawn"))
+        self.assertIn("7 readings taken, 2 set aside by the file", said)
+        self.assertIn("2 stops are open", said)
+
+    def test_readings_in_another_unit_than_the_scenes_are_refused(self):
+        self.session("--set", "reading_unit=N/mm", "next")
+        felt = self.write("felt.csv", "x,y,z,reading,reading_unit\n0.005,0.005,0,7,kPa\n")
+        said = self.session("--set", "reading_unit=N/mm", "record", felt, code=3)
+        self.assertIn("is another unit than \"N/mm\", the scene's reading_unit", said)
+
     def test_a_mistake_is_told_with_its_line_and_nothing_of_its_file_is_taken(self):
         self.session("next")
         rows = self.touch(0)
