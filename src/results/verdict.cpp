@@ -24,12 +24,11 @@ std::string count_words(std::size_t count) {
 std::string nothing_words(const Run& run) {
   if (run.number({"measurements"}).value_or(0.0) == 0.0)
     return "Nothing was felt yet, so nothing is known.";
-  std::string words = "No tumour was found.";
-  if (const std::optional<double> widest = run.number({"nothing_wider_than_mm"}))
-    words += " With a probability of " +
-             percent(run.number({"options", "band", "probability"}).value_or(0.95)) +
-             " there is none that is wider than " + rounded(*widest, 3) + " mm.";
-  return words;
+  const std::optional<double> widest = run.number({"nothing_wider_than_mm"});
+  if (!widest) return "No tumour was found, but these readings rule none out.";
+  return "No tumour was found. With a probability of " +
+         percent(run.number({"options", "band", "probability"}).value_or(0.95)) +
+         " there is none that is wider than " + rounded(*widest, 3) + " mm.";
 }
 
 std::string found_words(const Run& run, const json& parts) {

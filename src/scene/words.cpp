@@ -101,7 +101,10 @@ std::string found_words(const Episode& episode) {
   if (parts.empty()) {
     if (episode.conclusion().tip_hides_all())
       return "Something stiff was found, but it is nowhere wider than the probe's tip.\n";
-    return "Nothing found " + level + ": no tissue is that stiff.\n" + nothing_words(episode);
+    return "Nothing found " + level +
+           (episode.conclusion().outlines ? ": no place is more likely tumour than not.\n"
+                                          : ": no tissue is that stiff.\n") +
+           nothing_words(episode);
   }
   std::string words = "Found " + counted(parts.size(), "stiff region") + " " + level + ", " +
                       fixed(area_found_m2(episode) * 1e6, 1) + " mm2 in total:\n";
@@ -136,7 +139,11 @@ std::string counted(std::size_t count, const std::string& noun) {
 }
 
 std::string percent(double probability) {
+  // What is neither impossible nor certain is told as neither.
   const double value = 100.0 * probability;
+  if (value > 0.0 && value < 0.5)
+    return fixed(value, static_cast<int>(std::ceil(-std::log10(value)))) + " %";
+  if (value >= 99.95 && value < 100.0) return "over 99.9 %";
   return fixed(value, value > 99.0 && value < 100.0 ? 1 : 0) + " %";
 }
 
@@ -251,9 +258,11 @@ std::string plan_words(const Episode& episode, const std::vector<Waypoint>& stop
   std::string words;
   if (const std::optional<GoalState> goal = goal_state(episode);
       goal && episode.conclusion().belief.site_count() == 0)
-    words = "Readings of so much noise that a tumour stands out by four times it: about " +
-            std::to_string(goal->touches_needed) + " touches rule out one of " +
-            fixed(goal->diameter_m * 1e3, 1) + " mm, with probability " +
+    words = "Readings of so much noise that a tumour stands out by four times it: " +
+            (goal->touches_needed >= kMostTouchesCounted
+                 ? std::string("a thousand touches or more")
+                 : "about " + std::to_string(goal->touches_needed) + " touches") +
+            " rule out one of " + fixed(goal->diameter_m * 1e3, 1) + " mm, with probability " +
             percent(goal->probability) + ".\n";
   words += "Touch next, in this order (" + fixed(path_m * 1e3, 0) +
            " mm to travel), in the robot's frame [mm]:\n";

@@ -104,6 +104,15 @@ class Runs:
         return cls.simulated("nothing", {**SCENE, "probe": {"noise": 0.03, "tumours": []}})
 
     @classmethod
+    def unknown(cls):
+        def make(out):
+            (cls.folder / "unknown.json").write_text(json.dumps({**SCENE, "probe": {}}))
+            felt = cls.folder / "set_aside.csv"
+            felt.write_text("x,y,z,reading,set_aside\n" + "".join(f"0.00{i},0.005,0,{i % 3},slipped\n" for i in range(1, 9)))
+            assert palpate("boundary", cls.folder / "unknown.json", "--measurements", felt, "--out", out, "--quiet").returncode == 0
+        return cls.of("unknown", make)
+
+    @classmethod
     def dome(cls):
         surface = {"mesh": str(cls.folder / "dome.ply"), "unit": "mm"}
         if not (cls.folder / "dome.ply").exists():
@@ -153,6 +162,10 @@ class Page(unittest.TestCase):
                           (Runs.two(), {"parts.1.area_mm2", "parts.1.probability"}), (Runs.nothing(), {"nothing_wider_than_mm"})):
             page, _ = self.check_figures(run)
             self.assertLessEqual({"area_mm2", "measurements", "search_area_mm2", *more}, page.data.keys() | {"area_mm2"}, run)
+
+    def test_where_nothing_is_known_the_verdict_rules_nothing_out(self):
+        words = re.sub(r"\s+", " ", Text(page_of(Runs.unknown())).words)
+        self.assertIn("No tumour was found, but these readings rule none out.", words)
 
     def test_the_verdict_comes_first_and_says_what_was_found(self):
         for run, words in ((Runs.found(), r"One tumour of \d+(\.\d)? mm² was found; [\d.]+ mm² are expected to be wrong\."),
