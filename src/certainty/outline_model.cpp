@@ -20,7 +20,7 @@ constexpr double kSigmoid = 0.5;        ///< part of those whose edge is a sigmo
 constexpr double kSigmoidLogSd = 0.06;  ///< of shoulder and skirt there
 constexpr double kUnbentLogSd = 0.25;   ///< of those of any edge between plateaus
 constexpr double kBentLogSd = 0.5;      ///< elsewhere
-constexpr double kTop = 0.9;            ///< of their height, where those without one are deepest
+constexpr double kTop = 0.8;  ///< of the way up from the boundary, where one without is deepest
 constexpr double kPieceLogSd = 0.25;    ///< of pieces in a loop
 constexpr double kContrastLogSd = 0.3;  ///< of a part's contrast, about the strongest's
 constexpr double kWanderingLogSd = 1.2;
@@ -87,7 +87,8 @@ struct Kinds {
 
  private:
   static double log_slope_without(const OutlinePrior& prior) {
-    return std::log((logit(kTop) - logit(prior.fraction)) / prior.slope.deepest_m);
+    const double top = prior.fraction + kTop * (1.0 - prior.fraction);
+    return std::log((logit(top) - logit(prior.fraction)) / prior.slope.deepest_m);
   }
 };
 

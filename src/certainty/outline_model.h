@@ -78,7 +78,7 @@ struct PlateauPrior {
 };
 
 /// With a plateau the logarithm of a slope spreads about its median, whatever the tumour's size;
-/// without one about that which reaches nine tenths of its height where it is deepest.
+/// without one about that which is four fifths of the way up from the boundary where it is deepest.
 struct SlopePrior {
   double log_sd = 0.5;
   double deepest_m = 0.005;

@@ -168,6 +168,15 @@ TEST(OutlineProfile, IsTheLikelierToHaveAPlateauTheNarrowerItsEdgeIs) {
   EXPECT_NEAR(odds(1.5), std::log(4.0) - 1.5, 1e-6);  // half way, where the slope tells nothing
 }
 
+TEST(OutlineProfile, HasADensityWhereverTheBoundaryIsOnTheWayUp) {
+  for (const double fraction : {1e-6, 0.1, 0.9, 0.95, 0.999999}) {
+    OutlinePrior prior = gentler_without(0.0);
+    prior.fraction = fraction;
+    EXPECT_TRUE(std::isfinite(log_profile_density(prior.median, prior))) << fraction;
+    EXPECT_GT(plateau_probability(prior.median, prior), 0.0) << fraction;
+  }
+}
+
 // A hundred pieces: more than are measured at once.
 TEST(OutlinePieces, AgreeWithWhatIsAskedPieceByPiece) {
   Random random(2);
